@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "author/base/random.h"
 #include "runtime/anim/clip_builder.h"
 #include "runtime/anim/clip_sampler.h"
-#include "runtime/author/random.h"
 #include "tests/support/clip_curves.h"
 
 namespace mien {

@@ -10,8 +10,8 @@
 #include <random>
 
 #include "bench/bench_support.h"
-#include "bench/csr_matrix.h"
 #include "bench/plain_rbf.h"
+#include "integrations/program/baseline/csr_matrix.h"
 
 namespace mien::bench {
 namespace {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "capi/mien_author.h"
+#include "capi/include/mien_author.h"
 
 namespace mien::bench {
 

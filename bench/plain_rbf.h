@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "capi/mien.h"
+#include "capi/include/mien.h"
 
 namespace mien::bench {
 

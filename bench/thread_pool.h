@@ -13,7 +13,7 @@
 #include <thread>
 #include <vector>
 
-#include "capi/mien.h"
+#include "capi/include/mien.h"
 
 namespace mien::bench {
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Many instances at once.
-#include "capi/handles.h"
 #include "runtime/eval/batch.h"
+
+#include "capi/handles.h"
 #include "runtime/eval/evaluate.h"
 
 using namespace mien;

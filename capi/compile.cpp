@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "capi/dna_handle.h"
-#include "runtime/compile/compile_deformer.h"
-#include "runtime/compile/compile_rig.h"
+#include "runtime/load/compile/compile_deformer.h"
+#include "runtime/load/compile/compile_rig.h"
 
 using namespace mien;
 using namespace mien::capi;

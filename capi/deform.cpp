@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Deformers and deformer instances. mien.h is the manual.
+#include "runtime/deform/deform.h"
+
 #include <algorithm>
 
 #include "capi/handles.h"
-#include "runtime/deform/deform.h"
 
 using namespace mien;
 using namespace mien::capi;

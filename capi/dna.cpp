@@ -4,10 +4,10 @@
 
 #include "capi/dna_handle.h"
 #include "runtime/base/coordinate_system.h"
-#include "runtime/dna/check/check_written.h"
-#include "runtime/dna/dna_reader.h"
-#include "runtime/dna/format/dna_path.h"
-#include "runtime/dna/format/dna_writer.h"
+#include "runtime/load/dna/check/check_written.h"
+#include "runtime/load/dna/dna_reader.h"
+#include "runtime/load/dna/format/dna_path.h"
+#include "runtime/load/dna/format/dna_writer.h"
 
 using namespace mien;
 using namespace mien::capi;

@@ -4,7 +4,7 @@
 
 #include "capi/handles.h"
 #include "runtime/base/mapped_file.h"
-#include "runtime/dna/format/dna_view.h"
+#include "runtime/load/dna/format/dna_view.h"
 
 struct MienDna {
   uint32_t tag;

@@ -4,7 +4,7 @@
 
 #include <cstring>
 
-#include "capi/arguments.h"
+#include "capi/arguments/arguments.h"
 #include "runtime/anim/binding.h"
 #include "runtime/anim/clip_builder.h"
 #include "runtime/anim/clip_sampler.h"

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Mixes as files. mien.h is the manual.
-#include "capi/handles.h"
 #include "runtime/mix/mix_file.h"
+
+#include "capi/handles.h"
 
 using namespace mien;
 using namespace mien::capi;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Validation: every finding about a file, kept for the caller. mien.h is the manual.
 #include "capi/dna_handle.h"
-#include "runtime/compile/compile_rig.h"
-#include "runtime/dna/dna_reader.h"
+#include "runtime/load/compile/compile_rig.h"
+#include "runtime/load/dna/dna_reader.h"
 
 using namespace mien;
 using namespace mien::capi;

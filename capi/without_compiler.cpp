@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What stands in for DNA files and compilers with MIEN_BUILD_COMPILER=OFF: the same names, which fail.
 // No MienDna or MienReport exists in such a build, so handles are not looked at.
-#include "capi/arguments.h"
+#include "capi/arguments/arguments.h"
 
 using namespace mien::capi;
 

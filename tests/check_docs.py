@@ -87,8 +87,8 @@ class Checker:
                               if f.parent == root / "docs" and "-" in f.stem) or "-"
         self.tests = {f"{suite}.{name}" for f, text in self.sources.items()
                       if f.name.endswith("_test.cpp") for suite, name in TEST.findall(text)}
-        text = "\n".join(self.sources.get(root / "capi" / header, "")
-                         for header in ("mien.h", "mien_author.h"))
+        text = "\n".join(text for file, text in self.sources.items()
+                         if (root / "capi" / "include") in file.parents)
         self.functions = set(FUNCTION.findall(text))
         self.functions.update(re.findall(r"^MIEN_DEFAULT\(\w+, (\w+)\)$", text, re.MULTILINE))
         self.names = set(CONSTANT.findall("\n".join(self.sources.values())))
@@ -209,20 +209,20 @@ class Checker:
 # Proof that each check can fail --------------------------------------------------------------------
 
 GOOD = {
-    "README.md": "# Top\n\n[form](docs/a-form.md#2-the-second-part) [top](#top) `capi/mien.h`\n"
+    "README.md": "# Top\n\n[form](docs/a-form.md#2-the-second-part) [top](#top) `capi/include/mien.h`\n"
                  "`mien_open()` `MIEN_OK` `MIEN_...` `Suite.Passes` `tests/*_test.cpp`\n"
                  "Form: docs/a-form.md, 1 and 2.\n",
     "docs/a-form.md": "# Form\n\n## 1. First\n\n## 2. The second part\n\n    ## 9. Code, no heading\n",
-    "capi/mien.h": '/* docs/a-form.md, 1 "First". */\nint mien_open(int);\n#define MIEN_OK 0\n',
+    "capi/include/mien.h": '/* docs/a-form.md, 1 "First". */\nint mien_open(int);\n#define MIEN_OK 0\n',
     "tests/a_test.cpp": '// As told (docs/a-form.md, 2 "The\n// second part"; a-form.md, "First").\n'
                         "TEST(Suite, Passes) {}\n",
 }
 BROKEN = [  # file, what stands there, what is put there instead, what has to be said
-    ("capi/mien.h", "a-form.md, 1", "other.md, 1", "there is no docs/other.md"),
-    ("capi/mien.h", "form.md, 1", "form.md, 3", "no section 3"),
-    ("capi/mien.h", "form.md, 1", "form.md, 9", "no section 9"),
-    ("capi/mien.h", '"First"', '"Last"', 'is "First", not "Last"'),
-    ("capi/mien.h", "docs/a-form.md, 1", "a-form 1", "cite docs/FILE.md"),
+    ("capi/include/mien.h", "a-form.md, 1", "other.md, 1", "there is no docs/other.md"),
+    ("capi/include/mien.h", "form.md, 1", "form.md, 3", "no section 3"),
+    ("capi/include/mien.h", "form.md, 1", "form.md, 9", "no section 9"),
+    ("capi/include/mien.h", '"First"', '"Last"', 'is "First", not "Last"'),
+    ("capi/include/mien.h", "docs/a-form.md, 1", "a-form 1", "cite docs/FILE.md"),
     ("tests/a_test.cpp", "// second part", "// third part", 'is "The second part"'),
     ("tests/a_test.cpp", '"First"', '"Last"', 'no heading "Last"'),
     ("tests/a_test.cpp", "Passes", "Fails", "no test Suite.Passes"),
@@ -230,7 +230,7 @@ BROKEN = [  # file, what stands there, what is put there instead, what has to be
     ("README.md", "docs/a-form.md#", "docs/from.md#", "leads nowhere"),
     ("README.md", "#top", "#bottom", "leads to no heading"),
     ("README.md", "1 and 2", "1 and 4", "no section 4"),
-    ("README.md", "capi/mien.h", "capi/mine.h", "there is no capi/mine.h"),
+    ("README.md", "capi/include/mien.h", "capi/mine.h", "there is no capi/mine.h"),
     ("README.md", "*_test.cpp", "*_text.cpp", "there is no tests/*_text.cpp"),
     ("README.md", "mien_open()", "mien_close()", "no header has mien_close()"),
     ("README.md", "`MIEN_OK`", "`MIEN_KO`", "nothing is named MIEN_KO"),

@@ -12,20 +12,24 @@ import subprocess
 import sys
 from pathlib import Path
 
-CAPI = Path(__file__).resolve().parent.parent / "capi"
+ROOT = Path(__file__).resolve().parent.parent
+# Of a library: its headers and its map.
+HEADERS = {"mien": ["mien.h", "mien/*.h"], "mien_author": ["mien_author.h"]}
+MAPS = {"mien": "capi/mien.map", "mien_author": "author/mien_author.map"}
 
 
 def without_comments(text):
     return re.sub(r"/\*.*?\*/", "", text, flags=re.DOTALL)
 
 
-def declared(file, mark):
+def declared(stem, mark):
     """Functions marked MIEN_API or MIEN_CHECKED; of mien_author.h, MIEN_AUTHOR_..."""
-    text = re.sub(r"^[ \t]*#(.*\\\n)*.*$", "", without_comments(file.read_text(encoding="utf-8")),
-                  flags=re.MULTILINE)
+    files = [file for pattern in HEADERS[stem] for file in sorted((ROOT / "capi" / "include").glob(pattern))]
+    text = "\n".join(file.read_text(encoding="utf-8") for file in files)
+    text = re.sub(r"^[ \t]*#(.*\\\n)*.*$", "", without_comments(text), flags=re.MULTILINE)
     names = re.findall(rf"\b{mark}_(?:API|CHECKED)\b[^;()]*?\b(\w+)\s*\(", text)
     if not names or len(names) != len(re.findall(r"\bMIEN_(?:\w+_)?(?:API|CHECKED)\b", text)):
-        sys.exit(f"{file.name}: a {mark}_API that is no function, or that this check cannot read")
+        sys.exit(f"{stem}.h: a {mark}_API that is no function, or that this check cannot read")
     return names
 
 
@@ -61,11 +65,11 @@ def exported_by_dll(objdump, library):
 
 def problems_of(nm, objdump, library):
     stem = "mien_author" if "mien-author" in Path(library).name else "mien"
-    header, version_script = CAPI / f"{stem}.h", CAPI / f"{stem}.map"
-    in_header = declared(header, stem.upper())
+    version_script = ROOT / MAPS[stem]
+    in_header = declared(stem, stem.upper())
     version, in_script = listed(version_script)
 
-    for where, names in ((header.name, in_header), (version_script.name, in_script)):
+    for where, names in ((f"{stem}.h", in_header), (version_script.name, in_script)):
         for name in sorted({name for name in names if names.count(name) > 1}):
             yield f"{where} has {name} more than once"
     in_library = set()
@@ -77,7 +81,7 @@ def problems_of(nm, objdump, library):
         if kind != "T":
             yield f"{library} exports {name}, which is no plain function (nm: {kind})"
 
-    sets = {header.name: in_header, version_script.name: in_script, library: in_library}
+    sets = {f"{stem}.h": in_header, version_script.name: in_script, library: in_library}
     for where, names in sets.items():
         for other, wanted in sets.items():
             yield from (f"{where} lacks {name} of {other}"

@@ -9,67 +9,55 @@ import re
 import sys
 from pathlib import Path
 
-# What each directory may include, beyond itself. A directory that is not a key is an error.
+# What each directory may include, beyond itself. A directory that is not a key is an error. Those that
+# call kernels have simd.
 GRAPH = {
     "simd": [],
     "runtime/base": [],
-    # DNA files: what a file is; what is wrong with it; what becomes of it; all of it in order.
-    "runtime/dna/format": ["runtime/base"],
-    "runtime/dna/check": ["runtime/base", "runtime/dna/format"],
-    "runtime/dna/convert": ["runtime/base", "runtime/dna/format"],
-    "runtime/dna": ["runtime/base", "runtime/dna/format", "runtime/dna/check",
-                    "runtime/dna/convert"],
-    # Compiled data and what works on it: none of it knows DNA files or compilers.
+    # The slim library: compiled data and what works on it. None of it knows DNA files or compilers.
     "runtime/rig": ["runtime/base", "simd"],
-    "runtime/eval": ["runtime/base", "simd", "runtime/rig"],
-    "runtime/anim": ["runtime/base", "runtime/rig"],
-    "runtime/mix": ["runtime/base", "simd", "runtime/rig", "runtime/eval", "runtime/anim",
-                    "runtime/pose"],
-    "runtime/pose": ["runtime/base", "simd", "runtime/rig"],
-    "runtime/solve": ["runtime/base", "runtime/rig", "runtime/anim", "runtime/pose"],
+    "runtime/pose": ["runtime/base", "runtime/rig"],
+    "runtime/eval": ["runtime/base", "runtime/rig"],
     "runtime/deform": ["runtime/base", "simd", "runtime/rig", "runtime/eval", "runtime/pose"],
-    "runtime/probe": ["runtime/base", "runtime/rig", "runtime/eval", "runtime/anim", "runtime/mix", "runtime/pose",
-                      "runtime/deform"],
+    "runtime/anim": ["runtime/base", "simd", "runtime/rig"],
+    "runtime/mix": ["runtime/base", "simd", "runtime/rig", "runtime/anim"],
+    "runtime/solve": ["runtime/base", "runtime/anim", "runtime/pose"],
+    "runtime/probe": ["runtime/base", "runtime/eval", "runtime/anim", "runtime/mix", "runtime/deform"],
     "runtime/baked": ["runtime/base", "simd", "runtime/rig", "runtime/eval", "runtime/pose",
                       "runtime/deform"],
-    # DNA -> compiled data.
-    "runtime/compile": ["runtime/base", "simd", "runtime/dna/format", "runtime/rig",
-                        "runtime/pose", "runtime/deform"],
-    # Makes DNA files.
-    "runtime/author": ["runtime/base", "runtime/dna/format"],
-    # From a mesh to a rig: what the stages hand to each other; bones; weights; motion; the file.
-    "runtime/author/mesh": ["runtime/base", "runtime/author"],
-    "runtime/author/place": ["runtime/base", "runtime/author", "runtime/author/mesh"],
-    "runtime/author/weights": ["runtime/base", "runtime/author", "runtime/author/mesh",
-                               "runtime/author/place"],
-    "runtime/author/fit": ["runtime/base", "runtime/author", "runtime/author/mesh",
-                           "runtime/author/weights"],
-    "runtime/author/rig_dna": ["runtime/base", "runtime/dna/format", "runtime/author",
-                               "runtime/author/mesh", "runtime/author/fit"],
-    "runtime/author/rigging": ["runtime/base", "runtime/dna/format", "runtime/author",
-                               "runtime/author/mesh", "runtime/author/place",
-                               "runtime/author/weights", "runtime/author/fit",
-                               "runtime/author/rig_dna"],
-    # The C interface: what both libraries are built with, and each of them.
-    "capi/arguments": ["runtime/base"],
-    "capi/mien_author": ["runtime/base", "runtime/dna/format", "runtime/author",
-                         "runtime/author/mesh", "runtime/author/place", "runtime/author/weights",
-                         "runtime/author/rigging", "capi/arguments"],
-    "capi": ["capi/arguments", "runtime/base", "simd", "runtime/dna/format", "runtime/dna/check",
-             "runtime/dna/convert", "runtime/dna", "runtime/rig", "runtime/eval", "runtime/anim",
-             "runtime/mix", "runtime/pose", "runtime/solve", "runtime/deform", "runtime/probe",
-             "runtime/baked", "runtime/compile"],
+    # What the full library adds. DNA files: what a file is; what is wrong with it; what becomes of it; all
+    # of it in order. Then DNA -> compiled data.
+    "runtime/load/dna/format": ["runtime/base"],
+    "runtime/load/dna/check": ["runtime/base", "runtime/load/dna/format"],
+    "runtime/load/dna/convert": ["runtime/base", "runtime/load/dna/format"],
+    "runtime/load/dna": ["runtime/base", "runtime/load/dna/format", "runtime/load/dna/check",
+                         "runtime/load/dna/convert"],
+    "runtime/load/compile": ["runtime/base", "runtime/load/dna/format", "runtime/rig", "runtime/deform"],
+    # libmien-author makes DNA files: generated ones, and from a mesh to a rig. What its stages hand to
+    # each other; bones; weights; motion; the file.
+    "author/base": ["runtime/base", "runtime/load/dna/format"],
+    "author/generate/head": ["runtime/base", "runtime/load/dna/format", "author/base"],
+    "author/generate/synthetic": ["runtime/base", "runtime/load/dna/format", "author/base"],
+    "author/mesh": ["runtime/base", "author/base"],
+    "author/place": ["runtime/base", "author/base", "author/mesh"],
+    "author/weights": ["runtime/base", "author/base", "author/mesh", "author/place"],
+    "author/fit": ["runtime/base", "author/base", "author/mesh", "author/weights"],
+    "author/rig_dna": ["runtime/load/dna/format", "author/base", "author/mesh", "author/fit"],
+    "author/rigging": ["author/base", "author/mesh", "author/place", "author/weights", "author/rig_dna"],
+    # The C interface: the headers; what both libraries read their arguments with; each of them.
+    "capi/include": ["capi/include/mien"],
+    "capi/include/mien": [],
+    "capi/arguments": ["runtime/base", "capi/include"],
+    "author/capi": ["capi/include", "capi/arguments", "runtime/base", "runtime/load/dna/format", "author/rigging",
+                    "author/generate/head", "author/generate/synthetic"],
+    "capi": ["capi/include", "capi/arguments", "runtime/base", "runtime/eval", "runtime/anim", "runtime/mix",
+             "runtime/solve", "runtime/deform", "runtime/probe", "runtime/baked", "runtime/load/dna/format",
+             "runtime/load/dna/check", "runtime/load/dna", "runtime/load/compile"],
 }
-
-# Of capi, files that are layers of their own.
-FILES = {"capi/mien.h": "capi/arguments", "capi/arguments.h": "capi/arguments",
-         "capi/arguments.cpp": "capi/arguments", "capi/mien_author.h": "capi/mien_author",
-         "capi/mien_author.cpp": "capi/mien_author", "capi/mien_author_rig.cpp": "capi/mien_author",
-         "capi/made_file.h": "capi/mien_author"}
-PUBLIC_HEADERS = ("capi/mien.h", "capi/mien_author.h")
+PUBLIC_HEADERS = ("capi/include/mien.h", "capi/include/mien_author.h")
 
 # The rooms of the program: the same, and no room sees the libraries but through their headers.
-PROGRAM = "integrations/cli"
+PROGRAM = "integrations/program"
 PROGRAM_GRAPH = {
     "math": [],
     "render": ["math"],                           # meshes -> images: knows nothing of rigs
@@ -79,9 +67,13 @@ PROGRAM_GRAPH = {
     "live": ["mien.h", "io", "gltf"],  # packets of live sources -> rows of controls
     "mesh": ["mien.h", "io"],          # meshes and shapes from files, for `mien author`
     "play": ["mien.h", "io", "gltf"],  # scenes of `mien play`
+    "baseline": [],                    # the sparse matrix that `mien bench` compares with
+    "tests": ["mien.h", "mien_author.h", "io", "live"],
+    "tests/gltf": ["gltf"],
+    "tests/render": ["render"],
     "view": ["io"],                    # the page of the viewer, served on this machine
     "commands": ["mien.h", "mien_author.h", "math", "io", "render", "gltf", "scene", "mesh", "play", "live",
-                 "view", "bench/csr_matrix.h"],
+                 "view", "baseline"],
     "": ["mien.h", "mien_author.h", "io", "commands"],  # main.cpp, without_author.cpp
 }
 
@@ -98,7 +90,7 @@ KERNEL_HEADERS = re.compile(r"(std\w+|string|math|float|assert|limits|arm_neon|i
 
 def layer_of(path):
     """Layer of a path relative to the project, or None."""
-    directory = FILES.get(path, path.rsplit("/", 1)[0])
+    directory = path.rsplit("/", 1)[0]
     return directory if directory in GRAPH else None
 
 
@@ -112,7 +104,7 @@ def includes(file):
 
 def resolve(root, file, target):
     """An include path as a path relative to the project, or None if it is not of the project."""
-    for directory in (root, file.parent, root / "capi"):
+    for directory in (root, file.parent, root / "capi" / "include"):
         found = directory / target
         if found.is_file():
             return found.resolve().relative_to(root).as_posix()
@@ -138,7 +130,7 @@ def check_program_include(path, resolved):
     if own not in PROGRAM_GRAPH:
         return "a room that this check does not know"
     if other is None:
-        other = resolved[len("capi/"):] if resolved in PUBLIC_HEADERS else resolved
+        other = resolved[len("capi/include/"):] if resolved in PUBLIC_HEADERS else resolved
     if other == own or other in PROGRAM_GRAPH[own]:
         return None
     return f"{own or 'main'} knows nothing of {other}: see PROGRAM_GRAPH"
@@ -153,7 +145,7 @@ def check_include(path, quoted, target, resolved):
             return "kernel files include C headers and xsimd only"
         if path.startswith("simd/") and not is_kernel(path) and target.startswith("xsimd"):
             return "only kernel files include xsimd"
-        if path.startswith(("runtime/", "capi/")) and target.startswith("xsimd"):
+        if path.startswith(("author/", "runtime/", "capi/")) and target.startswith("xsimd"):
             return "only kernel files include xsimd"
         return None
 
@@ -175,11 +167,8 @@ def check_include(path, quoted, target, resolved):
         return None
     if own == "simd":
         return "simd knows nothing of the rest"
-    if other == "simd":
-        # Of simd, the others see the kernel table only.
-        if resolved != "simd/kernels.h":
-            return "outside simd, simd/kernels.h is all there is"
-        return None
+    if other == "simd" and (is_kernel(resolved) or not resolved.endswith(".h")):
+        return "outside simd, its headers are all there is"
     if other not in GRAPH[own]:
         return f"{own} knows nothing of {other}: see GRAPH"
     return None
@@ -199,7 +188,7 @@ def find_circles():
 
 
 def sources(root):
-    for area in ("runtime", "simd", "capi", OUTSIDE):
+    for area in ("author", "runtime", "simd", "capi", OUTSIDE):
         for file in sorted((root / area).rglob("*")):
             if file.suffix in SUFFIXES and file.is_file():
                 yield file
@@ -212,7 +201,7 @@ def main():
     for file in sources(root):
         path = file.relative_to(root).as_posix()
         count += 1
-        if path.startswith("runtime/") and layer_of(path) is None:
+        if path.startswith(("author/", "runtime/")) and layer_of(path) is None:
             problems.append(f"{path}: a directory that this check does not know")
             continue
         for number, quoted, target in includes(file):

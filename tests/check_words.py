@@ -21,7 +21,7 @@ CODE, PUBLIC, LAYERS = "code", "public", "layers"
 
 PLACES = {
     CODE: ["*"],
-    PUBLIC: ["*.md", "capi/*.h", "capi/debian/*", "dev", "examples/*", "integrations/cli/*.cpp",
+    PUBLIC: ["*.md", "capi/*.h", "capi/debian/*", "dev", "examples/*", "integrations/program/*.cpp",
              "integrations/cpp/*.hpp", "integrations/python/mien/*.py",
              "integrations/rust/*/src/*.rs"],
     LAYERS: ["runtime/*", "simd/*", "capi/*", "docs/*", "README.md"],
@@ -147,9 +147,9 @@ def self_test():
     assert find_words("runtime/eval/batch.cpp", "// a behaviour\n") == [
         "runtime/eval/batch.cpp:1: behaviour -> behavior"]
     # "tile" is an image of a sheet in the program, "chunk" a part of a GLB file.
-    assert find_words("integrations/cli/render.cpp", "tile, chunk") == []
+    assert find_words("integrations/program/render.cpp", "tile, chunk") == []
     assert len(find_words("simd/kernels.h", "joint_chunks, turned joint")) == 2
-    assert find_words("capi/mien.h", "No more than 8. The noise of a promise rises, otherwise "
+    assert find_words("capi/include/mien.h", "No more than 8. The noise of a promise rises, otherwise "
                       "piecewise. Accumulator tile: an accumulator tile. vertex_positions") == []
 
 

@@ -20,7 +20,7 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
-FOLDERS = ["runtime/dna", "runtime/rig", "runtime/compile", "runtime/baked"]
+FOLDERS = ["runtime/load/dna", "runtime/rig", "runtime/load/compile", "runtime/baked"]
 PROGRAMS = ["base_tests", "dna_tests", "compile_tests", "baked_tests", "eval_tests", "capi_tests",
             "golden_tests"]
 LEAST = 95

@@ -6,7 +6,7 @@
 
 #include "runtime/base/arena.h"
 #include "runtime/base/vector.h"
-#include "runtime/dna/format/dna_view.h"
+#include "runtime/load/dna/format/dna_view.h"
 
 namespace mien::author {
 

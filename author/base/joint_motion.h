@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "runtime/author/exact_math.h"
+#include "author/base/exact_math.h"
 #include "runtime/base/span.h"
 #include "runtime/base/vector.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Rigs from meshes. mien_author.h is the manual.
-#include "capi/arguments.h"
-#include "capi/made_file.h"
-#include "runtime/author/rigging/rigging.h"
+#include "author/capi/made_file.h"
+#include "author/rigging/rigging.h"
+#include "capi/arguments/arguments.h"
 
 using namespace mien;
 using namespace mien::capi;

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Generated rigs. mien_author.h is the manual.
-#include "capi/mien_author.h"
-
-#include "capi/arguments.h"
-#include "capi/made_file.h"
-#include "runtime/author/procedural_head.h"
-#include "runtime/author/synthetic_rig.h"
+#include "author/capi/made_file.h"
+#include "author/generate/head/procedural_head.h"
+#include "author/generate/synthetic/rig.h"
+#include "capi/arguments/arguments.h"
+#include "capi/include/mien_author.h"
 
 using namespace mien;
 using namespace mien::capi;

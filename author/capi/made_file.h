@@ -3,9 +3,9 @@
 // libraries share no structs but those of mien.h.
 #pragma once
 
-#include "capi/mien_author.h"
+#include "capi/include/mien_author.h"
 #include "runtime/base/arena.h"
-#include "runtime/dna/format/dna_writer.h"
+#include "runtime/load/dna/format/dna_writer.h"
 
 namespace mien::capi {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cstring>
 
-#include "runtime/author/dna_making.h"
-#include "runtime/author/fit/correctives.h"
+#include "author/base/dna_making.h"
+#include "author/fit/correctives.h"
 
 namespace mien::author {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/author/fit/correctives.h"
+#include "author/fit/correctives.h"
 
 #include <algorithm>
 
-#include "runtime/author/dna_making.h"
-#include "runtime/author/fit/procrustes.h"
+#include "author/base/dna_making.h"
+#include "author/fit/procrustes.h"
 
 namespace mien::author {
 

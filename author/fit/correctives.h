@@ -6,8 +6,8 @@
 // correctives of theirs active.
 #pragma once
 
-#include "runtime/author/fit/regions.h"
-#include "runtime/author/fit/targets.h"
+#include "author/fit/regions.h"
+#include "author/fit/targets.h"
 
 namespace mien::author {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/author/fit/fit_shapes.h"
+#include "author/fit/fit_shapes.h"
 
 #include <algorithm>
 
-#include "runtime/author/cholesky.h"
-#include "runtime/author/dna_making.h"
-#include "runtime/author/fit/procrustes.h"
+#include "author/base/cholesky.h"
+#include "author/base/dna_making.h"
+#include "author/fit/procrustes.h"
 
 namespace mien::author {
 

@@ -6,9 +6,9 @@
 // bone j at full value of shape s. Bones that do not move with s have the identity.
 #pragma once
 
-#include "runtime/author/fit/footprints.h"
-#include "runtime/author/joint_motion.h"
-#include "runtime/author/mesh/topology.h"
+#include "author/base/joint_motion.h"
+#include "author/fit/footprints.h"
+#include "author/mesh/topology.h"
 
 namespace mien::author {
 

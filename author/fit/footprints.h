@@ -2,7 +2,7 @@
 // Skin weights by joint: which vertices a joint moves, and the sums over them that every shape needs.
 #pragma once
 
-#include "runtime/author/mesh/author_mesh.h"
+#include "author/mesh/author_mesh.h"
 #include "runtime/base/arena.h"
 #include "runtime/base/parallel_for.h"
 

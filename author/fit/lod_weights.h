@@ -3,7 +3,7 @@
 // make up for bones that are gone.
 #pragma once
 
-#include "runtime/author/mesh/author_mesh.h"
+#include "author/mesh/author_mesh.h"
 #include "runtime/base/arena.h"
 
 namespace mien::author {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/author/fit/procrustes.h"
+#include "author/fit/procrustes.h"
 
-#include "runtime/author/mesh/eigenvectors.h"
+#include "author/mesh/eigenvectors.h"
 
 namespace mien::author {
 

@@ -2,7 +2,7 @@
 // The rotation that comes closest to a linear map.
 #pragma once
 
-#include "runtime/author/joint_motion.h"
+#include "author/base/joint_motion.h"
 
 namespace mien::author {
 

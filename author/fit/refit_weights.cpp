@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
-#include "runtime/author/cholesky.h"
-#include "runtime/author/dna_making.h"
-#include "runtime/author/fit/fit_shapes.h"
-#include "runtime/author/weights/carriers.h"
+#include "author/base/cholesky.h"
+#include "author/base/dna_making.h"
+#include "author/fit/fit_shapes.h"
+#include "author/weights/carriers.h"
 
 namespace mien::author {
 

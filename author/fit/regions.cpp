@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/author/fit/regions.h"
+#include "author/fit/regions.h"
 
 #include <algorithm>
 
-#include "runtime/author/dna_making.h"
+#include "author/base/dna_making.h"
 
 namespace mien::author {
 

@@ -3,7 +3,7 @@
 // block of the joint matrix, and holds only controls that own it.
 #pragma once
 
-#include "runtime/author/fit/fit_shapes.h"
+#include "author/fit/fit_shapes.h"
 
 namespace mien::author {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/author/fit/stacked_lods.h"
+#include "author/fit/stacked_lods.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "runtime/author/dna_making.h"
-#include "runtime/author/random.h"
+#include "author/base/dna_making.h"
+#include "author/base/random.h"
 
 namespace mien::author {
 

@@ -4,7 +4,7 @@
 // weights that they have there, are rows of one least squares problem.
 #pragma once
 
-#include "runtime/author/fit/fit_shapes.h"
+#include "author/fit/fit_shapes.h"
 
 namespace mien::author {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/author/fit/targets.h"
+#include "author/fit/targets.h"
 
 #include <algorithm>
 
-#include "runtime/author/dna_making.h"
-#include "runtime/author/fit/procrustes.h"
+#include "author/base/dna_making.h"
+#include "author/fit/procrustes.h"
 
 namespace mien::author {
 

@@ -3,7 +3,7 @@
 // how far the rig then is from the shapes.
 #pragma once
 
-#include "runtime/author/fit/fit_shapes.h"
+#include "author/fit/fit_shapes.h"
 
 namespace mien::author {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/author/mesh/edge_collapse.h"
+#include "author/mesh/edge_collapse.h"
 
 #include <algorithm>
 #include <limits>
 
-#include "runtime/author/dna_making.h"
-#include "runtime/author/mesh/topology.h"
+#include "author/base/dna_making.h"
+#include "author/mesh/topology.h"
 
 namespace mien::author {
 

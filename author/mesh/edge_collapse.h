@@ -8,8 +8,8 @@
 // at u, and the chart stays whole.
 #pragma once
 
-#include "runtime/author/mesh/author_mesh.h"
-#include "runtime/author/mesh/quadric.h"
+#include "author/mesh/author_mesh.h"
+#include "author/mesh/quadric.h"
 #include "runtime/base/arena.h"
 
 namespace mien::author {

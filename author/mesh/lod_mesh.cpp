@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/author/mesh/lod_mesh.h"
+#include "author/mesh/lod_mesh.h"
 
 #include <algorithm>
 
-#include "runtime/author/dna_making.h"
-#include "runtime/author/mesh/surface_tree.h"
+#include "author/base/dna_making.h"
+#include "author/mesh/surface_tree.h"
 
 namespace mien::author {
 

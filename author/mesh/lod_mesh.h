@@ -2,7 +2,7 @@
 // The mesh of a further LOD: triangles over a subset of the vertices of LOD 0.
 #pragma once
 
-#include "runtime/author/mesh/author_mesh.h"
+#include "author/mesh/author_mesh.h"
 #include "runtime/base/arena.h"
 
 namespace mien::author {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/author/mesh/mesh_input.h"
+#include "author/mesh/mesh_input.h"
 
 #include <algorithm>
 #include <cstring>
 
-#include "runtime/author/dna_making.h"
-#include "runtime/author/mesh/topology.h"
+#include "author/base/dna_making.h"
+#include "author/mesh/topology.h"
 
 namespace mien::author {
 

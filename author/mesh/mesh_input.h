@@ -2,7 +2,7 @@
 // From the caller's arrays to a checked AuthorMesh.
 #pragma once
 
-#include "runtime/author/mesh/author_mesh.h"
+#include "author/mesh/author_mesh.h"
 #include "runtime/base/arena.h"
 #include "runtime/base/status.h"
 
@@ -21,7 +21,7 @@ struct ShapeSource {
   Span<const double> displacements;  // 3 each
 };
 
-/// As in MienAuthorMesh of capi/mien_author.h, in the caller's frame and unit. Nothing is checked.
+/// As in MienAuthorMesh of capi/include/mien_author.h, in the caller's frame and unit. Nothing is checked.
 struct MeshSource {
   Span<const double> positions;      // 3 each
   Span<const uint32_t> face_sizes;   // corners of each face

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/author/mesh/own_lods.h"
+#include "author/mesh/own_lods.h"
 
 #include <algorithm>
 #include <limits>
 
-#include "runtime/author/dna_making.h"
+#include "author/base/dna_making.h"
 
 namespace mien::author {
 

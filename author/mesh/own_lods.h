@@ -2,8 +2,8 @@
 // Meshes of further LODs that are the caller's.
 #pragma once
 
-#include "runtime/author/mesh/lod_mesh.h"
-#include "runtime/author/mesh/mesh_input.h"
+#include "author/mesh/lod_mesh.h"
+#include "author/mesh/mesh_input.h"
 
 namespace mien::author {
 

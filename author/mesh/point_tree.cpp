@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/author/mesh/point_tree.h"
+#include "author/mesh/point_tree.h"
 
 #include <algorithm>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/author/mesh/simplify.h"
+#include "author/mesh/simplify.h"
 
 #include <algorithm>
 
-#include "runtime/author/dna_making.h"
-#include "runtime/author/mesh/edge_collapse.h"
+#include "author/base/dna_making.h"
+#include "author/mesh/edge_collapse.h"
 
 namespace mien::author {
 

@@ -5,7 +5,7 @@
 // Sensitive Decimation", 2003). What is left is a subset of the vertices, where they were.
 #pragma once
 
-#include "runtime/author/mesh/lod_mesh.h"
+#include "author/mesh/lod_mesh.h"
 
 namespace mien::author {
 

@@ -2,7 +2,7 @@
 // Distances to a surface of triangles, by a tree of boxes.
 #pragma once
 
-#include "runtime/author/mesh/topology.h"
+#include "author/mesh/topology.h"
 
 namespace mien::author {
 

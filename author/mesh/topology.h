@@ -2,7 +2,7 @@
 // How a mesh hangs together: places that several vertices share, components, edges with lengths.
 #pragma once
 
-#include "runtime/author/mesh/author_mesh.h"
+#include "author/mesh/author_mesh.h"
 #include "runtime/base/arena.h"
 
 namespace mien::author {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/author/place/extra_joints.h"
+#include "author/place/extra_joints.h"
 
 #include <algorithm>
 
-#include "runtime/author/dna_making.h"
-#include "runtime/author/exact_math.h"
-#include "runtime/author/mesh/eigenvectors.h"
-#include "runtime/author/mesh/topology.h"
+#include "author/base/dna_making.h"
+#include "author/base/exact_math.h"
+#include "author/mesh/eigenvectors.h"
+#include "author/mesh/topology.h"
 
 namespace mien::author {
 

@@ -2,7 +2,7 @@
 // Joints for what turns as a whole: eyeballs, and the jaw where a shape opens it.
 #pragma once
 
-#include "runtime/author/mesh/author_mesh.h"
+#include "author/mesh/author_mesh.h"
 #include "runtime/base/arena.h"
 
 namespace mien::author {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/author/place/face_mask.h"
+#include "author/place/face_mask.h"
 
 #include <algorithm>
 
-#include "runtime/author/dna_making.h"
-#include "runtime/author/mesh/surface_tree.h"
+#include "author/base/dna_making.h"
+#include "author/mesh/surface_tree.h"
 
 namespace mien::author {
 

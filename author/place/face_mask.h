@@ -2,8 +2,8 @@
 // The places that facial bones are put on: the front group in depth, without the neck.
 #pragma once
 
-#include "runtime/author/mesh/topology.h"
-#include "runtime/author/place/place.h"
+#include "author/mesh/topology.h"
+#include "author/place/place.h"
 
 namespace mien::author {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/author/place/kmeans.h"
+#include "author/place/kmeans.h"
 
 #include <algorithm>
 #include <limits>
 
-#include "runtime/author/dna_making.h"
-#include "runtime/author/mesh/point_tree.h"
-#include "runtime/author/place/kmeans_run.h"
+#include "author/base/dna_making.h"
+#include "author/mesh/point_tree.h"
+#include "author/place/kmeans_run.h"
 
 namespace mien::author {
 

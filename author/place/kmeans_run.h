@@ -2,8 +2,8 @@
 // One run of k-means with its memory: shared by the starts, the rounds and the swaps.
 #pragma once
 
-#include "runtime/author/place/kmeans.h"
-#include "runtime/author/random.h"
+#include "author/base/random.h"
+#include "author/place/kmeans.h"
 
 namespace mien::author {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
-#include "runtime/author/dna_making.h"
-#include "runtime/author/place/kmeans_run.h"
+#include "author/base/dna_making.h"
+#include "author/place/kmeans_run.h"
 
 namespace mien::author {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/author/place/linkage.h"
+#include "author/place/linkage.h"
 
 #include <algorithm>
 
-#include "runtime/author/dna_making.h"
+#include "author/base/dna_making.h"
 
 namespace mien::author {
 

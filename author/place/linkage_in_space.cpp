@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "runtime/author/dna_making.h"
-#include "runtime/author/place/linkage.h"
+#include "author/base/dna_making.h"
+#include "author/place/linkage.h"
 
 namespace mien::author {
 

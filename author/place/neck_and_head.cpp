@@ -2,9 +2,9 @@
 // The joints of neck and head, from the middle group in depth.
 #include <algorithm>
 
-#include "runtime/author/dna_making.h"
-#include "runtime/author/mesh/eigenvectors.h"
-#include "runtime/author/place/face_mask.h"
+#include "author/base/dna_making.h"
+#include "author/mesh/eigenvectors.h"
+#include "author/place/face_mask.h"
 
 namespace mien::author {
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/author/place/place.h"
+#include "author/place/place.h"
 
 #include <algorithm>
 #include <limits>
 
-#include "runtime/author/dna_making.h"
-#include "runtime/author/mesh/topology.h"
-#include "runtime/author/place/extra_joints.h"
-#include "runtime/author/place/face_mask.h"
-#include "runtime/author/place/rank.h"
+#include "author/base/dna_making.h"
+#include "author/mesh/topology.h"
+#include "author/place/extra_joints.h"
+#include "author/place/face_mask.h"
+#include "author/place/rank.h"
 
 namespace mien::author {
 

@@ -3,9 +3,9 @@
 // docs/authoring.md says what of it is the published method and what is ours.
 #pragma once
 
-#include "runtime/author/place/kmeans.h"
-#include "runtime/author/place/linkage.h"
-#include "runtime/author/place/throat.h"
+#include "author/place/kmeans.h"
+#include "author/place/linkage.h"
+#include "author/place/throat.h"
 #include "runtime/base/status.h"
 
 namespace mien::author {

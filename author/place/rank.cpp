@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/author/place/rank.h"
+#include "author/place/rank.h"
 
 #include <algorithm>
 #include <limits>
 
-#include "runtime/author/dna_making.h"
-#include "runtime/author/place/kmeans.h"
+#include "author/base/dna_making.h"
+#include "author/place/kmeans.h"
 
 namespace mien::author {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/author/place/throat.h"
+#include "author/place/throat.h"
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 // Where the face ends and the neck begins: the deepest notch below the nose in the profile of the head.
 #pragma once
 
-#include "runtime/author/mesh/author_mesh.h"
+#include "author/mesh/author_mesh.h"
 #include "runtime/base/arena.h"
 
 namespace mien::author {

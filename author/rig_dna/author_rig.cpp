@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/author/rig_dna/author_rig.h"
+#include "author/rig_dna/author_rig.h"
 
 #include <algorithm>
 
-#include "runtime/author/dna_making.h"
-#include "runtime/author/fit/lod_weights.h"
-#include "runtime/author/fit/stacked_lods.h"
-#include "runtime/author/rig_dna/rig_model.h"
+#include "author/base/dna_making.h"
+#include "author/fit/lod_weights.h"
+#include "author/fit/stacked_lods.h"
+#include "author/rig_dna/rig_model.h"
 
 namespace mien::author {
 

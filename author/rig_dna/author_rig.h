@@ -2,11 +2,11 @@
 // From a mesh with bones and weights to a DNA file.
 #pragma once
 
-#include "runtime/author/fit/correctives.h"
-#include "runtime/author/fit/regions.h"
-#include "runtime/author/fit/targets.h"
-#include "runtime/author/mesh/simplify.h"
-#include "runtime/dna/format/dna_view.h"
+#include "author/fit/correctives.h"
+#include "author/fit/regions.h"
+#include "author/fit/targets.h"
+#include "author/mesh/simplify.h"
+#include "runtime/load/dna/format/dna_view.h"
 
 namespace mien::author {
 

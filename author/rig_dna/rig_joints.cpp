@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Descriptor, controls and joints of an authored rig.
-#include "runtime/author/dna_making.h"
-#include "runtime/author/rig_dna/rig_model.h"
+#include "author/base/dna_making.h"
+#include "author/rig_dna/rig_model.h"
 
 namespace mien::author {
 

@@ -2,8 +2,8 @@
 // Geometry of an authored rig: every part at every LOD, part by part within a LOD.
 #include <algorithm>
 
-#include "runtime/author/dna_making.h"
-#include "runtime/author/rig_dna/rig_model.h"
+#include "author/base/dna_making.h"
+#include "author/rig_dna/rig_model.h"
 
 namespace mien::author {
 

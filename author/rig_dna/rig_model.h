@@ -5,10 +5,10 @@
 
 #include <initializer_list>
 
-#include "runtime/author/fit/correctives.h"
-#include "runtime/author/fit/regions.h"
-#include "runtime/author/fit/targets.h"
-#include "runtime/dna/format/dna_view.h"
+#include "author/fit/correctives.h"
+#include "author/fit/regions.h"
+#include "author/fit/targets.h"
+#include "runtime/load/dna/format/dna_view.h"
 
 namespace mien::author {
 

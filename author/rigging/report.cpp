@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <cstring>
 
-#include "runtime/author/dna_making.h"
-#include "runtime/author/rigging/rigging.h"
+#include "author/base/dna_making.h"
+#include "author/rigging/rigging.h"
 
 namespace mien::author {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/author/rigging/rigging.h"
+#include "author/rigging/rigging.h"
 
 #include <algorithm>
 #include <cstring>
 
-#include "runtime/author/dna_making.h"
-#include "runtime/author/place/rank.h"
+#include "author/base/dna_making.h"
+#include "author/place/rank.h"
 
 namespace mien::author {
 

@@ -2,10 +2,10 @@
 // From a mesh to a rig: all stages in their order, each of which the caller may replace.
 #pragma once
 
-#include "runtime/author/mesh/own_lods.h"
-#include "runtime/author/place/place.h"
-#include "runtime/author/rig_dna/author_rig.h"
-#include "runtime/author/weights/skin_weights.h"
+#include "author/mesh/own_lods.h"
+#include "author/place/place.h"
+#include "author/rig_dna/author_rig.h"
+#include "author/weights/skin_weights.h"
 
 namespace mien::author {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/author/weights/carriers.h"
+#include "author/weights/carriers.h"
 
 #include <algorithm>
 
-#include "runtime/author/dna_making.h"
-#include "runtime/author/exact_math.h"
-#include "runtime/author/mesh/point_tree.h"
-#include "runtime/author/place/extra_joints.h"
+#include "author/base/dna_making.h"
+#include "author/base/exact_math.h"
+#include "author/mesh/point_tree.h"
+#include "author/place/extra_joints.h"
 
 namespace mien::author {
 

@@ -2,7 +2,7 @@
 // Weights of what is not skin: eyeballs, teeth, tongue, lashes, the inside of the mouth.
 #pragma once
 
-#include "runtime/author/weights/skin_weights.h"
+#include "author/weights/skin_weights.h"
 
 namespace mien::author {
 

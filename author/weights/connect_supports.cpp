@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/author/dna_making.h"
-#include "runtime/author/weights/carriers.h"
+#include "author/base/dna_making.h"
+#include "author/weights/carriers.h"
 
 namespace mien::author {
 

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <limits>
 
-#include "runtime/author/dna_making.h"
-#include "runtime/author/weights/carriers.h"
-#include "runtime/author/weights/skin_weights.h"
+#include "author/base/dna_making.h"
+#include "author/weights/carriers.h"
+#include "author/weights/skin_weights.h"
 
 namespace mien::author {
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/author/weights/skin_weights.h"
+#include "author/weights/skin_weights.h"
 
 #include <algorithm>
 #include <cassert>
 #include <limits>
 
-#include "runtime/author/dna_making.h"
-#include "runtime/author/exact_math.h"
-#include "runtime/author/mesh/point_tree.h"
-#include "runtime/author/weights/carriers.h"
+#include "author/base/dna_making.h"
+#include "author/base/exact_math.h"
+#include "author/mesh/point_tree.h"
+#include "author/weights/carriers.h"
 
 namespace mien::author {
 

@@ -10,8 +10,8 @@
 // and are flat at the bone.
 #pragma once
 
-#include "runtime/author/mesh/author_mesh.h"
-#include "runtime/author/mesh/topology.h"
+#include "author/mesh/author_mesh.h"
+#include "author/mesh/topology.h"
 #include "runtime/base/parallel_for.h"
 #include "runtime/base/status.h"
 

@@ -16,8 +16,8 @@ SCALARS = {
 POINTER_SIZES = {"LP64": 8, "ILP32": 4}
 
 # Macros for compilers, not for bindings.
-MACROS = ("MIEN_H", "MIEN_API", "MIEN_CHECKED", "MIEN_CALLBACK", "MIEN_ZERO", "MIEN_AUTHOR_H",
-          "MIEN_AUTHOR_API", "MIEN_AUTHOR_CHECKED")
+MACROS = ("MIEN_API", "MIEN_CHECKED", "MIEN_CALLBACK", "MIEN_ZERO", "MIEN_AUTHOR_API",
+          "MIEN_AUTHOR_CHECKED")
 API = ("MIEN_API", "MIEN_AUTHOR_API")
 CHECKED = ("MIEN_CHECKED", "MIEN_AUTHOR_CHECKED")
 
@@ -68,9 +68,26 @@ def joined(text):
     return re.sub(r"\s+", " ", text).strip()
 
 
+def with_included(folder, name, seen):
+    """(file name, text) of a header and of those that it includes from its folder, each once and before
+    what needs it. An umbrella, which has nothing but includes, comes first: its comment is the library's."""
+    if name in seen:
+        return []
+    seen.add(name)
+    text = (folder / name).read_text(encoding="utf-8")
+    parent = name.rpartition("/")[0]
+    included = []
+    for target in re.findall(r'^#include "([^"]+)"$', text, re.MULTILINE):
+        path = f"{parent}/{target}" if parent else target
+        included += with_included(folder, path, seen)
+    own = [(name, text)]
+    return included + own if "MIEN_API" in text else own + included
+
+
 class Interface:
     """Reads headers from top to bottom; what they declare collects in the lists. `headers` are
-    (library, file name, text); a header knows the types of those before it."""
+    (library, file name, text); a header knows the types of those before it, and the first of a library
+    documents it."""
 
     def __init__(self, headers):
         self.libraries = []
@@ -84,7 +101,9 @@ class Interface:
             self.tokens = list(tokens_of(text))
             self.position = 0
             self.section = ""
-            self.libraries.append({"name": library, "header": name, "documentation": ""})
+            self.first = library not in [known["name"] for known in self.libraries]
+            if self.first:
+                self.libraries.append({"name": library, "header": name, "documentation": ""})
             self.read()
 
     # ---- tokens --------------------------------------------------------------------------------
@@ -140,7 +159,8 @@ class Interface:
                     continue
                 text = prose(token.text)
                 if text.startswith("SPDX-License-Identifier"):
-                    self.libraries[-1]["documentation"] = text.partition("\n")[2].strip("\n")
+                    if self.first:
+                        self.libraries[-1]["documentation"] = text.partition("\n")[2].strip("\n")
                     continue
                 above, group_end, self.owner = text, token.last_line, None
                 continue
@@ -180,7 +200,7 @@ class Interface:
         elif re.match(r"#\s*endif", token.text):
             self.experimental = False
         match = re.fullmatch(r"\s*#\s*define\s+(MIEN_\w+)[ \t]+(\S.*)", token.text, re.DOTALL)
-        if not match or match.group(1) in MACROS:
+        if not match or match.group(1) in MACROS or match.group(1).endswith("_H"):
             return
         name, text = match.groups()
         value = self.evaluate(text, token.line)

@@ -14,7 +14,7 @@ import sys
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-CAPI = HERE.parent.parent / "capi"
+ROOT = HERE.parent.parent
 
 DEFINITION = re.compile(r"^[\w:<>*&\[\] ]+?\b(\w+)\((?:[^;{}()]|\([^()]*\))*\) (?:const )?\{",
                         re.MULTILINE)
@@ -96,10 +96,10 @@ def main():
         self_test()
     api = json.loads((HERE / "mien_api.json").read_text(encoding="utf-8"))
     bodies = {}
-    for file in sorted(CAPI.glob("*.cpp")) + sorted(CAPI.glob("*.h")):
-        if not file.name.startswith("mien") or file.suffix == ".cpp":
-            for name, body in functions_in(file.read_text(encoding="utf-8")).items():
-                bodies[name] = bodies.get(name, "") + body
+    for file in (file for folder in (ROOT / "capi", ROOT / "author" / "capi")
+                 for pattern in ("*.cpp", "*.h") for file in sorted(folder.glob(pattern))):
+        for name, body in functions_in(file.read_text(encoding="utf-8")).items():
+            bodies[name] = bodies.get(name, "") + body
     problems = list(problems_of(api["functions"], bodies))
     print("\n".join(problems) if problems else
           f"{len(api['functions'])} functions return the statuses that their comments name")

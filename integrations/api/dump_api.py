@@ -13,27 +13,29 @@ import json
 import sys
 from pathlib import Path
 
-from c_header import HeaderError, Interface
+from c_header import HeaderError, Interface, with_included
 from conventions import Conventions
 
 HERE = Path(__file__).resolve().parent
-CAPI = HERE.parent.parent / "capi"
+ROOT = HERE.parent.parent
+HEADERS = ROOT / "capi" / "include"
 # Library, its header, its linker script. A header knows the types of those before it.
-LIBRARIES = (("mien", "mien.h", "mien.map"),
-             ("mien-author", "mien_author.h", "mien_author.map"))
+LIBRARIES = (("mien", "mien.h", ROOT / "capi" / "mien.map"),
+             ("mien-author", "mien_author.h", ROOT / "author" / "mien_author.map"))
 OUTPUT = HERE / "mien_api.json"
 
 
 def read(change=lambda name, text: text):
     """The interface as data. `change` may edit the text of a header first, for tests."""
-    texts = [(library, header, change(header, (CAPI / header).read_text(encoding="utf-8")))
-             for library, header, _ in LIBRARIES]
-    maps = [(CAPI / script).read_text(encoding="utf-8") for _, _, script in LIBRARIES]
+    seen = set()
+    texts = [(library, name, change(name, text)) for library, header, _ in LIBRARIES
+             for name, text in with_included(HEADERS, header, seen)]
+    maps = [script.read_text(encoding="utf-8") for _, _, script in LIBRARIES]
     interface = Interface(texts)
     Conventions(interface, maps)
     version = ".".join(str(interface.values[f"MIEN_VERSION_{part}"])
                        for part in ("MAJOR", "MINOR", "PATCH"))
-    headers = " and ".join(f"capi/{header}" for _, header, _ in LIBRARIES)
+    headers = " and ".join(f"capi/include/{header}" for _, header, _ in LIBRARIES)
     return {
         "made_by": f"integrations/api/dump_api.py from {headers}",
         "version": version, "data_model": "LP64", "libraries": interface.libraries,

@@ -48,7 +48,7 @@ def main():
         source = Path(directory) / "layout.c"
         source.write_text("\n".join(lines) + "\n", encoding="utf-8")
         command = compiler + ["-std=c11", "-DMIEN_EXPERIMENTAL", "-DMIEN_STATIC", "-ffreestanding",
-                              "-fsyntax-only", f"-I{HERE.parent.parent / 'capi'}"]
+                              "-fsyntax-only", f"-I{HERE.parent.parent / 'capi' / 'include'}"]
         if subprocess.run(command + [source]).returncode:
             sys.exit("mien_api.json has other sizes, offsets or values than the compiler")
     print(f"the compiler agrees with {len(lines) - 1} sizes, offsets and values")

@@ -3,10 +3,10 @@
 #include <cstdio>
 #include <new>
 
-#include "integrations/cli/commands/commands.h"
-#include "integrations/cli/commands/help_format.h"
-#include "integrations/cli/commands/options.h"
-#include "integrations/cli/io/nearest_name.h"
+#include "integrations/program/commands/commands.h"
+#include "integrations/program/commands/help_format.h"
+#include "integrations/program/commands/options.h"
+#include "integrations/program/io/nearest_name.h"
 
 namespace mien::cli {
 

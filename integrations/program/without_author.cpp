@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // For a build without libmien-author: `mien gen`, `mien demo-head` and `mien author` say so.
-#include <cstring>
+#include <mien_author.h>
 
-#include "capi/mien_author.h"
+#include <cstring>
 
 namespace {
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * What the WebAssembly module has besides the libraries: streams that JavaScript reads, solvers that it
  * runs, and progress that it is told. Function pointers are not for JavaScript to write. */
-#include "capi/mien.h"
+#include "capi/include/mien.h"
 
 /* Copies `size` bytes at `offset` of file `user` to `buffer`; see mien/memory.js. */
 size_t mien_web_read(void* user, uint64_t offset, void* buffer, size_t size);

@@ -4,7 +4,7 @@
  * waits for a worker that starts late. */
 #include <stdatomic.h>
 
-#include "capi/mien.h"
+#include "capi/include/mien.h"
 
 #define CLOSED 0x80000000u
 

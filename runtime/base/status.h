@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Status codes and the detail of one error. The numbers are those of MienStatus in capi/mien.h,
+// Status codes and the detail of one error. The numbers are those of MienStatus in capi/include/mien.h,
 // which asserts that they agree; a number is never given a second meaning.
 #pragma once
 

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "runtime/author/random.h"
+#include "author/base/random.h"
 #include "tests/support/counting_allocator.h"
 #include "tests/support/made_clip.h"
 

@@ -26,7 +26,7 @@ for library in mien mien-author; do
   runtime=$(printf '%s\n' "${packages[@]}" | grep "/lib$library${soname##*.so.}_")
   dpkg-deb --ctrl-tarfile "$runtime" | tar -xO ./symbols >"$work/symbols"
   sed -n 's/^ \(mien_[a-z0-9_]*\)@.*/\1/p' "$work/symbols" >"$work/symbols.names"
-  sed -n 's/^ *\(mien_[a-z0-9_]*\);.*/\1/p' "$here/../../capi/${library/-/_}.map" |
+  sed -n 's/^ *\(mien_[a-z0-9_]*\);.*/\1/p' "$here"/../../*/"${library/-/_}.map" |
     LC_ALL=C sort >"$work/map.names"
   diff "$work/map.names" "$work/symbols.names"
 done

@@ -7,9 +7,9 @@
 #include <random>
 #include <vector>
 
-#include "capi/mien_author.h"
+#include "capi/include/mien_author.h"
 #include "runtime/baked/baked_objects.h"
-#include "runtime/dna/format/dna_writer.h"
+#include "runtime/load/dna/format/dna_writer.h"
 #include "tests/fuzz/time_limit.h"
 #include "tests/support/exercise_baked.h"
 #include "tests/support/tiny_rig.h"

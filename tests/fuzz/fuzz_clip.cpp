@@ -12,7 +12,7 @@
 #include "capi/handles.h"
 #include "runtime/anim/binding.h"
 #include "runtime/anim/clip_builder.h"
-#include "runtime/dna/format/dna_writer.h"
+#include "runtime/load/dna/format/dna_writer.h"
 #include "tests/support/exercise_clip.h"
 #include "tests/support/tiny_rig.h"
 

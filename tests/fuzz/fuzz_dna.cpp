@@ -13,9 +13,9 @@
 #include <iterator>
 #include <vector>
 
-#include "capi/mien_author.h"
-#include "runtime/dna/dna_reader.h"
-#include "runtime/dna/format/dna_writer.h"
+#include "capi/include/mien_author.h"
+#include "runtime/load/dna/dna_reader.h"
+#include "runtime/load/dna/format/dna_writer.h"
 #include "tests/fuzz/time_limit.h"
 #include "tests/fuzz/view_mutator.h"
 #include "tests/support/exercise_dna.h"

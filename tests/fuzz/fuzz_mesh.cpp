@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "capi/mien_author.h"
-#include "integrations/cli/commands/mesh_view.h"
-#include "integrations/cli/io/failure.h"
-#include "integrations/cli/io/input.h"
+#include "capi/include/mien_author.h"
+#include "integrations/program/commands/mesh_view.h"
+#include "integrations/program/io/failure.h"
+#include "integrations/program/io/input.h"
 #include "tests/fuzz/time_limit.h"
 #include "tests/support/counting_allocator.h"
 #include "tests/support/cpu_time.h"

@@ -8,8 +8,8 @@
 #include <cstdlib>
 #include <vector>
 
-#include "integrations/cli/live/live_link_face.h"
-#include "integrations/cli/live/play_out.h"
+#include "integrations/program/live/live_link_face.h"
+#include "integrations/program/live/play_out.h"
 
 extern "C" size_t LLVMFuzzerMutate(uint8_t* data, size_t size, size_t max_size);
 

@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-#include "runtime/dna/format/dna_view.h"
+#include "runtime/load/dna/format/dna_view.h"
 
 namespace mien::dna {
 

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <vector>
 
-#include "runtime/author/random.h"
+#include "author/base/random.h"
 
 namespace mien {
 namespace {

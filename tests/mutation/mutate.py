@@ -27,7 +27,7 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-FOLDERS = ["runtime/dna", "runtime/rig"]
+FOLDERS = ["runtime/load/dna", "runtime/rig"]
 # In the order in which they find most in the shortest time.
 TESTS = ["dna_tests", "compile_tests", "eval_tests", "baked_tests", "capi_tests"]
 SLOW = ("*EveryByteOf*:*SomeBytesOf*:*AnyChange*:FiniteInputs.*:LodSelection*.*Generated*:HostileFilesMemory.*:"

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/author/dna_making.h"
+#include "author/base/dna_making.h"
 #include "tests/support/counting_allocator.h"
 #include "tests/support/cpu_time.h"
 #include "tests/support/deform_rig.h"

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/author/dna_making.h"
+#include "author/base/dna_making.h"
 #include "runtime/probe/probe_controls.h"
 #include "tests/support/counting_allocator.h"
 #include "tests/support/deform_rig.h"

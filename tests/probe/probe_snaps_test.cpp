@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "runtime/author/random.h"
+#include "author/base/random.h"
 #include "tests/support/counting_allocator.h"
 #include "tests/support/deform_rig.h"
 #include "tests/support/plain_rig.h"

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/author/random.h"
+#include "author/base/random.h"
 #include "tests/support/random_layer_rig.h"
 #include "tests/support/rig_handles.h"
 #include "tests/support/tiny_rig.h"

@@ -10,7 +10,7 @@
 #include <limits>
 #include <vector>
 
-#include "runtime/author/random.h"
+#include "author/base/random.h"
 #include "tests/simd/math_probe.h"
 
 namespace mien {

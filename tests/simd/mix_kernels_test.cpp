@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "runtime/author/random.h"
+#include "author/base/random.h"
 #include "runtime/mix/fade.h"
 #include "simd/kernels.h"
 

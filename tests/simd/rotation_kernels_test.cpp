@@ -9,7 +9,7 @@
 #include <cstring>
 #include <vector>
 
-#include "runtime/author/random.h"
+#include "author/base/random.h"
 #include "simd/kernels.h"
 
 namespace mien {

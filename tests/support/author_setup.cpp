@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "runtime/author/procedural_head_mesh.h"
-#include "runtime/author/procedural_head_shapes.h"
+#include "author/generate/head/mesh.h"
+#include "author/generate/head/shapes.h"
 
 namespace mien::author {
 

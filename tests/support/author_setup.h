@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/author/mesh/author_mesh.h"
+#include "author/mesh/author_mesh.h"
 
 namespace mien::author {
 

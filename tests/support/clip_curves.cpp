@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "runtime/author/exact_math.h"
-#include "runtime/author/random.h"
+#include "author/base/exact_math.h"
+#include "author/base/random.h"
 #include "runtime/base/half.h"
 
 namespace mien {

@@ -10,7 +10,7 @@
 #include <string>
 #include <unordered_map>
 
-#include "capi/mien.h"
+#include "capi/include/mien.h"
 
 namespace mien {
 

@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "runtime/dna/format/dna_view.h"
+#include "runtime/load/dna/format/dna_view.h"
 #include "tests/support/rig_handles.h"
 
 namespace mien {

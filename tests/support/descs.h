@@ -2,7 +2,7 @@
 // Sized structs of the C interface, ready to be passed. Without GoogleTest, for fuzzers too.
 #pragma once
 
-#include "capi/mien.h"
+#include "capi/include/mien.h"
 
 namespace mien {
 

@@ -5,7 +5,7 @@
 
 #include <cstring>
 
-#include "runtime/dna/format/dna_writer.h"
+#include "runtime/load/dna/format/dna_writer.h"
 
 namespace mien::dna {
 namespace {

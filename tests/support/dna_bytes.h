@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/dna/format/dna_view.h"
+#include "runtime/load/dna/format/dna_view.h"
 
 namespace mien::dna {
 

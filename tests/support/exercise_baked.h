@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "capi/mien.h"
+#include "capi/include/mien.h"
 #include "tests/support/counting_allocator.h"
 #include "tests/support/cpu_time.h"
 #include "tests/support/descs.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/dna/check/dna_check.h"
+#include "runtime/load/dna/check/dna_check.h"
 
 namespace mien::dna {
 

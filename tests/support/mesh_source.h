@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "runtime/author/mesh/mesh_input.h"
-#include "runtime/author/random.h"
+#include "author/base/random.h"
+#include "author/mesh/mesh_input.h"
 #include "tests/support/author_setup.h"
 
 namespace mien::author {

@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "author/base/random.h"
 #include "runtime/anim/clip_builder.h"
-#include "runtime/author/random.h"
 #include "runtime/mix/mixer.h"
 
 namespace mien {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/author/random.h"
+#include "author/base/random.h"
 #include "runtime/mix/mixer.h"
 #include "tests/support/made_clip.h"
 

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "runtime/author/place/place.h"
+#include "author/place/place.h"
 #include "tests/support/mesh_source.h"
 
 namespace mien::author {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/author/random.h"
+#include "author/base/random.h"
 #include "tests/support/rig_handles.h"
 
 namespace mien {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include "runtime/author/mesh/author_mesh.h"
+#include "author/mesh/author_mesh.h"
 #include "tests/support/deform_rig.h"
 #include "tests/support/rig_handles.h"
 

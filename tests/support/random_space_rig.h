@@ -4,9 +4,9 @@
 // which are their inputs.
 #pragma once
 
-#include "runtime/author/random.h"
+#include "author/base/random.h"
 #include "runtime/base/coordinate_system.h"
-#include "runtime/dna/format/dna_view.h"
+#include "runtime/load/dna/format/dna_view.h"
 
 namespace mien::dna {
 

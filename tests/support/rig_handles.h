@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "capi/dna_handle.h"
-#include "capi/mien_author.h"
+#include "capi/include/mien_author.h"
 #include "tests/support/descs.h"
 
 namespace mien {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "capi/mien.h"
+#include "capi/include/mien.h"
 #include "tests/support/descs.h"
 
 namespace mien {

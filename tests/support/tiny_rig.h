@@ -20,7 +20,7 @@
 #include <cstring>
 #include <initializer_list>
 
-#include "runtime/dna/format/dna_view.h"
+#include "runtime/load/dna/format/dna_view.h"
 
 namespace mien::dna {
 

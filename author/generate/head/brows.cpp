@@ -2,7 +2,7 @@
 // Brows and lashes: single hairs on a darker ground, at coarse LODs the ground alone.
 #include <algorithm>
 
-#include "runtime/author/procedural_head_mesh.h"
+#include "author/generate/head/mesh.h"
 
 namespace mien::head {
 

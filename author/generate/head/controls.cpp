@@ -2,7 +2,7 @@
 #include <cstring>
 #include <initializer_list>
 
-#include "runtime/author/procedural_head_dna.h"
+#include "author/generate/head/dna.h"
 
 namespace mien::head {
 

@@ -3,8 +3,8 @@
 // false if memory ran out.
 #pragma once
 
-#include "runtime/author/procedural_head_fit.h"
-#include "runtime/dna/format/dna_view.h"
+#include "author/generate/head/fit.h"
+#include "runtime/load/dna/format/dna_view.h"
 
 namespace mien::head {
 

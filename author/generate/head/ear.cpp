@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The ear: rings of the skin run around its root, from there over the rim into the bowl.
-#include "runtime/author/procedural_head_skin.h"
+#include "author/generate/head/skin.h"
 
 namespace mien::head {
 

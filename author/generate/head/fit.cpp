@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/author/procedural_head_fit.h"
+#include "author/generate/head/fit.h"
 
 #include <algorithm>
 
-#include "runtime/author/cholesky.h"
+#include "author/base/cholesky.h"
 
 namespace mien::head {
 

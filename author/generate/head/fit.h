@@ -3,8 +3,8 @@
 // skin joints by least squares, and what is left over as blend shapes.
 #pragma once
 
-#include "runtime/author/joint_motion.h"
-#include "runtime/author/procedural_head_joints.h"
+#include "author/base/joint_motion.h"
+#include "author/generate/head/joints.h"
 
 namespace mien::head {
 

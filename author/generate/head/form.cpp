@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/author/procedural_head_form.h"
+#include "author/generate/head/form.h"
 
 #include <algorithm>
 

@@ -10,8 +10,8 @@
 // x >= 0 and mirrored.
 #pragma once
 
-#include "runtime/author/dna_making.h"
-#include "runtime/author/exact_math.h"
+#include "author/base/dna_making.h"
+#include "author/base/exact_math.h"
 
 namespace mien::head {
 

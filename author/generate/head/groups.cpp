@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Joints by name, and their motions as joint groups: one for each part of the face.
-#include "runtime/author/procedural_head_dna.h"
+#include "author/generate/head/dna.h"
 
 namespace mien::head {
 

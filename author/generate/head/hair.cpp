@@ -3,7 +3,7 @@
 // differ in the line, in thickness and in how locks run; a bob hangs below the skull.
 #include <algorithm>
 
-#include "runtime/author/procedural_head_mesh.h"
+#include "author/generate/head/mesh.h"
 
 namespace mien::head {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/author/procedural_head_joints.h"
+#include "author/generate/head/joints.h"
 
 #include <algorithm>
 

@@ -10,7 +10,7 @@
 // Neutral rotations are all zero.
 #pragma once
 
-#include "runtime/author/procedural_head_shapes.h"
+#include "author/generate/head/shapes.h"
 
 namespace mien::head {
 

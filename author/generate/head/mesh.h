@@ -2,7 +2,7 @@
 // Meshes of the procedural head: sampled from the form, one for each part and LOD.
 #pragma once
 
-#include "runtime/author/procedural_head_form.h"
+#include "author/generate/head/form.h"
 
 namespace mien::head {
 

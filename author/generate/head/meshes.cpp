@@ -3,7 +3,7 @@
 // mirror image to the last bit.
 #include <algorithm>
 
-#include "runtime/author/procedural_head_dna.h"
+#include "author/generate/head/dna.h"
 
 namespace mien::head {
 

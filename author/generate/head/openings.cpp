@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Openings of the skin: nostrils and the mouth.
-#include "runtime/author/procedural_head_skin.h"
+#include "author/generate/head/skin.h"
 
 namespace mien::head {
 

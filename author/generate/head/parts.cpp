@@ -2,7 +2,7 @@
 // Eyeballs, teeth and tongue; what all parts share.
 #include <algorithm>
 
-#include "runtime/author/procedural_head_mesh.h"
+#include "author/generate/head/mesh.h"
 
 namespace mien::head {
 

@@ -6,8 +6,8 @@
 // the lips, girth of the neck.
 #include <algorithm>
 
-#include "runtime/author/procedural_head_form.h"
-#include "runtime/author/random.h"
+#include "author/base/random.h"
+#include "author/generate/head/form.h"
 
 namespace mien::head {
 

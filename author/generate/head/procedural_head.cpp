@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/author/procedural_head.h"
+#include "author/generate/head/procedural_head.h"
 
-#include "runtime/author/procedural_head_dna.h"
+#include "author/generate/head/dna.h"
 
 namespace mien {
 namespace head {

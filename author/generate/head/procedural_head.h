@@ -7,7 +7,7 @@
 #pragma once
 
 #include "runtime/base/arena.h"
-#include "runtime/dna/format/dna_view.h"
+#include "runtime/load/dna/format/dna_view.h"
 
 namespace mien {
 

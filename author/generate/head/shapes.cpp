@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/author/procedural_head_shapes.h"
+#include "author/generate/head/shapes.h"
 
 #include <algorithm>
 #include <cstring>

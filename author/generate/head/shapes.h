@@ -4,7 +4,7 @@
 // vectors (in which direction), plus rotations of a few joints: jaw, lids, eyes, tongue.
 #pragma once
 
-#include "runtime/author/procedural_head_mesh.h"
+#include "author/generate/head/mesh.h"
 
 namespace mien::head {
 

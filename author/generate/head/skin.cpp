@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The grid of the skin and the rings around the eyes.
-#include "runtime/author/procedural_head_skin.h"
+#include "author/generate/head/skin.h"
 
 namespace mien::head {
 

@@ -12,7 +12,7 @@
 
 #include <algorithm>
 
-#include "runtime/author/procedural_head_mesh.h"
+#include "author/generate/head/mesh.h"
 
 namespace mien::head {
 

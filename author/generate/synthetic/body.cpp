@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/author/synthetic_body.h"
+#include "author/generate/synthetic/body.h"
 
 namespace mien::synthetic {
 namespace {

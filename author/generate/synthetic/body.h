@@ -6,7 +6,7 @@
 // Frame: centimeters, x to the character's left, y up, z to the front; it stands with its arms out.
 #pragma once
 
-#include "runtime/author/synthetic_head.h"
+#include "author/generate/synthetic/head.h"
 
 namespace mien::synthetic {
 

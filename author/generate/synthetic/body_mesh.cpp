@@ -2,7 +2,7 @@
 // Skin of the body: a closed tube from each base joint to the one that it follows.
 #include <cmath>
 
-#include "runtime/author/synthetic_body.h"
+#include "author/generate/synthetic/body.h"
 
 namespace mien::synthetic {
 namespace {

@@ -2,7 +2,7 @@
 // The body as definition and behavior.
 #include <cmath>
 
-#include "runtime/author/synthetic_body.h"
+#include "author/generate/synthetic/body.h"
 
 namespace mien::synthetic {
 namespace {

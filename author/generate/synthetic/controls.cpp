@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "runtime/author/synthetic_head.h"
+#include "author/generate/synthetic/head.h"
 
 namespace mien::synthetic {
 namespace {

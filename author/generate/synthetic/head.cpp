@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/author/synthetic_head.h"
+#include "author/generate/synthetic/head.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,9 +5,9 @@
 // Frame: centimeters, x to the character's left, y up, z to the front.
 #pragma once
 
-#include "runtime/author/dna_making.h"
-#include "runtime/author/random.h"
-#include "runtime/author/synthetic_rig.h"
+#include "author/base/dna_making.h"
+#include "author/base/random.h"
+#include "author/generate/synthetic/rig.h"
 
 namespace mien::synthetic {
 

@@ -6,7 +6,7 @@
 // Encoders read raw controls, take every activation in turn, and belong to regions of the first
 // mesh, whose masks switch them. Each decoder moves some joints by translation, quaternion and
 // scale. The finer half of the LODs has it all; below LOD 0 fewer joints are scattered.
-#include "runtime/author/synthetic_body.h"
+#include "author/generate/synthetic/body.h"
 
 namespace mien::synthetic {
 namespace {

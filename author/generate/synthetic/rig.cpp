@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/author/synthetic_rig.h"
+#include "author/generate/synthetic/rig.h"
 
 #include <algorithm>
 
-#include "runtime/author/synthetic_body.h"
+#include "author/generate/synthetic/body.h"
 
 namespace mien {
 namespace synthetic {

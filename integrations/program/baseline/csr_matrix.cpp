@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Compiled with the baseline flags of the machine family, whatever the rest of the build has.
-#include "bench/csr_matrix.h"
+#include "integrations/program/baseline/csr_matrix.h"
 
 namespace mien::bench {
 

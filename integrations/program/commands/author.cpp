@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // mien author: a rig from a mesh.
+#include <mien_author.h>
+
 #include <algorithm>
 #include <cmath>
 #include <csignal>
@@ -8,16 +10,15 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "capi/mien_author.h"
-#include "integrations/cli/commands/author_images.h"
-#include "integrations/cli/commands/mesh_view.h"
-#include "integrations/cli/commands/options.h"
-#include "integrations/cli/io/input.h"
-#include "integrations/cli/io/output.h"
-#include "integrations/cli/io/text.h"
-#include "integrations/cli/io/thread_pool.h"
-#include "integrations/cli/io/write_dna.h"
-#include "integrations/cli/render/png.h"
+#include "integrations/program/commands/author_images.h"
+#include "integrations/program/commands/mesh_view.h"
+#include "integrations/program/commands/options.h"
+#include "integrations/program/io/input.h"
+#include "integrations/program/io/output.h"
+#include "integrations/program/io/text.h"
+#include "integrations/program/io/thread_pool.h"
+#include "integrations/program/io/write_dna.h"
+#include "integrations/program/render/png.h"
 
 namespace mien::cli {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/commands/author_images.h"
+#include "integrations/program/commands/author_images.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "integrations/cli/commands/author_studio.h"
-#include "integrations/cli/render/marks.h"
+#include "integrations/program/commands/author_studio.h"
+#include "integrations/program/render/marks.h"
 
 namespace mien::cli::author_images {
 

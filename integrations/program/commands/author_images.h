@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "integrations/cli/mesh/mesh_file.h"
-#include "integrations/cli/render/image.h"
-#include "integrations/cli/scene/posed_scene.h"
+#include "integrations/program/mesh/mesh_file.h"
+#include "integrations/program/render/image.h"
+#include "integrations/program/scene/posed_scene.h"
 
 namespace mien::cli {
 

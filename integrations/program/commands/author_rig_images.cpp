@@ -7,9 +7,9 @@
 #include <map>
 #include <unordered_map>
 
-#include "integrations/cli/commands/author_studio.h"
-#include "integrations/cli/render/marks.h"
-#include "integrations/cli/scene/heat_map.h"
+#include "integrations/program/commands/author_studio.h"
+#include "integrations/program/render/marks.h"
+#include "integrations/program/scene/heat_map.h"
 
 namespace mien::cli::author_images {
 

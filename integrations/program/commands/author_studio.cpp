@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/commands/author_studio.h"
+#include "integrations/program/commands/author_studio.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "integrations/cli/render/visibility.h"
-#include "integrations/cli/scene/mesh_material.h"
+#include "integrations/program/render/visibility.h"
+#include "integrations/program/scene/mesh_material.h"
 
 namespace mien::cli::author_images {
 

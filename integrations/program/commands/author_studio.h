@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "integrations/cli/commands/author_images.h"
-#include "integrations/cli/render/sheet.h"
+#include "integrations/program/commands/author_images.h"
+#include "integrations/program/render/sheet.h"
 
 namespace mien::cli::author_images {
 

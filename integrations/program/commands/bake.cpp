@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // mien bake: a DNA file -> a baked file: the compiled rig and its geometry, used in place.
-#include "integrations/cli/commands/options.h"
-#include "integrations/cli/io/output.h"
-#include "integrations/cli/io/rig_file.h"
+#include "integrations/program/commands/options.h"
+#include "integrations/program/io/output.h"
+#include "integrations/program/io/rig_file.h"
 
 namespace mien::cli {
 

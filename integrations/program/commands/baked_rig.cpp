@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/commands/baked_rig.h"
+#include "integrations/program/commands/baked_rig.h"
 
 #include <utility>
 
-#include "integrations/cli/io/rig_file.h"
+#include "integrations/program/io/rig_file.h"
 
 namespace mien::cli {
 

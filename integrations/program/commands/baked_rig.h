@@ -2,8 +2,8 @@
 // A baked file under the options of commands that take DNA files as well.
 #pragma once
 
-#include "integrations/cli/commands/options.h"
-#include "integrations/cli/io/baked_file.h"
+#include "integrations/program/commands/options.h"
+#include "integrations/program/io/baked_file.h"
 
 namespace mien::cli {
 

@@ -7,13 +7,13 @@
 #include <fstream>
 #include <optional>
 
-#include "integrations/cli/commands/baked_rig.h"
-#include "integrations/cli/commands/bench_frame.h"
-#include "integrations/cli/commands/bench_measurement.h"
-#include "integrations/cli/commands/bench_stage.h"
-#include "integrations/cli/io/dna_fields.h"
-#include "integrations/cli/io/json_writer.h"
-#include "integrations/cli/io/text.h"
+#include "integrations/program/commands/baked_rig.h"
+#include "integrations/program/commands/bench_frame.h"
+#include "integrations/program/commands/bench_measurement.h"
+#include "integrations/program/commands/bench_stage.h"
+#include "integrations/program/io/dna_fields.h"
+#include "integrations/program/io/json_writer.h"
+#include "integrations/program/io/text.h"
 
 namespace mien::cli {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/commands/bench_frame.h"
+#include "integrations/program/commands/bench_frame.h"
 
 #include <random>
 
-#include "integrations/cli/commands/bench_clock.h"
+#include "integrations/program/commands/bench_clock.h"
 
 namespace mien::cli {
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "integrations/cli/commands/bench_measurement.h"
+#include "integrations/program/commands/bench_measurement.h"
 
 namespace mien::cli {
 

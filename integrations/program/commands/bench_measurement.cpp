@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/commands/bench_measurement.h"
+#include "integrations/program/commands/bench_measurement.h"
 
 #include <algorithm>
 #include <cmath>
 #include <random>
 
-#include "integrations/cli/commands/bench_clock.h"
-#include "integrations/cli/io/dna_fields.h"
+#include "integrations/program/commands/bench_clock.h"
+#include "integrations/program/io/dna_fields.h"
 
 namespace mien::cli {
 

@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/csr_matrix.h"
-#include "integrations/cli/io/rig_file.h"
+#include "integrations/program/baseline/csr_matrix.h"
+#include "integrations/program/io/rig_file.h"
 
 namespace mien::cli {
 

@@ -6,16 +6,16 @@
 #include <memory>
 #include <optional>
 
-#include "integrations/cli/commands/baked_rig.h"
-#include "integrations/cli/commands/options.h"
-#include "integrations/cli/gltf/arkit_controls.h"
-#include "integrations/cli/io/clip_file.h"
-#include "integrations/cli/io/input.h"
-#include "integrations/cli/io/json_writer.h"
-#include "integrations/cli/io/output.h"
-#include "integrations/cli/io/rig_file.h"
-#include "integrations/cli/io/take.h"
-#include "integrations/cli/io/text.h"
+#include "integrations/program/commands/baked_rig.h"
+#include "integrations/program/commands/options.h"
+#include "integrations/program/gltf/arkit_controls.h"
+#include "integrations/program/io/clip_file.h"
+#include "integrations/program/io/input.h"
+#include "integrations/program/io/json_writer.h"
+#include "integrations/program/io/output.h"
+#include "integrations/program/io/rig_file.h"
+#include "integrations/program/io/take.h"
+#include "integrations/program/io/text.h"
 
 namespace mien::cli {
 

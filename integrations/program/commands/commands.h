@@ -12,9 +12,9 @@
 #include <memory>
 #include <string>
 
-#include "integrations/cli/io/failure.h"
-#include "integrations/cli/io/handles.h"
-#include "integrations/cli/io/terminal.h"
+#include "integrations/program/io/failure.h"
+#include "integrations/program/io/handles.h"
+#include "integrations/program/io/terminal.h"
 
 namespace mien::cli {
 

@@ -2,8 +2,8 @@
 // mien completion: scripts for shells, made from the options that the program really has.
 #include <algorithm>
 
-#include "integrations/cli/commands/options.h"
-#include "integrations/cli/io/output.h"
+#include "integrations/program/commands/options.h"
+#include "integrations/program/io/output.h"
 
 namespace mien::cli {
 

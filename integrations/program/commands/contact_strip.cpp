@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/commands/contact_strip.h"
+#include "integrations/program/commands/contact_strip.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
 
-#include "integrations/cli/commands/options.h"
-#include "integrations/cli/scene/camera_target.h"
+#include "integrations/program/commands/options.h"
+#include "integrations/program/scene/camera_target.h"
 
 namespace mien::cli {
 

@@ -2,8 +2,8 @@
 // Images of a recorded performance, evenly spaced, with their times: one sheet or a file each.
 #pragma once
 
-#include "integrations/cli/commands/render_output.h"
-#include "integrations/cli/play/recording.h"
+#include "integrations/program/commands/render_output.h"
+#include "integrations/program/play/recording.h"
 
 namespace mien::cli {
 

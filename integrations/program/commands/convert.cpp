@@ -2,11 +2,11 @@
 // mien convert: a DNA file read and written, whole or in part, in any version.
 #include <algorithm>
 
-#include "integrations/cli/commands/options.h"
-#include "integrations/cli/io/nearest_name.h"
-#include "integrations/cli/io/output.h"
-#include "integrations/cli/io/rig_file.h"
-#include "integrations/cli/io/write_dna.h"
+#include "integrations/program/commands/options.h"
+#include "integrations/program/io/nearest_name.h"
+#include "integrations/program/io/output.h"
+#include "integrations/program/io/rig_file.h"
+#include "integrations/program/io/write_dna.h"
 
 namespace mien::cli {
 

@@ -3,11 +3,11 @@
 #include <filesystem>
 #include <optional>
 
-#include "integrations/cli/commands/baked_rig.h"
-#include "integrations/cli/commands/eval_output.h"
-#include "integrations/cli/commands/options.h"
-#include "integrations/cli/io/dna_fields.h"
-#include "integrations/cli/io/frames.h"
+#include "integrations/program/commands/baked_rig.h"
+#include "integrations/program/commands/eval_output.h"
+#include "integrations/program/commands/options.h"
+#include "integrations/program/io/dna_fields.h"
+#include "integrations/program/io/frames.h"
 
 namespace mien::cli {
 

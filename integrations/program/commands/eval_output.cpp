@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/commands/eval_output.h"
+#include "integrations/program/commands/eval_output.h"
 
 #include <charconv>
 #include <cmath>
 #include <cstring>
 #include <vector>
 
-#include "integrations/cli/commands/options.h"
-#include "integrations/cli/io/json_writer.h"
-#include "integrations/cli/io/text.h"
+#include "integrations/program/commands/options.h"
+#include "integrations/program/io/json_writer.h"
+#include "integrations/program/io/text.h"
 
 namespace mien::cli {
 

@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
-#include "integrations/cli/io/handles.h"
-#include "integrations/cli/io/output.h"
+#include "integrations/program/io/handles.h"
+#include "integrations/program/io/output.h"
 
 namespace mien::cli {
 

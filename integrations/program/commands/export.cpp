@@ -5,13 +5,13 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "integrations/cli/commands/exported_rig.h"
-#include "integrations/cli/gltf/arkit_bake.h"
-#include "integrations/cli/gltf/bake_skeleton.h"
-#include "integrations/cli/gltf/glb_writer.h"
-#include "integrations/cli/gltf/obj_writer.h"
-#include "integrations/cli/io/controls.h"
-#include "integrations/cli/io/output.h"
+#include "integrations/program/commands/exported_rig.h"
+#include "integrations/program/gltf/arkit_bake.h"
+#include "integrations/program/gltf/bake_skeleton.h"
+#include "integrations/program/gltf/glb_writer.h"
+#include "integrations/program/gltf/obj_writer.h"
+#include "integrations/program/io/controls.h"
+#include "integrations/program/io/output.h"
 
 namespace mien::cli {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/commands/exported_rig.h"
+#include "integrations/program/commands/exported_rig.h"
 
 #include <cstdio>
 
-#include "integrations/cli/gltf/glb_writer.h"
-#include "integrations/cli/io/dna_fields.h"
-#include "integrations/cli/io/text.h"
+#include "integrations/program/gltf/glb_writer.h"
+#include "integrations/program/io/dna_fields.h"
+#include "integrations/program/io/text.h"
 
 namespace mien::cli {
 

@@ -2,10 +2,10 @@
 // A rig that goes into a GLB or OBJ file, and the character that is posed for it.
 #pragma once
 
-#include "integrations/cli/commands/options.h"
-#include "integrations/cli/gltf/rig_scene.h"
-#include "integrations/cli/io/frames.h"
-#include "integrations/cli/scene/head_turn.h"
+#include "integrations/program/commands/options.h"
+#include "integrations/program/gltf/rig_scene.h"
+#include "integrations/program/io/frames.h"
+#include "integrations/program/scene/head_turn.h"
 
 namespace mien::cli {
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // mien gen: a synthetic rig; mien demo-head: the head in the box.
-#include "capi/mien_author.h"
-#include "integrations/cli/commands/options.h"
-#include "integrations/cli/io/output.h"
-#include "integrations/cli/io/write_dna.h"
+#include <mien_author.h>
+
+#include "integrations/program/commands/options.h"
+#include "integrations/program/io/output.h"
+#include "integrations/program/io/write_dna.h"
 
 namespace mien::cli {
 

@@ -2,9 +2,9 @@
 // mien help: the help of the program, or of a command.
 #include <algorithm>
 
-#include "integrations/cli/commands/options.h"
-#include "integrations/cli/io/nearest_name.h"
-#include "integrations/cli/io/output.h"
+#include "integrations/program/commands/options.h"
+#include "integrations/program/io/nearest_name.h"
+#include "integrations/program/io/output.h"
 
 namespace mien::cli {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/commands/help_format.h"
+#include "integrations/program/commands/help_format.h"
 
 #include <sstream>
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "integrations/cli/commands/commands.h"
+#include "integrations/program/commands/commands.h"
 
 namespace mien::cli {
 

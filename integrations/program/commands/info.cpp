@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <optional>
 
-#include "integrations/cli/commands/baked_rig.h"
-#include "integrations/cli/commands/info_baked.h"
-#include "integrations/cli/commands/info_behavior.h"
-#include "integrations/cli/commands/options.h"
-#include "integrations/cli/io/dna_fields.h"
-#include "integrations/cli/io/json_writer.h"
-#include "integrations/cli/io/nearest_name.h"
-#include "integrations/cli/io/text.h"
+#include "integrations/program/commands/baked_rig.h"
+#include "integrations/program/commands/info_baked.h"
+#include "integrations/program/commands/info_behavior.h"
+#include "integrations/program/commands/options.h"
+#include "integrations/program/io/dna_fields.h"
+#include "integrations/program/io/json_writer.h"
+#include "integrations/program/io/nearest_name.h"
+#include "integrations/program/io/text.h"
 
 namespace mien::cli {
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/commands/info_baked.h"
+#include "integrations/program/commands/info_baked.h"
 
 #include <algorithm>
 #include <utility>
 #include <vector>
 
-#include "integrations/cli/commands/options.h"
-#include "integrations/cli/io/json_writer.h"
-#include "integrations/cli/io/rig_file.h"
-#include "integrations/cli/io/text.h"
+#include "integrations/program/commands/options.h"
+#include "integrations/program/io/json_writer.h"
+#include "integrations/program/io/rig_file.h"
+#include "integrations/program/io/text.h"
 
 namespace mien::cli {
 

@@ -2,8 +2,8 @@
 // mien info of a baked rig: what a rig can tell without its DNA file.
 #pragma once
 
-#include "integrations/cli/io/baked_file.h"
-#include "integrations/cli/io/terminal.h"
+#include "integrations/program/io/baked_file.h"
+#include "integrations/program/io/terminal.h"
 
 namespace mien::cli {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/commands/info_behavior.h"
+#include "integrations/program/commands/info_behavior.h"
 
 #include <set>
 
-#include "integrations/cli/io/dna_fields.h"
+#include "integrations/program/io/dna_fields.h"
 
 namespace mien::cli {
 

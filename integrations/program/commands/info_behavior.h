@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "integrations/cli/io/rig_file.h"
+#include "integrations/program/io/rig_file.h"
 
 namespace mien::cli {
 

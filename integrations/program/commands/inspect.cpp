@@ -6,12 +6,12 @@
 #include <cstdlib>
 #include <optional>
 
-#include "integrations/cli/commands/render_output.h"
-#include "integrations/cli/io/json_writer.h"
-#include "integrations/cli/io/text.h"
-#include "integrations/cli/scene/camera_target.h"
-#include "integrations/cli/scene/heat_map.h"
-#include "integrations/cli/scene/influence.h"
+#include "integrations/program/commands/render_output.h"
+#include "integrations/program/io/json_writer.h"
+#include "integrations/program/io/text.h"
+#include "integrations/program/scene/camera_target.h"
+#include "integrations/program/scene/heat_map.h"
+#include "integrations/program/scene/influence.h"
 
 namespace mien::cli {
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <mien_author.h>
+
 #include <vector>
 
-#include "capi/mien_author.h"
-#include "integrations/cli/mesh/mesh_file.h"
+#include "integrations/program/mesh/mesh_file.h"
 
 namespace mien::cli {
 

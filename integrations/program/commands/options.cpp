@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/commands/options.h"
+#include "integrations/program/commands/options.h"
 
 #include <algorithm>
 #include <charconv>
 
-#include "integrations/cli/io/nearest_name.h"
+#include "integrations/program/io/nearest_name.h"
 
 namespace mien::cli {
 

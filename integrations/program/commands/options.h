@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "integrations/cli/commands/commands.h"
-#include "integrations/cli/io/output.h"
-#include "integrations/cli/io/rig_file.h"
+#include "integrations/program/commands/commands.h"
+#include "integrations/program/io/output.h"
+#include "integrations/program/io/rig_file.h"
 
 namespace mien::cli {
 

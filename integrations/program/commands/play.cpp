@@ -5,16 +5,16 @@
 #include <map>
 #include <optional>
 
-#include "integrations/cli/commands/baked_rig.h"
-#include "integrations/cli/commands/contact_strip.h"
-#include "integrations/cli/commands/exported_rig.h"
-#include "integrations/cli/commands/options.h"
-#include "integrations/cli/commands/real_time.h"
-#include "integrations/cli/io/dna_fields.h"
-#include "integrations/cli/io/frame_rate.h"
-#include "integrations/cli/io/nearest_name.h"
-#include "integrations/cli/io/text.h"
-#include "integrations/cli/play/recording.h"
+#include "integrations/program/commands/baked_rig.h"
+#include "integrations/program/commands/contact_strip.h"
+#include "integrations/program/commands/exported_rig.h"
+#include "integrations/program/commands/options.h"
+#include "integrations/program/commands/real_time.h"
+#include "integrations/program/io/dna_fields.h"
+#include "integrations/program/io/frame_rate.h"
+#include "integrations/program/io/nearest_name.h"
+#include "integrations/program/io/text.h"
+#include "integrations/program/play/recording.h"
 
 namespace mien::cli {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/commands/real_time.h"
+#include "integrations/program/commands/real_time.h"
 
 #include <charconv>
 #include <csignal>
 #include <thread>
 
-#include "integrations/cli/io/controls.h"
-#include "integrations/cli/io/failure.h"
-#include "integrations/cli/io/rig_file.h"
+#include "integrations/program/io/controls.h"
+#include "integrations/program/io/failure.h"
+#include "integrations/program/io/rig_file.h"
 
 namespace mien::cli {
 

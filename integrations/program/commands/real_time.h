@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "integrations/cli/live/live_input.h"
-#include "integrations/cli/play/performance.h"
+#include "integrations/program/live/live_input.h"
+#include "integrations/program/play/performance.h"
 
 namespace mien::cli {
 

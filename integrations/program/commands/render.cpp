@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "integrations/cli/commands/options.h"
-#include "integrations/cli/commands/render_output.h"
-#include "integrations/cli/io/controls.h"
-#include "integrations/cli/io/nearest_name.h"
-#include "integrations/cli/io/output.h"
-#include "integrations/cli/scene/camera_target.h"
+#include "integrations/program/commands/options.h"
+#include "integrations/program/commands/render_output.h"
+#include "integrations/program/io/controls.h"
+#include "integrations/program/io/nearest_name.h"
+#include "integrations/program/io/output.h"
+#include "integrations/program/scene/camera_target.h"
 
 namespace mien::cli {
 

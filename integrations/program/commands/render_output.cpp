@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/commands/render_output.h"
+#include "integrations/program/commands/render_output.h"
 
 #include <algorithm>
 #include <cctype>
@@ -8,10 +8,10 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "integrations/cli/commands/options.h"
-#include "integrations/cli/io/nearest_name.h"
-#include "integrations/cli/io/output.h"
-#include "integrations/cli/render/png.h"
+#include "integrations/program/commands/options.h"
+#include "integrations/program/io/nearest_name.h"
+#include "integrations/program/io/output.h"
+#include "integrations/program/render/png.h"
 
 namespace mien::cli {
 

@@ -5,11 +5,11 @@
 
 #include <string>
 
-#include "integrations/cli/commands/commands.h"
-#include "integrations/cli/io/output.h"
-#include "integrations/cli/render/camera.h"
-#include "integrations/cli/render/sheet.h"
-#include "integrations/cli/scene/posed_scene.h"
+#include "integrations/program/commands/commands.h"
+#include "integrations/program/io/output.h"
+#include "integrations/program/render/camera.h"
+#include "integrations/program/render/sheet.h"
+#include "integrations/program/scene/posed_scene.h"
 
 namespace mien::cli {
 

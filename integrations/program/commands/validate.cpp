@@ -4,12 +4,12 @@
 #include <filesystem>
 #include <optional>
 
-#include "integrations/cli/commands/commands.h"
-#include "integrations/cli/io/baked_file.h"
-#include "integrations/cli/io/json_writer.h"
-#include "integrations/cli/io/output.h"
-#include "integrations/cli/io/rig_file.h"
-#include "integrations/cli/io/text.h"
+#include "integrations/program/commands/commands.h"
+#include "integrations/program/io/baked_file.h"
+#include "integrations/program/io/json_writer.h"
+#include "integrations/program/io/output.h"
+#include "integrations/program/io/rig_file.h"
+#include "integrations/program/io/text.h"
 
 namespace mien::cli {
 

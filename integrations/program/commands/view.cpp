@@ -3,10 +3,10 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "integrations/cli/commands/options.h"
-#include "integrations/cli/io/baked_file.h"
-#include "integrations/cli/io/input.h"
-#include "integrations/cli/view/page.h"
+#include "integrations/program/commands/options.h"
+#include "integrations/program/io/baked_file.h"
+#include "integrations/program/io/input.h"
+#include "integrations/program/view/page.h"
 
 namespace mien::cli {
 

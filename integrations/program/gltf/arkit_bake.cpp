@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/gltf/arkit_bake.h"
+#include "integrations/program/gltf/arkit_bake.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,8 +4,8 @@
 
 #include <functional>
 
-#include "integrations/cli/gltf/arkit_controls.h"
-#include "integrations/cli/gltf/rig_scene.h"
+#include "integrations/program/gltf/arkit_controls.h"
+#include "integrations/program/gltf/rig_scene.h"
 
 namespace mien::gltf {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/gltf/arkit_controls.h"
+#include "integrations/program/gltf/arkit_controls.h"
 
-#include "integrations/cli/gltf/control_names.h"
+#include "integrations/program/gltf/control_names.h"
 
 namespace mien::gltf {
 

@@ -6,7 +6,7 @@
 // other usual way ("eyeBlinkL" for eyeBlinkLeft); all of them have to be there.
 #pragma once
 
-#include "integrations/cli/gltf/rig_source.h"
+#include "integrations/program/gltf/rig_source.h"
 
 namespace mien::gltf {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/gltf/bake_skeleton.h"
+#include "integrations/program/gltf/bake_skeleton.h"
 
 #include <algorithm>
 
-#include "integrations/cli/gltf/rig_skin.h"
-#include "integrations/cli/io/joint_names.h"
+#include "integrations/program/gltf/rig_skin.h"
+#include "integrations/program/io/joint_names.h"
 
 namespace mien::gltf {
 

@@ -2,7 +2,7 @@
 // The bones that a baked face keeps: those that a program turns by itself.
 #pragma once
 
-#include "integrations/cli/gltf/rig_scene.h"
+#include "integrations/program/gltf/rig_scene.h"
 
 namespace mien::gltf {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/gltf/control_names.h"
+#include "integrations/program/gltf/control_names.h"
 
-#include "integrations/cli/gltf/rig_source.h"
+#include "integrations/program/gltf/rig_source.h"
 
 namespace mien::gltf {
 

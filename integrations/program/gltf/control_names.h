@@ -2,10 +2,10 @@
 // Controls by the names that people give them.
 #pragma once
 
+#include <mien.h>
+
 #include <map>
 #include <string>
-
-#include "capi/mien.h"
 
 namespace mien::gltf {
 

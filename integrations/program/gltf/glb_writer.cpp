@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/gltf/glb_writer.h"
+#include "integrations/program/gltf/glb_writer.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "integrations/cli/gltf/scene.h"
+#include "integrations/program/gltf/scene.h"
 
 namespace mien::gltf {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/gltf/material.h"
+#include "integrations/program/gltf/material.h"
 
 #include <cmath>
 
-#include "integrations/cli/math/srgb.h"
+#include "integrations/program/math/srgb.h"
 
 namespace mien::gltf {
 

@@ -2,8 +2,8 @@
 // Materials and colors of glTF for the meshes of a rig.
 #pragma once
 
-#include "integrations/cli/gltf/scene.h"
-#include "integrations/cli/io/mesh_appearance.h"
+#include "integrations/program/gltf/scene.h"
+#include "integrations/program/io/mesh_appearance.h"
 
 namespace mien::gltf {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/gltf/obj_writer.h"
+#include "integrations/program/gltf/obj_writer.h"
 
 #include <algorithm>
 #include <charconv>
@@ -7,9 +7,9 @@
 #include <cstdio>
 #include <set>
 
-#include "integrations/cli/gltf/material.h"
-#include "integrations/cli/gltf/rig_source.h"
-#include "integrations/cli/math/srgb.h"
+#include "integrations/program/gltf/material.h"
+#include "integrations/program/gltf/rig_source.h"
+#include "integrations/program/math/srgb.h"
 
 namespace mien::gltf {
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "integrations/cli/gltf/rig_source.h"
+#include "integrations/program/gltf/rig_source.h"
 
 namespace mien::gltf {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/gltf/rig_scene.h"
+#include "integrations/program/gltf/rig_scene.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "integrations/cli/gltf/material.h"
-#include "integrations/cli/gltf/rig_skin.h"
+#include "integrations/program/gltf/material.h"
+#include "integrations/program/gltf/rig_skin.h"
 
 namespace mien::gltf {
 

@@ -8,7 +8,7 @@
 
 #include <functional>
 
-#include "integrations/cli/gltf/skin_fit.h"
+#include "integrations/program/gltf/skin_fit.h"
 
 namespace mien::gltf {
 

@@ -2,7 +2,7 @@
 // Skin weights of a rig, as glTF wants them.
 #pragma once
 
-#include "integrations/cli/gltf/rig_scene.h"
+#include "integrations/program/gltf/rig_scene.h"
 
 namespace mien::gltf {
 

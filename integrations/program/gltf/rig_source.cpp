@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/gltf/rig_source.h"
+#include "integrations/program/gltf/rig_source.h"
 
 #include <cmath>
 

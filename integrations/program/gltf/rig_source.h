@@ -3,9 +3,9 @@
 // conversion from the axes and units of its file to those of glTF.
 #pragma once
 
-#include "integrations/cli/gltf/scene.h"
-#include "integrations/cli/io/handles.h"
-#include "integrations/cli/io/mesh_appearance.h"
+#include "integrations/program/gltf/scene.h"
+#include "integrations/program/io/handles.h"
+#include "integrations/program/io/mesh_appearance.h"
 
 namespace mien::gltf {
 

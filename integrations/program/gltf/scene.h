@@ -6,14 +6,15 @@
 //     Mien handles -> (rig_scene, arkit_bake) -> Scene -> (glb_writer, obj_writer) -> bytes
 #pragma once
 
+#include <mien.h>
+
 #include <array>
 #include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "capi/mien.h"
-#include "integrations/cli/math/transform.h"
+#include "integrations/program/math/transform.h"
 
 namespace mien::gltf {
 

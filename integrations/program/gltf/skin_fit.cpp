@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/gltf/skin_fit.h"
+#include "integrations/program/gltf/skin_fit.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "integrations/cli/gltf/rig_scene.h"
+#include "integrations/program/gltf/rig_scene.h"
 
 namespace mien::gltf {
 

@@ -5,7 +5,7 @@
 
 #include <functional>
 
-#include "integrations/cli/gltf/rig_source.h"
+#include "integrations/program/gltf/rig_source.h"
 
 namespace mien::gltf {
 

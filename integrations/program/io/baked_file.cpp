@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/io/baked_file.h"
+#include "integrations/program/io/baked_file.h"
 
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 
-#include "integrations/cli/io/input.h"
-#include "integrations/cli/io/rig_file.h"
+#include "integrations/program/io/input.h"
+#include "integrations/program/io/rig_file.h"
 
 namespace mien::cli {
 

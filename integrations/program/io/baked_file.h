@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "integrations/cli/io/handles.h"
+#include "integrations/program/io/handles.h"
 
 namespace mien::cli {
 

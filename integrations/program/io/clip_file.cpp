@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/io/clip_file.h"
+#include "integrations/program/io/clip_file.h"
 
 #include <algorithm>
 
-#include "integrations/cli/io/failure.h"
-#include "integrations/cli/io/input.h"
+#include "integrations/program/io/failure.h"
+#include "integrations/program/io/input.h"
 
 namespace mien::cli {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "integrations/cli/io/handles.h"
+#include "integrations/program/io/handles.h"
 
 namespace mien::cli {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/io/controls.h"
+#include "integrations/program/io/controls.h"
 
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
 
-#include "integrations/cli/io/failure.h"
-#include "integrations/cli/io/nearest_name.h"
-#include "integrations/cli/io/rig_file.h"
+#include "integrations/program/io/failure.h"
+#include "integrations/program/io/nearest_name.h"
+#include "integrations/program/io/rig_file.h"
 
 namespace mien::cli {
 

@@ -8,7 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "integrations/cli/io/frames.h"
+#include "integrations/program/io/frames.h"
 
 namespace mien::cli {
 

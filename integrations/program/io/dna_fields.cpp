@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/io/dna_fields.h"
+#include "integrations/program/io/dna_fields.h"
 
 namespace mien::cli {
 

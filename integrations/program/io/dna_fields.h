@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "integrations/cli/io/rig_file.h"
+#include "integrations/program/io/rig_file.h"
 
 namespace mien::cli {
 

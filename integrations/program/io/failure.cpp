@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/io/failure.h"
+#include "integrations/program/io/failure.h"
 
 namespace mien::cli {
 

@@ -2,10 +2,10 @@
 // How a command ends without success: an exit code, and one line on standard error.
 #pragma once
 
+#include <mien.h>
+
 #include <stdexcept>
 #include <string>
-
-#include "capi/mien.h"
 
 namespace mien::cli {
 

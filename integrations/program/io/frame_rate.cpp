@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/io/frame_rate.h"
+#include "integrations/program/io/frame_rate.h"
 
 #include <algorithm>
 #include <charconv>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/io/frames.h"
+#include "integrations/program/io/frames.h"
 
 #include <algorithm>
 #include <charconv>
@@ -7,12 +7,12 @@
 #include <nlohmann/json.hpp>
 #include <unordered_map>
 
-#include "integrations/cli/io/controls.h"
-#include "integrations/cli/io/failure.h"
-#include "integrations/cli/io/input.h"
-#include "integrations/cli/io/json_check.h"
-#include "integrations/cli/io/nearest_name.h"
-#include "integrations/cli/io/rig_file.h"
+#include "integrations/program/io/controls.h"
+#include "integrations/program/io/failure.h"
+#include "integrations/program/io/input.h"
+#include "integrations/program/io/json_check.h"
+#include "integrations/program/io/nearest_name.h"
+#include "integrations/program/io/rig_file.h"
 
 namespace mien::cli {
 

@@ -2,11 +2,11 @@
 // FRAMES of `mien eval`: JSON text -> values for the inputs of an instance.
 #pragma once
 
+#include <mien.h>
+
 #include <cstdint>
 #include <string>
 #include <vector>
-
-#include "capi/mien.h"
 
 namespace mien::cli {
 

@@ -2,10 +2,10 @@
 // Handles of the library as owners, and its structs with their size set.
 #pragma once
 
+#include <mien.h>
+
 #include <memory>
 #include <string>
-
-#include "capi/mien.h"
 
 namespace mien::cli {
 

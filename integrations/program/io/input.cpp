@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/io/input.h"
+#include "integrations/program/io/input.h"
 
 #include <cerrno>
 #include <cstdio>
@@ -11,8 +11,8 @@
 #include <io.h>
 #endif
 
-#include "integrations/cli/io/baked_file.h"
-#include "integrations/cli/io/failure.h"
+#include "integrations/program/io/baked_file.h"
+#include "integrations/program/io/failure.h"
 
 namespace mien::cli {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/io/joint_names.h"
+#include "integrations/program/io/joint_names.h"
 
 #include <algorithm>
 #include <cctype>

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "integrations/cli/io/failure.h"
-#include "integrations/cli/io/text.h"
+#include "integrations/program/io/failure.h"
+#include "integrations/program/io/text.h"
 
 namespace mien::cli {
 

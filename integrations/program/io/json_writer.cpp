@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/io/json_writer.h"
+#include "integrations/program/io/json_writer.h"
 
 #include <charconv>
 #include <cmath>
 
-#include "integrations/cli/io/text.h"
+#include "integrations/program/io/text.h"
 
 namespace mien::cli {
 

@@ -2,13 +2,14 @@
 // JSON, written piece by piece without a document in memory.
 #pragma once
 
+#include <mien.h>
+
 #include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "capi/mien.h"
-#include "integrations/cli/io/output.h"
+#include "integrations/program/io/output.h"
 
 namespace mien::cli {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/io/mesh_appearance.h"
+#include "integrations/program/io/mesh_appearance.h"
 
 #include <cctype>
 
-#include "integrations/cli/io/failure.h"
-#include "integrations/cli/io/handles.h"
+#include "integrations/program/io/failure.h"
+#include "integrations/program/io/handles.h"
 
 namespace mien::cli {
 

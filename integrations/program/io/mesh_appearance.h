@@ -3,11 +3,11 @@
 // where the file has some. Images and exported files share both.
 #pragma once
 
+#include <mien.h>
+
 #include <cstdint>
 #include <string>
 #include <vector>
-
-#include "capi/mien.h"
 
 namespace mien::cli {
 

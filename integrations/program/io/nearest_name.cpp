@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/io/nearest_name.h"
+#include "integrations/program/io/nearest_name.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/io/output.h"
+#include "integrations/program/io/output.h"
 
 #include <cerrno>
 #include <chrono>
@@ -17,7 +17,7 @@
 #include <unistd.h>
 #endif
 
-#include "integrations/cli/io/failure.h"
+#include "integrations/program/io/failure.h"
 
 namespace mien::cli {
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "integrations/cli/io/terminal.h"
+#include "integrations/program/io/terminal.h"
 
 namespace mien::cli {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/io/rig_file.h"
+#include "integrations/program/io/rig_file.h"
 
-#include "integrations/cli/io/baked_file.h"
-#include "integrations/cli/io/input.h"
+#include "integrations/program/io/baked_file.h"
+#include "integrations/program/io/input.h"
 
 namespace mien::cli {
 

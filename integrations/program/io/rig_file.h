@@ -4,10 +4,10 @@
 
 #include <string>
 
-#include "integrations/cli/io/failure.h"
-#include "integrations/cli/io/handles.h"
-#include "integrations/cli/io/input.h"
-#include "integrations/cli/io/terminal.h"
+#include "integrations/program/io/failure.h"
+#include "integrations/program/io/handles.h"
+#include "integrations/program/io/input.h"
+#include "integrations/program/io/terminal.h"
 
 namespace mien::cli {
 

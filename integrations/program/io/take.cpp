@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/io/take.h"
+#include "integrations/program/io/take.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "integrations/cli/io/controls.h"
-#include "integrations/cli/io/failure.h"
-#include "integrations/cli/io/nearest_name.h"
-#include "integrations/cli/io/text.h"
+#include "integrations/program/io/controls.h"
+#include "integrations/program/io/failure.h"
+#include "integrations/program/io/nearest_name.h"
+#include "integrations/program/io/text.h"
 
 namespace mien::cli {
 

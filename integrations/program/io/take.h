@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "integrations/cli/io/frame_rate.h"
+#include "integrations/program/io/frame_rate.h"
 
 namespace mien::cli {
 

@@ -5,9 +5,9 @@
 #include <cstdlib>
 #include <unordered_map>
 
-#include "integrations/cli/io/failure.h"
-#include "integrations/cli/io/take.h"
-#include "integrations/cli/io/text.h"
+#include "integrations/program/io/failure.h"
+#include "integrations/program/io/take.h"
+#include "integrations/program/io/text.h"
 
 namespace mien::cli {
 

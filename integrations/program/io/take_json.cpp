@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
 // JSON: the frames of `mien eval`, as `mien play` and `mien clip export` write them.
+#include <mien.h>
+
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <unordered_map>
 
-#include "capi/mien.h"
-#include "integrations/cli/io/failure.h"
-#include "integrations/cli/io/json_check.h"
-#include "integrations/cli/io/nearest_name.h"
-#include "integrations/cli/io/take.h"
-#include "integrations/cli/io/text.h"
+#include "integrations/program/io/failure.h"
+#include "integrations/program/io/json_check.h"
+#include "integrations/program/io/nearest_name.h"
+#include "integrations/program/io/take.h"
+#include "integrations/program/io/text.h"
 
 namespace mien::cli {
 

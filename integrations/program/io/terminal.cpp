@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/io/terminal.h"
+#include "integrations/program/io/terminal.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -11,7 +11,7 @@
 #include <unistd.h>
 #endif
 
-#include "integrations/cli/io/text.h"
+#include "integrations/program/io/text.h"
 
 namespace mien::cli {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/io/text.h"
+#include "integrations/program/io/text.h"
 
 #include <cstdio>
 #include <iterator>

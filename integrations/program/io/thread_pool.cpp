@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/io/thread_pool.h"
+#include "integrations/program/io/thread_pool.h"
 
 #include <condition_variable>
 #include <mutex>

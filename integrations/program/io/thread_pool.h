@@ -2,10 +2,10 @@
 // Threads for long calls of the library.
 #pragma once
 
+#include <mien.h>
+
 #include <cstdint>
 #include <memory>
-
-#include "capi/mien.h"
 
 namespace mien::cli {
 

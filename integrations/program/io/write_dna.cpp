@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/io/write_dna.h"
+#include "integrations/program/io/write_dna.h"
 
-#include "integrations/cli/io/failure.h"
-#include "integrations/cli/io/handles.h"
-#include "integrations/cli/io/output.h"
+#include "integrations/program/io/failure.h"
+#include "integrations/program/io/handles.h"
+#include "integrations/program/io/output.h"
 
 namespace mien::cli {
 

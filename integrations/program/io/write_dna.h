@@ -2,11 +2,12 @@
 // OUT of the commands that write DNA files.
 #pragma once
 
+#include <mien.h>
+
 #include <string>
 #include <vector>
 
-#include "capi/mien.h"
-#include "integrations/cli/io/terminal.h"
+#include "integrations/program/io/terminal.h"
 
 namespace mien::cli {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/live/address.h"
+#include "integrations/program/live/address.h"
 
-#include "integrations/cli/io/failure.h"
-#include "integrations/cli/live/live_link_face.h"
-#include "integrations/cli/live/vmc.h"
+#include "integrations/program/io/failure.h"
+#include "integrations/program/live/live_link_face.h"
+#include "integrations/program/live/vmc.h"
 
 namespace mien::live {
 

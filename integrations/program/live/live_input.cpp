@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/live/live_input.h"
+#include "integrations/program/live/live_input.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,12 +7,12 @@
 #include <thread>
 #include <unordered_map>
 
-#include "integrations/cli/gltf/arkit_controls.h"
-#include "integrations/cli/io/controls.h"
-#include "integrations/cli/io/failure.h"
-#include "integrations/cli/io/rig_file.h"
-#include "integrations/cli/io/text.h"
-#include "integrations/cli/live/live_link_face.h"
+#include "integrations/program/gltf/arkit_controls.h"
+#include "integrations/program/io/controls.h"
+#include "integrations/program/io/failure.h"
+#include "integrations/program/io/rig_file.h"
+#include "integrations/program/io/text.h"
+#include "integrations/program/live/live_link_face.h"
 
 namespace mien::live {
 

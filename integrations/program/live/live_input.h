@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "integrations/cli/io/handles.h"
-#include "integrations/cli/io/terminal.h"
-#include "integrations/cli/live/play_out.h"
-#include "integrations/cli/live/udp_socket.h"
-#include "integrations/cli/live/vmc.h"
+#include "integrations/program/io/handles.h"
+#include "integrations/program/io/terminal.h"
+#include "integrations/program/live/play_out.h"
+#include "integrations/program/live/udp_socket.h"
+#include "integrations/program/live/vmc.h"
 
 namespace mien::live {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/live/udp_socket.h"
+#include "integrations/program/live/udp_socket.h"
 
-#include "integrations/cli/io/failure.h"
+#include "integrations/program/io/failure.h"
 
 #if defined(_WIN32)
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <functional>
 
-#include "integrations/cli/live/address.h"
+#include "integrations/program/live/address.h"
 
 namespace mien::live {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/live/vmc.h"
+#include "integrations/program/live/vmc.h"
 
 #include <lo/lo.h>
 
 #include <cmath>
 #include <cstring>
 
-#include "integrations/cli/io/failure.h"
+#include "integrations/program/io/failure.h"
 
 namespace mien::live {
 

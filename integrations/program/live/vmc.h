@@ -17,7 +17,7 @@
 #include <string_view>
 #include <vector>
 
-#include "integrations/cli/live/address.h"
+#include "integrations/program/live/address.h"
 
 namespace mien::live {
 

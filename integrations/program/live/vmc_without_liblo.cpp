@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // For a build without liblo: VMC is refused before anything is opened.
-#include "integrations/cli/io/failure.h"
-#include "integrations/cli/live/vmc.h"
+#include "integrations/program/io/failure.h"
+#include "integrations/program/live/vmc.h"
 
 namespace mien::live {
 

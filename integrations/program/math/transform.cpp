@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/math/transform.h"
+#include "integrations/program/math/transform.h"
 
 namespace mien::math {
 

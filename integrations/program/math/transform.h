@@ -2,7 +2,7 @@
 // Rotations, transforms and affine matrices, in doubles.
 #pragma once
 
-#include "integrations/cli/math/vector.h"
+#include "integrations/program/math/vector.h"
 
 namespace mien::math {
 

@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "integrations/cli/io/failure.h"
-#include "integrations/cli/io/text.h"
-#include "integrations/cli/mesh/mesh_file.h"
+#include "integrations/program/io/failure.h"
+#include "integrations/program/io/text.h"
+#include "integrations/program/mesh/mesh_file.h"
 
 namespace mien::cli {
 

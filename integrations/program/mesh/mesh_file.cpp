@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/mesh/mesh_file.h"
+#include "integrations/program/mesh/mesh_file.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <set>
 
-#include "integrations/cli/io/failure.h"
-#include "integrations/cli/io/input.h"
-#include "integrations/cli/io/text.h"
+#include "integrations/program/io/failure.h"
+#include "integrations/program/io/input.h"
+#include "integrations/program/io/text.h"
 
 namespace mien::cli {
 

@@ -7,9 +7,9 @@
 #include <limits>
 #include <map>
 
-#include "integrations/cli/io/failure.h"
-#include "integrations/cli/io/text.h"
-#include "integrations/cli/mesh/mesh_file.h"
+#include "integrations/program/io/failure.h"
+#include "integrations/program/io/text.h"
+#include "integrations/program/mesh/mesh_file.h"
 
 namespace mien::cli {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/play/lanes_svg.h"
+#include "integrations/program/play/lanes_svg.h"
 
 #include <algorithm>
 #include <cmath>

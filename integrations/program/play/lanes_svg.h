@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "integrations/cli/play/script.h"
+#include "integrations/program/play/script.h"
 
 namespace mien::cli {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/play/performance.h"
+#include "integrations/program/play/performance.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,12 +7,12 @@
 #include <filesystem>
 #include <iterator>
 
-#include "integrations/cli/gltf/arkit_controls.h"
-#include "integrations/cli/io/failure.h"
-#include "integrations/cli/io/frame_rate.h"
-#include "integrations/cli/io/nearest_name.h"
-#include "integrations/cli/io/rig_file.h"
-#include "integrations/cli/io/text.h"
+#include "integrations/program/gltf/arkit_controls.h"
+#include "integrations/program/io/failure.h"
+#include "integrations/program/io/frame_rate.h"
+#include "integrations/program/io/nearest_name.h"
+#include "integrations/program/io/rig_file.h"
+#include "integrations/program/io/text.h"
 
 namespace mien::cli {
 

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "integrations/cli/io/clip_file.h"
-#include "integrations/cli/io/terminal.h"
-#include "integrations/cli/play/rig_lanes.h"
-#include "integrations/cli/play/script.h"
+#include "integrations/program/io/clip_file.h"
+#include "integrations/program/io/terminal.h"
+#include "integrations/program/play/rig_lanes.h"
+#include "integrations/program/play/script.h"
 
 namespace mien::cli {
 

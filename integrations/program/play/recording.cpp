@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/play/recording.h"
+#include "integrations/program/play/recording.h"
 
 #include <algorithm>
 #include <charconv>
 
-#include "integrations/cli/io/controls.h"
-#include "integrations/cli/io/failure.h"
-#include "integrations/cli/io/frame_rate.h"
-#include "integrations/cli/io/json_writer.h"
-#include "integrations/cli/io/text.h"
-#include "integrations/cli/play/lanes_svg.h"
+#include "integrations/program/io/controls.h"
+#include "integrations/program/io/failure.h"
+#include "integrations/program/io/frame_rate.h"
+#include "integrations/program/io/json_writer.h"
+#include "integrations/program/io/text.h"
+#include "integrations/program/play/lanes_svg.h"
 
 namespace mien::cli {
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "integrations/cli/io/frames.h"
-#include "integrations/cli/io/output.h"
-#include "integrations/cli/play/performance.h"
+#include "integrations/program/io/frames.h"
+#include "integrations/program/io/output.h"
+#include "integrations/program/play/performance.h"
 
 namespace mien::cli {
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/play/rig_lanes.h"
+#include "integrations/program/play/rig_lanes.h"
 
 #include <algorithm>
 #include <cctype>
 
-#include "integrations/cli/io/controls.h"
-#include "integrations/cli/io/failure.h"
-#include "integrations/cli/io/nearest_name.h"
-#include "integrations/cli/io/rig_file.h"
-#include "integrations/cli/io/text.h"
+#include "integrations/program/io/controls.h"
+#include "integrations/program/io/failure.h"
+#include "integrations/program/io/nearest_name.h"
+#include "integrations/program/io/rig_file.h"
+#include "integrations/program/io/text.h"
 
 namespace mien::cli {
 

@@ -2,13 +2,14 @@
 // Lanes of a mix by the names that a scene gives them: the raw controls of a rig, then variables.
 #pragma once
 
+#include <mien.h>
+
 #include <map>
 #include <string>
 #include <vector>
 
-#include "capi/mien.h"
-#include "integrations/cli/io/frames.h"
-#include "integrations/cli/play/script.h"
+#include "integrations/program/io/frames.h"
+#include "integrations/program/play/script.h"
 
 namespace mien::cli {
 

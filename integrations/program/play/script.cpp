@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/play/script.h"
+#include "integrations/program/play/script.h"
 
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "integrations/cli/io/failure.h"
-#include "integrations/cli/io/json_check.h"
-#include "integrations/cli/io/nearest_name.h"
-#include "integrations/cli/io/text.h"
+#include "integrations/program/io/failure.h"
+#include "integrations/program/io/json_check.h"
+#include "integrations/program/io/nearest_name.h"
+#include "integrations/program/io/text.h"
 
 namespace mien::cli {
 

@@ -2,13 +2,13 @@
 // SCENE of `mien play`: JSON text -> what to play, with names that no rig has been asked about.
 #pragma once
 
+#include <mien.h>
+
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
-
-#include "capi/mien.h"
 
 namespace mien::cli {
 

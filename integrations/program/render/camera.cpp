@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/render/camera.h"
+#include "integrations/program/render/camera.h"
 
 namespace mien::render {
 

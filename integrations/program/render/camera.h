@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "integrations/cli/math/vector.h"
+#include "integrations/program/math/vector.h"
 
 namespace mien::render {
 

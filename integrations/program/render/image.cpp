@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/render/image.h"
+#include "integrations/program/render/image.h"
 
 #include <array>
 #include <cstring>
 
-#include "integrations/cli/math/srgb.h"
+#include "integrations/program/math/srgb.h"
 
 namespace mien::render {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "integrations/cli/math/vector.h"
+#include "integrations/program/math/vector.h"
 
 namespace mien::render {
 

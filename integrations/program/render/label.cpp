@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/render/label.h"
+#include "integrations/program/render/label.h"
 
 #include <cstdint>
 #include <vector>

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "integrations/cli/render/image.h"
+#include "integrations/program/render/image.h"
 
 namespace mien::render {
 

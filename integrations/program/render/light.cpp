@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/render/light.h"
+#include "integrations/program/render/light.h"
 
 namespace mien::render {
 

@@ -3,8 +3,8 @@
 // It moves with the camera.
 #pragma once
 
-#include "integrations/cli/render/occlusion.h"
-#include "integrations/cli/render/scene.h"
+#include "integrations/program/render/occlusion.h"
+#include "integrations/program/render/scene.h"
 
 namespace mien::render {
 

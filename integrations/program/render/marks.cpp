@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/render/marks.h"
+#include "integrations/program/render/marks.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "integrations/cli/render/label.h"
-#include "integrations/cli/render/visibility.h"
+#include "integrations/program/render/label.h"
+#include "integrations/program/render/visibility.h"
 
 namespace mien::render {
 

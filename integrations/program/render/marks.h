@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "integrations/cli/render/camera.h"
-#include "integrations/cli/render/image.h"
+#include "integrations/program/render/camera.h"
+#include "integrations/program/render/image.h"
 
 namespace mien::render {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/render/occlusion.h"
+#include "integrations/program/render/occlusion.h"
 
 namespace mien::render {
 

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "integrations/cli/render/scene.h"
-#include "integrations/cli/render/visibility.h"
+#include "integrations/program/render/scene.h"
+#include "integrations/program/render/visibility.h"
 
 namespace mien::render {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/render/png.h"
+#include "integrations/program/render/png.h"
 
 #include <png.h>
 

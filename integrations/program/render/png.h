@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "integrations/cli/render/image.h"
+#include "integrations/program/render/image.h"
 
 namespace mien::render {
 

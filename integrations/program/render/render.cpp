@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/render/render.h"
+#include "integrations/program/render/render.h"
 
-#include "integrations/cli/render/light.h"
-#include "integrations/cli/render/occlusion.h"
-#include "integrations/cli/render/scene.h"
-#include "integrations/cli/render/visibility.h"
+#include "integrations/program/render/light.h"
+#include "integrations/program/render/occlusion.h"
+#include "integrations/program/render/scene.h"
+#include "integrations/program/render/visibility.h"
 
 namespace mien::render {
 

@@ -12,9 +12,9 @@
 #include <functional>
 #include <vector>
 
-#include "integrations/cli/math/vector.h"
-#include "integrations/cli/render/camera.h"
-#include "integrations/cli/render/image.h"
+#include "integrations/program/math/vector.h"
+#include "integrations/program/render/camera.h"
+#include "integrations/program/render/image.h"
 
 namespace mien::render {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/render/scene.h"
+#include "integrations/program/render/scene.h"
 
 namespace mien::render {
 

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "integrations/cli/render/render.h"
-#include "integrations/cli/render/visibility.h"
+#include "integrations/program/render/render.h"
+#include "integrations/program/render/visibility.h"
 
 namespace mien::render {
 

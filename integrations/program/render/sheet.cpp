@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/render/sheet.h"
+#include "integrations/program/render/sheet.h"
 
 #include <algorithm>
 
-#include "integrations/cli/render/label.h"
+#include "integrations/program/render/label.h"
 
 namespace mien::render {
 

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <string>
 
-#include "integrations/cli/render/image.h"
-#include "integrations/cli/render/render.h"
+#include "integrations/program/render/image.h"
+#include "integrations/program/render/render.h"
 
 namespace mien::render {
 

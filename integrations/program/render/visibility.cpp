@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/render/visibility.h"
+#include "integrations/program/render/visibility.h"
 
 #include <cassert>
 

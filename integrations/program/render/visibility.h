@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "integrations/cli/math/vector.h"
-#include "integrations/cli/render/camera.h"
+#include "integrations/program/math/vector.h"
+#include "integrations/program/render/camera.h"
 
 namespace mien::render {
 

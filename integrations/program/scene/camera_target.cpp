@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/scene/camera_target.h"
+#include "integrations/program/scene/camera_target.h"
 
 #include <algorithm>
 
-#include "integrations/cli/io/controls.h"
+#include "integrations/program/io/controls.h"
 
 namespace mien::cli {
 

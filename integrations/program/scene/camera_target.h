@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "integrations/cli/scene/posed_scene.h"
+#include "integrations/program/scene/posed_scene.h"
 
 namespace mien::cli {
 

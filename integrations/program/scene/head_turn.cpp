@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/scene/head_turn.h"
+#include "integrations/program/scene/head_turn.h"
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 
-#include "integrations/cli/io/failure.h"
-#include "integrations/cli/io/joint_names.h"
-#include "integrations/cli/io/rig_file.h"
-#include "integrations/cli/math/transform.h"
+#include "integrations/program/io/failure.h"
+#include "integrations/program/io/joint_names.h"
+#include "integrations/program/io/rig_file.h"
+#include "integrations/program/math/transform.h"
 
 namespace mien::cli {
 

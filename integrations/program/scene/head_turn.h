@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "integrations/cli/io/frames.h"
-#include "integrations/cli/io/handles.h"
-#include "integrations/cli/render/camera.h"
+#include "integrations/program/io/frames.h"
+#include "integrations/program/io/handles.h"
+#include "integrations/program/render/camera.h"
 
 namespace mien::cli {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/scene/heat_map.h"
+#include "integrations/program/scene/heat_map.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
-#include "integrations/cli/render/label.h"
+#include "integrations/program/render/label.h"
 
 namespace mien::cli {
 

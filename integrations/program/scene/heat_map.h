@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "integrations/cli/render/sheet.h"
-#include "integrations/cli/scene/influence.h"
+#include "integrations/program/render/sheet.h"
+#include "integrations/program/scene/influence.h"
 
 namespace mien::cli {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/scene/influence.h"
+#include "integrations/program/scene/influence.h"
 
 #include <algorithm>
 #include <cmath>

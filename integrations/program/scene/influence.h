@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "integrations/cli/io/controls.h"
-#include "integrations/cli/scene/posed_scene.h"
+#include "integrations/program/io/controls.h"
+#include "integrations/program/scene/posed_scene.h"
 
 namespace mien::cli {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/scene/mesh_material.h"
+#include "integrations/program/scene/mesh_material.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "integrations/cli/io/mesh_appearance.h"
-#include "integrations/cli/math/vector.h"
-#include "integrations/cli/render/render.h"
+#include "integrations/program/io/mesh_appearance.h"
+#include "integrations/program/math/vector.h"
+#include "integrations/program/render/render.h"
 
 namespace mien::cli {
 

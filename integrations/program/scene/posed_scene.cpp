@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/scene/posed_scene.h"
+#include "integrations/program/scene/posed_scene.h"
 
 #include <cmath>
 
-#include "integrations/cli/io/controls.h"
-#include "integrations/cli/io/dna_fields.h"
-#include "integrations/cli/io/input.h"
-#include "integrations/cli/io/nearest_name.h"
-#include "integrations/cli/scene/mesh_material.h"
+#include "integrations/program/io/controls.h"
+#include "integrations/program/io/dna_fields.h"
+#include "integrations/program/io/input.h"
+#include "integrations/program/io/nearest_name.h"
+#include "integrations/program/scene/mesh_material.h"
 
 namespace mien::cli {
 

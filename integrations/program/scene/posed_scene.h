@@ -5,14 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "integrations/cli/io/baked_file.h"
-#include "integrations/cli/io/frames.h"
-#include "integrations/cli/io/mesh_appearance.h"
-#include "integrations/cli/io/rig_file.h"
-#include "integrations/cli/math/vector.h"
-#include "integrations/cli/render/camera.h"
-#include "integrations/cli/render/render.h"
-#include "integrations/cli/scene/head_turn.h"
+#include "integrations/program/io/baked_file.h"
+#include "integrations/program/io/frames.h"
+#include "integrations/program/io/mesh_appearance.h"
+#include "integrations/program/io/rig_file.h"
+#include "integrations/program/math/vector.h"
+#include "integrations/program/render/camera.h"
+#include "integrations/program/render/render.h"
+#include "integrations/program/scene/head_turn.h"
 
 namespace mien::cli {
 

@@ -16,14 +16,14 @@ import subprocess
 import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..", "tests", "support"))
 import program  # noqa: E402
 from picture import Picture  # noqa: E402
 from program import (DONE, USAGE, INVALID, FILE, INTERNAL, ProgramTest,  # noqa: E402
                      main, make_folder, path, read, run, write)
 
 SHARED = os.path.join(os.environ.get("MIEN_SHARED", os.path.join(
-    os.path.dirname(os.path.abspath(__file__)), "..", "..", "..", "shared")), "data", "meshes")
+    os.path.dirname(os.path.abspath(__file__)), "..", "..", "..", "..", "shared")), "data", "meshes")
 
 
 def bust(rows=40, columns=48):

@@ -10,7 +10,7 @@ import random
 import struct
 import sys
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..", "tests", "support"))
 from program import (USAGE, INVALID, FILE, ProgramTest,  # noqa: E402
                      main, make_folder, path, read, write)
 

@@ -17,7 +17,7 @@ import struct
 import subprocess
 import sys
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..", "tests", "support"))
 import program  # noqa: E402
 from program import (DONE, USAGE, INVALID, FILE, INTERNAL, ProgramTest, main,  # noqa: E402
                      make, make_folder, path, read, run, write)

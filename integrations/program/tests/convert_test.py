@@ -12,7 +12,7 @@ import shutil
 import struct
 import sys
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..", "tests", "support"))
 from program import USAGE, INVALID, ProgramTest, main, make, make_folder, path, read, write  # noqa: E402
 
 PRESETS = ("tiny", "small", "medium", "large", "body")

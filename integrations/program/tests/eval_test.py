@@ -16,7 +16,7 @@ import subprocess
 import sys
 import time
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..", "tests", "support"))
 import program  # noqa: E402
 from program import (DONE, USAGE, INVALID, ProgramTest, main, make,  # noqa: E402
                      make_folder, path, read, run, write)

@@ -19,7 +19,7 @@ import subprocess
 import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..", "tests", "support"))
 import golden_rigs  # noqa: E402
 from glb import Glb, Obj  # noqa: E402
 import program  # noqa: E402
@@ -29,7 +29,7 @@ from program import (DONE, USAGE, INVALID, FILE, ProgramTest, main,  # noqa: E40
 PRESETS = ("tiny", "small", "medium", "large")
 
 here = os.path.dirname(os.path.abspath(__file__))
-project = os.path.dirname(os.path.dirname(here))
+project = os.path.dirname(os.path.dirname(os.path.dirname(here)))
 validator = os.environ.get("MIEN_GLTF_VALIDATOR") or os.path.join(project, "build", "gltf_validator")
 
 
@@ -740,7 +740,7 @@ class Readers(ExportTest):
         if not node or not os.path.isdir(os.path.join(packages, "gltf-validator")):
             skip("GLB files by the Khronos validator; Node.js or %s/gltf-validator is missing" % packages)
         names = self.files()
-        done = subprocess.run([node, os.path.join(here, "..", "gltf", "validator", "validate.js"),
+        done = subprocess.run([node, os.path.join(here, "gltf", "validator", "validate.js"),
                                *[path(name + ".glb") for name in names]], capture_output=True,
                               timeout=800, env={**os.environ, "NODE_PATH": packages})
         self.assertEqual(done.returncode, 0, done.stderr.decode())
@@ -762,7 +762,7 @@ class Readers(ExportTest):
         broken = bytearray(read("tiny.glb"))
         at = broken.index(b'"JOINTS_0"')
         broken[at:at + 10] = b'"JOINTS_7"'
-        done = subprocess.run([node, os.path.join(here, "..", "gltf", "validator", "validate.js"),
+        done = subprocess.run([node, os.path.join(here, "gltf", "validator", "validate.js"),
                                write("broken.glb", bytes(broken))], capture_output=True,
                               env={**os.environ, "NODE_PATH": packages})
         self.assertGreater(json.loads(done.stdout)["numErrors"], 0)

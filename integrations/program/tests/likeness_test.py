@@ -10,11 +10,11 @@ import sys
 from pathlib import Path
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, os.path.join(HERE, "..", "support"))
+sys.path.insert(0, os.path.join(HERE, "..", "..", "..", "tests", "support"))
 from picture import Picture, similarity  # noqa: E402
 from program import ProgramTest, main, make, make_folder, path  # noqa: E402
 
-GALLERY = os.path.join(HERE, "..", "..", "integrations", "cli", "render", "gallery")
+GALLERY = os.path.join(HERE, "..", "render", "gallery")
 
 
 def setUpModule():

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/live/live_link_face.h"
+#include "integrations/program/live/live_link_face.h"
 
 #include <gtest/gtest.h>
 

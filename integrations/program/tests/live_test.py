@@ -17,7 +17,7 @@ import sys
 import time
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..", "tests", "support"))
 import program  # noqa: E402
 from program import (DONE, FILE, INVALID, USAGE, ProgramTest,  # noqa: E402
                      main, make, make_folder, path, run, write)

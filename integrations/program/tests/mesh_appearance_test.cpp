@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What meshes are by their names: one table for images and exported files.
-#include "integrations/cli/io/mesh_appearance.h"
+#include "integrations/program/io/mesh_appearance.h"
 
 #include <gtest/gtest.h>
 

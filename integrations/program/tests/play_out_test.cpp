@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/live/play_out.h"
+#include "integrations/program/live/play_out.h"
 
 #include <gtest/gtest.h>
 

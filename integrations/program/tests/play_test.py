@@ -16,7 +16,7 @@ import unittest
 import xml.etree.ElementTree
 
 here = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, os.path.join(here, "..", "support"))
+sys.path.insert(0, os.path.join(here, "..", "..", "..", "tests", "support"))
 from glb import Glb  # noqa: E402
 
 DONE, USAGE, INVALID, FILE, INTERNAL = range(5)
@@ -218,7 +218,7 @@ class PlayTest(unittest.TestCase):
         self.assertLess(max(jaws[2][1:4]), 0.05, "in the M")
 
     def test_a_guard_tells_why_it_holds_a_lane_back(self):
-        scene = load(os.path.join(here, "../../examples/scene.json"))
+        scene = load(os.path.join(here, "../../../examples/scene.json"))
         played = self.play(scene, "--stages", "jawOpen", "-o", path("why.json"), "-o", path("why.svg"))
         self.assertIsNone(played)
         frames = load(path("why.json"))["frames"]
@@ -484,7 +484,7 @@ class PlayTest(unittest.TestCase):
         self.assertEqual(done.returncode, USAGE)
 
     def test_the_scene_of_the_examples_closes_lips_and_lids(self):
-        scene = load(os.path.join(here, "../../examples/scene.json"))
+        scene = load(os.path.join(here, "../../../examples/scene.json"))
         held = self.play(scene)
         free = self.play({**scene, "guards": []})
         lips_closed, both = round(1.2 * 60), round(1.8 * 60)

@@ -15,7 +15,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent.parent
+ROOT = Path(__file__).resolve().parents[3]
 RECIPE = re.compile(r"### ([^\n]+)\n(?:(?!###)[\s\S])*?```json\n([\s\S]*?)```\s*```c\n([\s\S]*?)```")
 CONTROLS = ["jawOpen", "mouthSmileLeft", "browInnerUp", "eyeBlinkLeft"]
 LANES = 52  # of the head
@@ -190,7 +190,7 @@ class Recipes(unittest.TestCase):
                           encoding="utf-8")
         directory = os.path.dirname(library)
         subprocess.run(["cc", "-std=c11", "-Wall", "-Wextra", "-Wpedantic", "-Werror",
-                        "-Wno-unused", f"-I{ROOT / 'capi'}", source, library,
+                        "-Wno-unused", f"-I{ROOT / 'capi' / 'include'}", source, library,
                         f"-Wl,-rpath,{directory}", "-o", self.path("recipes")], check=True)
         printed = subprocess.run([self.path("recipes"), self.path("head.dna"),
                                   self.path("talk.clip"), self.path("tracking.clip")],

@@ -14,7 +14,7 @@ import struct
 import sys
 from pathlib import Path
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..", "tests", "support"))
 import golden_rigs  # noqa: E402
 import program  # noqa: E402
 from picture import Picture  # noqa: E402

@@ -13,7 +13,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent.parent
+ROOT = Path(__file__).resolve().parents[3]
 BLOCK = re.compile(r"<!-- (run|file: [\w.]+) -->\n```\w+\n(.*?)^```$", re.DOTALL | re.MULTILINE)
 
 mien = library = None
@@ -24,7 +24,7 @@ class Tutorials(unittest.TestCase):
         self.folder = tempfile.mkdtemp(prefix="mien-tutorial-")
         self.addCleanup(shutil.rmtree, self.folder)
         (Path(self.folder) / "mien.pc").write_text(
-            f"Name: mien\nDescription: as built\nVersion: 0.1.0\nCflags: -I{ROOT / 'capi'}\n"
+            f"Name: mien\nDescription: as built\nVersion: 0.1.0\nCflags: -I{ROOT / 'capi' / 'include'}\n"
             f"Libs: -L{library.parent} -lmien\n", encoding="utf-8")
         self.environment = {**os.environ, "PATH": f"{mien.parent}:{os.environ['PATH']}",
                             "PKG_CONFIG_PATH": self.folder, "LD_LIBRARY_PATH": str(library.parent)}

@@ -15,7 +15,7 @@ import time
 import unittest
 from urllib.parse import parse_qs, quote, urlsplit
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..", "tests", "support"))
 import program  # noqa: E402
 from program import USAGE, INVALID, FILE, ProgramTest, main, make, make_folder, path, read, run, write  # noqa: E402
 

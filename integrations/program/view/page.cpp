@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/view/page.h"
+#include "integrations/program/view/page.h"
 
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <map>
 
-#include "integrations/cli/io/failure.h"
+#include "integrations/program/io/failure.h"
 
 namespace mien::view {
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "integrations/cli/view/viewer_server.h"
+#include "integrations/program/view/viewer_server.h"
 
 namespace mien::view {
 

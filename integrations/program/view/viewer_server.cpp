@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/cli/view/viewer_server.h"
+#include "integrations/program/view/viewer_server.h"
 
 #include <fcntl.h>
 #include <httplib.h>
@@ -11,7 +11,7 @@
 #include <cstdlib>
 #include <thread>
 
-#include "integrations/cli/io/failure.h"
+#include "integrations/program/io/failure.h"
 
 extern char** environ;
 

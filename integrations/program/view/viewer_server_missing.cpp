@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // For a build without cpp-httplib.
-#include "integrations/cli/io/failure.h"
-#include "integrations/cli/view/viewer_server.h"
+#include "integrations/program/io/failure.h"
+#include "integrations/program/view/viewer_server.h"
 
 namespace mien::view {
 

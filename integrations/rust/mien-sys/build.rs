@@ -42,7 +42,7 @@ fn main() {
 /// Builds the static libraries with CMake in cargo's output directory; returns where they are.
 fn build_vendored() -> String {
     let sources = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../..");
-    if !sources.join("capi/mien.h").exists() {
+    if !sources.join("capi/include/mien.h").exists() {
         fail("the feature `vendored` needs the sources of the repository around the crate");
     }
     let build = format!("{}/mien", env::var("OUT_DIR").expect("cargo sets it"));
@@ -63,7 +63,7 @@ fn build_vendored() -> String {
         "-DMIEN_BUILD_BENCH=OFF",
     ]);
     run(&["--build", &build, "--parallel", "--target", "mien_author_static"]);
-    for room in ["capi", "runtime", "simd"] {
+    for room in ["author", "capi", "runtime", "simd"] {
         println!("cargo:rerun-if-changed={}/{}", sources, room);
     }
     format!("{}/lib", build)

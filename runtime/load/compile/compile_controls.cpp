@@ -5,7 +5,7 @@
 #include <cstring>
 #include <utility>
 
-#include "runtime/compile/compile_rig.h"
+#include "runtime/load/compile/compile_rig.h"
 
 namespace mien {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/compile/compile_deformer.h"
+#include "runtime/load/compile/compile_deformer.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 
 #include "runtime/base/status.h"
 #include "runtime/deform/deformer.h"
-#include "runtime/dna/format/dna_view.h"
+#include "runtime/load/dna/format/dna_view.h"
 
 namespace mien {
 

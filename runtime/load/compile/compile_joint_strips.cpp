@@ -2,7 +2,7 @@
 // Strips of block rows (RowStrip in simd/kernels.h): the columns that are in use as a rule, once more by rows.
 #include <algorithm>
 
-#include "runtime/compile/joint_blocks.h"
+#include "runtime/load/compile/joint_blocks.h"
 
 namespace mien {
 namespace {

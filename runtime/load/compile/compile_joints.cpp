@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "runtime/base/bits.h"
-#include "runtime/compile/joint_blocks.h"
+#include "runtime/load/compile/joint_blocks.h"
 
 namespace mien {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "runtime/base/half.h"
-#include "runtime/compile/compile_rig.h"
+#include "runtime/load/compile/compile_rig.h"
 #include "runtime/rig/work.h"
 
 namespace mien {

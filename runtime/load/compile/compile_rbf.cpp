@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "runtime/base/bits.h"
-#include "runtime/compile/compile_rig.h"
+#include "runtime/load/compile/compile_rig.h"
 #include "runtime/rig/work.h"
 
 namespace mien {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/compile/compile_rig.h"
+#include "runtime/load/compile/compile_rig.h"
 
 #include <algorithm>
 #include <cstring>
 
-#include "runtime/dna/format/dna_writer.h"
+#include "runtime/load/dna/format/dna_writer.h"
 #include "runtime/rig/work.h"
 
 namespace mien {

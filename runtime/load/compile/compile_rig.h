@@ -5,7 +5,7 @@
 
 #include "runtime/base/arena.h"
 #include "runtime/base/status.h"
-#include "runtime/dna/format/dna_view.h"
+#include "runtime/load/dna/format/dna_view.h"
 #include "runtime/rig/rig.h"
 
 namespace mien {

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "runtime/base/half.h"
-#include "runtime/compile/plan_block_rows.h"
+#include "runtime/load/compile/plan_block_rows.h"
 
 namespace mien {
 namespace {

@@ -2,7 +2,7 @@
 // Rig -> skeleton: the order of joints, the neutral pose in lanes, bind matrices and their inverses.
 #include <algorithm>
 
-#include "runtime/compile/compile_deformer.h"
+#include "runtime/load/compile/compile_deformer.h"
 
 namespace mien {
 namespace {

@@ -3,7 +3,7 @@
 #include <cstring>
 
 #include "runtime/base/bits.h"
-#include "runtime/compile/joint_blocks.h"
+#include "runtime/load/compile/joint_blocks.h"
 
 namespace mien {
 namespace {

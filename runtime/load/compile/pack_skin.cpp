@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "runtime/compile/compile_deformer.h"
+#include "runtime/load/compile/compile_deformer.h"
 
 namespace mien {
 namespace {

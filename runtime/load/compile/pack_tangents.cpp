@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "runtime/base/vector.h"
-#include "runtime/compile/compile_deformer.h"
+#include "runtime/load/compile/compile_deformer.h"
 
 namespace mien {
 namespace {

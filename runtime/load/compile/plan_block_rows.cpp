@@ -4,7 +4,7 @@
 // Block rows 2i and 2i + 1 are neighbors for good: blocks that a column has in both are read at
 // once. So block rows of one group come in twos, and those left over are matched by what their
 // groups read.
-#include "runtime/compile/plan_block_rows.h"
+#include "runtime/load/compile/plan_block_rows.h"
 
 #include <algorithm>
 

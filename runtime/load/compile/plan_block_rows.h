@@ -2,8 +2,8 @@
 // Rows of joint groups, as files have them.
 #pragma once
 
-#include "runtime/compile/compile_rig.h"
-#include "runtime/dna/format/quaternion_columns.h"
+#include "runtime/load/compile/compile_rig.h"
+#include "runtime/load/dna/format/quaternion_columns.h"
 
 namespace mien {
 

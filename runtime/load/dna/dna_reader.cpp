@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/dna/dna_reader.h"
+#include "runtime/load/dna/dna_reader.h"
 
 #include <algorithm>
 #include <cstdarg>
 #include <cstdio>
 #include <cstring>
 
-#include "runtime/dna/check/dna_check.h"
-#include "runtime/dna/convert/convert_coordinates.h"
-#include "runtime/dna/convert/lod_selection.h"
-#include "runtime/dna/format/pose_controls.h"
-#include "runtime/dna/format/record_size.h"
+#include "runtime/load/dna/check/dna_check.h"
+#include "runtime/load/dna/convert/convert_coordinates.h"
+#include "runtime/load/dna/convert/lod_selection.h"
+#include "runtime/load/dna/format/pose_controls.h"
+#include "runtime/load/dna/format/record_size.h"
 
 namespace mien::dna {
 namespace {

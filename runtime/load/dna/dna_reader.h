@@ -5,8 +5,8 @@
 
 #include "runtime/base/coordinate_system.h"
 #include "runtime/base/stream.h"
-#include "runtime/dna/format/dna_view.h"
-#include "runtime/dna/format/findings.h"
+#include "runtime/load/dna/format/dna_view.h"
+#include "runtime/load/dna/format/findings.h"
 
 namespace mien::dna {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/author/fit/correctives.h"
+#include "author/fit/correctives.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/author/rig_dna/author_rig.h"
+#include "author/rig_dna/author_rig.h"
 #include "tests/support/author_setup.h"
 #include "tests/support/deform_rig.h"
 #include "tests/support/rig_handles.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Fits on motions that are known, and on the expressions of the procedural head.
-#include "runtime/author/fit/fit_shapes.h"
+#include "author/fit/fit_shapes.h"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +9,10 @@
 #include <set>
 #include <vector>
 
-#include "runtime/author/fit/procrustes.h"
-#include "runtime/author/fit/targets.h"
-#include "runtime/author/random.h"
-#include "runtime/author/weights/skin_weights.h"
+#include "author/base/random.h"
+#include "author/fit/procrustes.h"
+#include "author/fit/targets.h"
+#include "author/weights/skin_weights.h"
 #include "tests/support/author_setup.h"
 
 namespace mien::author {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/author/fit/regions.h"
+#include "author/fit/regions.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <set>
 #include <vector>
 
-#include "runtime/author/random.h"
+#include "author/base/random.h"
 #include "tests/support/author_setup.h"
 
 namespace mien::author {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/author/fit/stacked_lods.h"
+#include "author/fit/stacked_lods.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <set>
 #include <vector>
 
-#include "runtime/author/rig_dna/author_rig.h"
+#include "author/rig_dna/author_rig.h"
 #include "tests/support/author_setup.h"
 
 namespace mien::author {

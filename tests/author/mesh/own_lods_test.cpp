@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/author/mesh/own_lods.h"
+#include "author/mesh/own_lods.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/author/mesh/simplify.h"
+#include "author/mesh/simplify.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <map>
 #include <set>
 
-#include "runtime/author/mesh/surface_tree.h"
+#include "author/mesh/surface_tree.h"
 #include "tests/support/mesh_source.h"
 
 namespace mien::author {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/author/place/linkage.h"
+#include "author/place/linkage.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <map>
 #include <vector>
 
-#include "runtime/author/random.h"
+#include "author/base/random.h"
 
 namespace mien::author {
 namespace {

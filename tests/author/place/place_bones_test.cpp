@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/author/place/rank.h"
+#include "author/place/rank.h"
 #include "tests/support/placed_bones.h"
 
 namespace mien::author {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/author/weights/skin_weights.h"
+#include "author/weights/skin_weights.h"
 #include "tests/support/placed_bones.h"
 #include "tests/support/real_meshes.h"
 

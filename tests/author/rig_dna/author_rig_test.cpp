@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Authored rigs as files: opened, evaluated and deformed by the library, and compared with the shapes
 // that they were made from.
-#include "runtime/author/rig_dna/author_rig.h"
+#include "author/rig_dna/author_rig.h"
 
 #include <gtest/gtest.h>
 
@@ -11,9 +11,9 @@
 #include <thread>
 #include <vector>
 
-#include "runtime/author/exact_math.h"
-#include "runtime/author/random.h"
-#include "runtime/author/rigging/rigging.h"
+#include "author/base/exact_math.h"
+#include "author/base/random.h"
+#include "author/rigging/rigging.h"
 #include "tests/support/author_setup.h"
 #include "tests/support/mesh_source.h"
 #include "tests/support/played_rig.h"

@@ -6,9 +6,9 @@
 #include <thread>
 #include <vector>
 
-#include "runtime/author/rigging/rigging.h"
-#include "runtime/dna/check/dna_check.h"
-#include "runtime/dna/format/dna_writer.h"
+#include "author/rigging/rigging.h"
+#include "runtime/load/dna/check/dna_check.h"
+#include "runtime/load/dna/format/dna_writer.h"
 #include "tests/support/counting_allocator.h"
 #include "tests/support/mesh_source.h"
 

@@ -8,8 +8,8 @@
 #include <cstdio>
 #include <set>
 
-#include "runtime/author/rigging/rigging.h"
-#include "runtime/dna/format/dna_writer.h"
+#include "author/rigging/rigging.h"
+#include "runtime/load/dna/format/dna_writer.h"
 #include "tests/support/mesh_source.h"
 #include "tests/support/played_rig.h"
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/author/weights/skin_weights.h"
+#include "author/weights/skin_weights.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <set>
 
-#include "runtime/author/place/place.h"
+#include "author/place/place.h"
 #include "tests/support/mesh_source.h"
 
 namespace mien::author {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Packing: what is told of a mesh is what the file says, and what cannot be packed is refused with
 // its place.
-#include "runtime/compile/compile_deformer.h"
+#include "runtime/load/compile/compile_deformer.h"
 
 #include <cmath>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Compiling rigs and deformers, while any one array cannot be had.
-#include "runtime/compile/compile_deformer.h"
-#include "runtime/compile/compile_rig.h"
+#include "runtime/load/compile/compile_deformer.h"
+#include "runtime/load/compile/compile_rig.h"
 #include "tests/support/deform_rig.h"
 #include "tests/support/failing_arrays.h"
 #include "tests/support/random_layer_rig.h"

@@ -2,7 +2,7 @@
 // Neutral tangents: the direction of the texture, its orientation, and what happens without one.
 #include <cmath>
 
-#include "runtime/compile/compile_deformer.h"
+#include "runtime/load/compile/compile_deformer.h"
 #include "tests/support/deform_rig.h"
 #include "tests/support/tiny_rig.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Reading at its edges: sinks that have heard enough, layers that are too small, LODs that cannot be.
-#include "runtime/dna/dna_reader.h"
+#include "runtime/load/dna/dna_reader.h"
 
 #include <gtest/gtest.h>
 

@@ -12,7 +12,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "runtime/dna/dna_reader.h"
+#include "runtime/load/dna/dna_reader.h"
 #include "tests/support/dna_bytes.h"
 #include "tests/support/memory_stream.h"
 #include "tests/support/rig_handles.h"

@@ -11,7 +11,7 @@
 #include <fstream>
 #include <random>
 
-#include "runtime/dna/format/dna_view.h"
+#include "runtime/load/dna/format/dna_view.h"
 #include "tests/support/dna_bytes.h"
 #include "tests/support/exercise_dna.h"
 #include "tests/support/long_run.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Opening, choosing LODs, converting, validating and planning to write, while any one array cannot be had.
-#include "runtime/dna/check/check_written.h"
-#include "runtime/dna/dna_reader.h"
+#include "runtime/load/dna/check/check_written.h"
+#include "runtime/load/dna/dna_reader.h"
 #include "tests/support/dna_bytes.h"
 #include "tests/support/failing_arrays.h"
 #include "tests/support/memory_stream.h"

@@ -3,7 +3,7 @@
 // nothing is left behind.
 #include <gtest/gtest.h>
 
-#include "runtime/dna/dna_reader.h"
+#include "runtime/load/dna/dna_reader.h"
 #include "tests/support/counting_allocator.h"
 #include "tests/support/dna_bytes.h"
 #include "tests/support/many_rigs.h"

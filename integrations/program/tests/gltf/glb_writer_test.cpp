@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The GLB writer on scenes made by hand: what rigs that Mien generates do not have.
-#include "integrations/cli/gltf/glb_writer.h"
+#include "integrations/program/gltf/glb_writer.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Pictures as pixels and files, and the text in them.
-#include "integrations/cli/render/image.h"
+#include "integrations/program/render/image.h"
 
 #include <gtest/gtest.h>
 #include <png.h>
 
-#include "integrations/cli/render/label.h"
-#include "integrations/cli/render/png.h"
+#include "integrations/program/render/label.h"
+#include "integrations/program/render/png.h"
 
 namespace mien::render {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Whole pictures, compared by structural similarity with references that the test makes itself.
-#include "integrations/cli/render/render.h"
+#include "integrations/program/render/render.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <cmath>
 #include <limits>
 
-#include "integrations/cli/render/light.h"
-#include "integrations/cli/render/scene.h"
+#include "integrations/program/render/light.h"
+#include "integrations/program/render/scene.h"
 
 namespace mien::render {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Which triangle is seen where, against plain geometry in double precision.
-#include "integrations/cli/render/visibility.h"
+#include "integrations/program/render/visibility.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/dna/check/check_written.h"
+#include "runtime/load/dna/check/check_written.h"
 
-#include "runtime/dna/check/dna_check.h"
-#include "runtime/dna/format/pose_controls.h"
+#include "runtime/load/dna/check/dna_check.h"
+#include "runtime/load/dna/format/pose_controls.h"
 
 namespace mien::dna {
 namespace {

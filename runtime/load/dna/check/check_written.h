@@ -3,8 +3,8 @@
 #pragma once
 
 #include "runtime/base/status.h"
-#include "runtime/dna/format/dna_view.h"
-#include "runtime/dna/format/dna_writer.h"
+#include "runtime/load/dna/format/dna_view.h"
+#include "runtime/load/dna/format/dna_writer.h"
 
 namespace mien::dna {
 

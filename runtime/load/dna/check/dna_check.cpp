@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The four classic layers and dsce. The others are in dna_check_extensions.cpp.
-#include "runtime/dna/check/dna_check.h"
+#include "runtime/load/dna/check/dna_check.h"
 
 #include <cmath>
 #include <optional>
 
-#include "runtime/dna/check/dna_checker.h"
+#include "runtime/load/dna/check/dna_checker.h"
 
 namespace mien::dna {
 namespace {

@@ -3,8 +3,8 @@
 // is checked"). The reader has already checked that arrays lie within the file.
 #pragma once
 
-#include "runtime/dna/format/dna_view.h"
-#include "runtime/dna/format/findings.h"
+#include "runtime/load/dna/format/dna_view.h"
+#include "runtime/load/dna/format/findings.h"
 
 namespace mien::dna {
 

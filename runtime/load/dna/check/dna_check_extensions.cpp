@@ -2,7 +2,7 @@
 // The layers that came after 2.2: joint metadata, twists and swings, RBF solvers, neural networks.
 #include <cmath>
 
-#include "runtime/dna/check/dna_checker.h"
+#include "runtime/load/dna/check/dna_checker.h"
 
 namespace mien::dna {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/dna/check/dna_checker.h"
+#include "runtime/load/dna/check/dna_checker.h"
 
 #include <cstdio>
 

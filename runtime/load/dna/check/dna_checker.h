@@ -6,8 +6,8 @@
 #include <cstdarg>
 #include <initializer_list>
 
-#include "runtime/dna/format/dna_view.h"
-#include "runtime/dna/format/findings.h"
+#include "runtime/load/dna/format/dna_view.h"
+#include "runtime/load/dna/format/findings.h"
 
 namespace mien::dna {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/dna/convert/convert_coordinates.h"
+#include "runtime/load/dna/convert/convert_coordinates.h"
 
 #include <cstdio>
 
-#include "runtime/dna/convert/convert_networks.h"
-#include "runtime/dna/convert/convert_rotations.h"
-#include "runtime/dna/convert/converted_arrays.h"
-#include "runtime/dna/convert/rotation_controls.h"
-#include "runtime/dna/format/quaternion_columns.h"
+#include "runtime/load/dna/convert/convert_networks.h"
+#include "runtime/load/dna/convert/convert_rotations.h"
+#include "runtime/load/dna/convert/converted_arrays.h"
+#include "runtime/load/dna/convert/rotation_controls.h"
+#include "runtime/load/dna/format/quaternion_columns.h"
 
 namespace mien::dna {
 namespace {

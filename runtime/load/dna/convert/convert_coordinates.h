@@ -18,7 +18,7 @@
 
 #include "runtime/base/coordinate_system.h"
 #include "runtime/base/status.h"
-#include "runtime/dna/format/dna_view.h"
+#include "runtime/load/dna/format/dna_view.h"
 
 namespace mien::dna {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/dna/convert/convert_networks.h"
+#include "runtime/load/dna/convert/convert_networks.h"
 
 namespace mien::dna {
 namespace {

@@ -3,9 +3,9 @@
 // write are folded into their weights.
 #pragma once
 
-#include "runtime/dna/convert/converted_arrays.h"
-#include "runtime/dna/convert/rotation_controls.h"
-#include "runtime/dna/format/dna_view.h"
+#include "runtime/load/dna/convert/converted_arrays.h"
+#include "runtime/load/dna/convert/rotation_controls.h"
+#include "runtime/load/dna/format/dna_view.h"
 
 namespace mien::dna {
 

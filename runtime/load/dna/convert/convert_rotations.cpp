@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/dna/convert/convert_rotations.h"
+#include "runtime/load/dna/convert/convert_rotations.h"
 
 #include "runtime/base/transform.h"
-#include "runtime/dna/format/quaternion_columns.h"
+#include "runtime/load/dna/format/quaternion_columns.h"
 
 namespace mien::dna {
 namespace {

@@ -4,8 +4,8 @@
 // the rotation it describes.
 #pragma once
 
-#include "runtime/dna/convert/converted_arrays.h"
-#include "runtime/dna/format/dna_view.h"
+#include "runtime/load/dna/convert/converted_arrays.h"
+#include "runtime/load/dna/format/dna_view.h"
 
 namespace mien::dna {
 

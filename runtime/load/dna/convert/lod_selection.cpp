@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/dna/convert/lod_selection.h"
+#include "runtime/load/dna/convert/lod_selection.h"
 
 #include <algorithm>
 #include <cstring>
 
-#include "runtime/dna/format/quaternion_columns.h"
+#include "runtime/load/dna/format/quaternion_columns.h"
 
 namespace mien::dna {
 namespace {

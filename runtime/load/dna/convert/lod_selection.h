@@ -11,7 +11,7 @@
 //     the file, their rotation rows move to a group of their own after the others.
 #pragma once
 
-#include "runtime/dna/format/dna_view.h"
+#include "runtime/load/dna/format/dna_view.h"
 
 namespace mien::dna {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/dna/convert/rotation_controls.h"
+#include "runtime/load/dna/convert/rotation_controls.h"
 
 #include <cstring>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/dna/format/dna_path.h"
+#include "runtime/load/dna/format/dna_path.h"
 
 #include <type_traits>
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "runtime/base/status.h"
-#include "runtime/dna/format/dna_view.h"
+#include "runtime/load/dna/format/dna_view.h"
 
 namespace mien::dna {
 

@@ -8,7 +8,7 @@
 // end), so that it can be skipped.
 #pragma once
 
-#include "runtime/dna/format/dna_types.h"
+#include "runtime/load/dna/format/dna_types.h"
 
 namespace mien::dna {
 

@@ -9,7 +9,7 @@
 // changed. Its lists are in the arena. The caller of read_dna() owns both.
 #pragma once
 
-#include "runtime/dna/format/dna_schema.h"
+#include "runtime/load/dna/format/dna_schema.h"
 
 namespace mien::dna {
 

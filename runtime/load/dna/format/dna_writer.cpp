@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/dna/format/dna_writer.h"
+#include "runtime/load/dna/format/dna_writer.h"
 
-#include "runtime/dna/format/record_size.h"
+#include "runtime/load/dna/format/record_size.h"
 
 namespace mien::dna {
 namespace {

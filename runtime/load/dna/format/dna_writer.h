@@ -3,7 +3,7 @@
 // same field descriptions that the reader walks.
 #pragma once
 
-#include "runtime/dna/format/dna_view.h"
+#include "runtime/load/dna/format/dna_view.h"
 
 namespace mien::dna {
 

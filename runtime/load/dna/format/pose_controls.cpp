@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/dna/format/pose_controls.h"
+#include "runtime/load/dna/format/pose_controls.h"
 
 namespace mien::dna {
 

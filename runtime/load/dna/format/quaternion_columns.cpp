@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/dna/format/quaternion_columns.h"
+#include "runtime/load/dna/format/quaternion_columns.h"
 
 #include <algorithm>
 #include <cmath>

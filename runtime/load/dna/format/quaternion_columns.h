@@ -4,7 +4,7 @@
 // and LODs"). The rig compiler and LOD selection both need it.
 #pragma once
 
-#include "runtime/dna/format/dna_view.h"
+#include "runtime/load/dna/format/dna_view.h"
 
 namespace mien::dna {
 

@@ -6,7 +6,7 @@
 
 #include <type_traits>
 
-#include "runtime/dna/format/dna_schema.h"
+#include "runtime/load/dna/format/dna_schema.h"
 
 namespace mien::dna {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The head in the box, measured on what it makes: the file, and the geometry that evaluating it
 // gives. A skinner in double precision stands here on purpose, independent of the library's.
-#include "runtime/author/procedural_head.h"
+#include "author/generate/head/procedural_head.h"
 
 #include <gtest/gtest.h>
 
@@ -15,8 +15,8 @@
 #include <string>
 #include <vector>
 
-#include "runtime/author/procedural_head_dna.h"
-#include "runtime/author/random.h"
+#include "author/base/random.h"
+#include "author/generate/head/dna.h"
 #include "tests/support/counting_allocator.h"
 #include "tests/support/rig_handles.h"
 

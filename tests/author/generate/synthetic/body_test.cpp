@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The generated body, and learned behavior of any generated rig: what is in them, and that all of
 // it moves something.
-#include "runtime/author/synthetic_body.h"
+#include "author/generate/synthetic/body.h"
 
 #include <gtest/gtest.h>
 

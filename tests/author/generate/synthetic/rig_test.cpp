@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/author/synthetic_rig.h"
+#include "author/generate/synthetic/rig.h"
 
 #include <gtest/gtest.h>
 
@@ -14,9 +14,9 @@
 #include <utility>
 #include <vector>
 
-#include "runtime/author/random.h"
-#include "runtime/dna/check/dna_check.h"
-#include "runtime/dna/format/dna_writer.h"
+#include "author/base/random.h"
+#include "runtime/load/dna/check/dna_check.h"
+#include "runtime/load/dna/format/dna_writer.h"
 
 namespace mien {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A good rig passes in silence; each way to break one thing is found, at its place, as what it is.
-#include "runtime/dna/check/dna_check.h"
+#include "runtime/load/dna/check/dna_check.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // How findings are told: where, in which words, how many at most, and when to stop.
-#include "runtime/dna/check/dna_checker.h"
+#include "runtime/load/dna/check/dna_checker.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Networks in another coordinate system: inputs that are parts of a quaternion change their sign,
 // outputs that move joints their unit. Where one set of weights cannot do both, the call refuses.
-#include "runtime/dna/convert/convert_networks.h"
+#include "runtime/load/dna/convert/convert_networks.h"
 
 #include <gtest/gtest.h>
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "runtime/author/random.h"
-#include "runtime/dna/convert/lod_selection.h"
+#include "author/base/random.h"
+#include "runtime/load/dna/convert/lod_selection.h"
 #include "tests/support/lod_cuts.h"
 
 namespace mien {

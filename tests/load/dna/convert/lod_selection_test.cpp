@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A file opened with some of its LODs: which things remain, and that every number points at what it
 // pointed at before. What comes out of such a file: lod_selection_results_test.cpp.
-#include "runtime/dna/convert/lod_selection.h"
+#include "runtime/load/dna/convert/lod_selection.h"
 
 #include <gtest/gtest.h>
 

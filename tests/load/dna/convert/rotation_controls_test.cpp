@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Which controls are parts of a quaternion: names, solvers, twists, swings and ML joints tell. What two of
 // them tell differently, or what reads a part alone, is refused.
-#include "runtime/dna/convert/rotation_controls.h"
+#include "runtime/load/dna/convert/rotation_controls.h"
 
 #include <gtest/gtest.h>
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Fields by name: every field of every layer under the name that the format gives it, and nothing
 // under any other.
-#include "runtime/dna/format/dna_path.h"
+#include "runtime/load/dna/format/dna_path.h"
 
 #include <gtest/gtest.h>
 
 #include <cstring>
 #include <set>
 
-#include "runtime/dna/dna_reader.h"
-#include "runtime/dna/format/record_size.h"
+#include "runtime/load/dna/dna_reader.h"
+#include "runtime/load/dna/format/record_size.h"
 #include "tests/support/dna_bytes.h"
 #include "tests/support/tiny_rig.h"
 

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "runtime/author/synthetic_rig.h"
-#include "runtime/dna/check/check_written.h"
-#include "runtime/dna/dna_reader.h"
-#include "runtime/dna/format/dna_writer.h"
+#include "author/generate/synthetic/rig.h"
+#include "runtime/load/dna/check/check_written.h"
+#include "runtime/load/dna/dna_reader.h"
+#include "runtime/load/dna/format/dna_writer.h"
 #include "tests/support/dna_bytes.h"
 #include "tests/support/golden.h"
 #include "tests/support/tiny_rig.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "capi/arguments.h"
+#include "capi/arguments/arguments.h"
 
 #include <cstdarg>
 #include <cstdio>

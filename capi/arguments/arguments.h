@@ -6,7 +6,7 @@
 #include <cstring>
 #include <initializer_list>
 
-#include "capi/mien.h"
+#include "capi/include/mien.h"
 #include "runtime/base/allocator.h"
 #include "runtime/base/status.h"
 
