@@ -52,7 +52,7 @@ def self_test():
 def main():
     if "--self-test" in sys.argv:
         self_test()
-    version = version_of((ROOT / "capi/include/mien.h").read_text())
+    version = version_of((ROOT / "capi/include/mien/base.h").read_text())
     fuzzers = sorted(path.stem for path in (ROOT / "tests/fuzz/corpus").glob("*.xz"))
     faults = len((ROOT / "tests/mutation/faults.tsv").read_text().splitlines()) - 1
     found = mistakes((ROOT / "SECURITY.md").read_text(), version, fuzzers, faults)

@@ -96,7 +96,7 @@ def main():
         self_test()
     api = json.loads((HERE / "mien_api.json").read_text(encoding="utf-8"))
     bodies = {}
-    for file in (file for folder in (ROOT / "capi", ROOT / "author" / "capi")
+    for file in (file for folder in (ROOT / "capi", ROOT / "capi" / "arguments", ROOT / "author" / "capi")
                  for pattern in ("*.cpp", "*.h") for file in sorted(folder.glob(pattern))):
         for name, body in functions_in(file.read_text(encoding="utf-8")).items():
             bodies[name] = bodies.get(name, "") + body
