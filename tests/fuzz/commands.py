@@ -37,6 +37,7 @@ COMMANDS = [
     "info {rig} --json", "info {rig} --names all --lods 0-1", "info {baked}", "info {clip}",
     "validate {rig}", "validate {baked} {rig} --json",
     "eval {rig} -i {frames} -o {out:json} --lod all", "eval {baked} -i {frames} -o {out:csv} --format csv",
+    "extract {asset} -o {out:dna}", "extract {asset} --json", "info {asset}", "validate {asset}",
     "convert {rig} -o {out:dna} --version 2.2 --unknown drop", "convert {rig} -o {out:dna} --lods 1-2",
     "convert {rig} -o {out:dna} --system unreal --layers behavior,geometry",
     "export {rig} -o {out:glb} --animation {frames}", "export {rig} -o {out:glb} --quantize --lod all",
@@ -62,12 +63,15 @@ def make_inputs(program, folder):
     """Files of each kind, made by the program itself."""
     def run(*arguments):
         subprocess.run([program, "-q", *map(str, arguments)], check=True, env=ENVIRONMENT)
-    inputs = {kind: [] for kind in "rig baked frames table clip scene obj glb".split()}
+    inputs = {kind: [] for kind in "rig asset baked frames table clip scene obj glb".split()}
     for name, options in (("plain", []), ("networks", ["--ml"]), ("body", ["--preset", "body"])):
         rig = folder / f"{name}.dna"
         run("gen", "-o", rig, *options)
         run("bake", rig, "-o", folder / f"{name}.rig")
         inputs["rig"].append(rig)
+        asset = folder / f"{name}.uasset"
+        asset.write_bytes(b"\xc1\x83\x2a\x9e" + bytes(500) + rig.read_bytes() + bytes(100))
+        inputs["asset"].append(asset)
         inputs["baked"].append(folder / f"{name}.rig")
     run("export", folder / "plain.dna", "-o", folder / "face.obj")
     run("export", folder / "plain.dna", "-o", folder / "face.glb")

@@ -30,6 +30,7 @@ Command add_eval_command(CLI::App& app, const Session& session);
 Command add_bake_command(CLI::App& app, const Session& session);
 Command add_convert_command(CLI::App& app, const Session& session);
 Command add_export_command(CLI::App& app, const Session& session);
+Command add_extract_command(CLI::App& app, const Session& session);
 Command add_gen_command(CLI::App& app, const Session& session);
 Command add_demo_head_command(CLI::App& app, const Session& session);
 Command add_author_command(CLI::App& app, const Session& session);

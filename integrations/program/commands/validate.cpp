@@ -6,6 +6,7 @@
 
 #include "integrations/program/commands/commands.h"
 #include "integrations/program/io/baked_file.h"
+#include "integrations/program/io/dna_streams.h"
 #include "integrations/program/io/json_writer.h"
 #include "integrations/program/io/output.h"
 #include "integrations/program/io/rig_file.h"
@@ -91,6 +92,14 @@ std::string text_of(const Checked& checked, const Session& session) {
   return text + one_line(checked.shown) + ": " + paint(verdict, Style::kGreen, colors) + "\n";
 }
 
+void take_report(Checked& checked, MienStatus status, MienReport* report, const MienError& error) {
+  check(status, &error, "cannot validate", checked.shown);
+  checked.report.reset(report);
+  check(mien_report_counts(report, &checked.errors, &checked.warnings), nullptr, "cannot validate",
+        checked.shown);
+  checked.findings = gather(report, checked.errors + checked.warnings, checked.shown);
+}
+
 // Takes about a second to check.
 constexpr uint64_t kLargeBytes = uint64_t{200} << 20;
 
@@ -119,11 +128,17 @@ Checked check_rig(const std::string& rig, const Session& session) {
   } else {
     status = mien_dna_validate_file(rig.c_str(), nullptr, &made, &error);
   }
-  check(status, &error, "cannot validate", checked.shown);
-  checked.report.reset(made);
-  check(mien_report_counts(made, &checked.errors, &checked.warnings), nullptr, "cannot validate",
-        checked.shown);
-  checked.findings = gather(made, checked.errors + checked.warnings, checked.shown);
+  take_report(checked, status, made, error);
+  if (checked.findings.empty() || checked.findings[0].status != MIEN_ERROR_DNA_SIGNATURE)
+    return checked;
+
+  FileBytes file = is_stream(rig) ? FileBytes(checked.shown, std::move(bytes)) : FileBytes(rig);
+  if (const auto inside = only_dna_stream(file, "cannot validate")) {
+    const std::string dna = file.read(inside->offset, inside->size);
+    checked.shown += ", DNA stream at byte " + std::to_string(inside->offset);
+    status = mien_dna_validate_memory(dna.data(), dna.size(), nullptr, &made, &error);
+    take_report(checked, status, made, error);
+  }
   return checked;
 }
 

@@ -85,11 +85,17 @@ bool is_stream(const std::string& path) {
 std::string read_rig_stream(const std::string& path) {
   const auto judge = [](const std::string& text, size_t) {
     if (text.size() < 8) return Verdict::kUndecided;
-    return text.compare(0, 3, "DNA") == 0 || is_baked_bytes(text) ? Verdict::kWanted
-                                                                  : Verdict::kOther;
+    const bool package = text.compare(0, 4, "\xc1\x83\x2a\x9e") == 0;
+    return text.compare(0, 3, "DNA") == 0 || is_baked_bytes(text) || package ? Verdict::kWanted
+                                                                             : Verdict::kOther;
   };
   return read(path, "cannot read rig",
               {kMaxRigBytes, "4 GiB", "no rig is that large; check what was given", judge});
+}
+
+std::string read_any_bytes(const std::string& path, const std::string& what) {
+  const auto judge = [](const std::string&, size_t) { return Verdict::kWanted; };
+  return read(path, what, {kMaxRigBytes, "4 GiB", "write it to a file first", judge});
 }
 
 std::string read_viewable(const std::string& path) {

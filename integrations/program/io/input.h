@@ -21,9 +21,12 @@ std::string shown_name(const std::string& path);
 /// Whether `path` has to be read from its beginning to its end: "-", a pipe, a device.
 bool is_stream(const std::string& path);
 
-/// The bytes of a stream that should hold a DNA file or a baked file. Of another one the beginning is
-/// returned, for the library to refuse.
+/// The bytes of a stream that should hold a DNA file, a baked file or an Unreal package. Of another one the
+/// beginning is returned, for the library to refuse.
 std::string read_rig_stream(const std::string& path);
+
+/// All bytes of a stream, whatever they are.
+std::string read_any_bytes(const std::string& path, const std::string& what);
 
 /// A file or stream that should hold a DNA file, a baked file or a GLB. Of another one the beginning is
 /// returned.

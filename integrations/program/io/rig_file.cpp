@@ -2,6 +2,7 @@
 #include "integrations/program/io/rig_file.h"
 
 #include "integrations/program/io/baked_file.h"
+#include "integrations/program/io/dna_streams.h"
 #include "integrations/program/io/input.h"
 
 namespace mien::cli {
@@ -24,6 +25,14 @@ RigFile open_rig_file(const std::string& path, const MienDnaDesc& desc, const Se
     fail(kInvalid, "cannot open rig", file.shown,
          "this is a baked file, and the command needs a DNA file",
          "give the DNA file that it was baked from");
+  }
+  if (status == MIEN_ERROR_DNA_SIGNATURE) {
+    FileBytes bytes = stream ? FileBytes(file.shown, std::move(file.bytes)) : FileBytes(path);
+    if (const auto inside = only_dna_stream(bytes, "cannot open rig")) {
+      file.bytes = bytes.read(inside->offset, inside->size);
+      file.shown += ", DNA stream at byte " + std::to_string(inside->offset);
+      status = mien_dna_open_memory(file.bytes.data(), file.bytes.size(), &desc, &dna, &error);
+    }
   }
   const bool refused_system = desc.system && status == MIEN_ERROR_DNA_VALUE;
   check(status, &error, "cannot open rig", file.shown,
