@@ -7,7 +7,7 @@ namespace mien {
 namespace {
 
 enum Direction : uint32_t { kLeft, kRight, kUp, kDown, kFront, kBack };
-enum Length : uint32_t { kCentimetres, kMetres };
+enum Length : uint32_t { kCentimeters, kMeters };
 enum Angle : uint32_t { kDegrees, kRadians };
 enum Sequence : uint32_t { kXyz, kXzy, kYxz, kYzx, kZxy, kZyx };
 constexpr RotationRule kCarried = RotationRule::kCarried;
@@ -58,16 +58,16 @@ uint32_t carried_sequence(uint32_t sequence, const uint8_t to[3]) {
 //   houdini      Houdini documentation: right-handed, y up, meters, degrees, Rx Ry Rz; characters
 //                look along +z
 const NamedSystem kNamedSystems[kNamedSystemCount] = {
-    {"maya", {{kLeft, kUp, kFront}, kCentimetres, kDegrees, kCarried, kXyz, {1, 1, 1}, 0}},
-    {"unreal", {{kFront, kRight, kUp}, kCentimetres, kDegrees, kCarried, kXyz, {-1, -1, 1}, 1}},
-    {"unreal-mesh", {{kLeft, kFront, kUp}, kCentimetres, kDegrees, kCarried, kXyz, {-1, -1, 1}, 1}},
-    {"unity", {{kRight, kUp, kFront}, kMetres, kDegrees, kCarried, kZxy, {1, 1, 1}, 0}},
-    {"godot", {{kLeft, kUp, kFront}, kMetres, kRadians, kCarried, kZxy, {1, 1, 1}, 1}},
-    {"blender", {{kLeft, kBack, kUp}, kMetres, kRadians, kCarried, kXyz, {1, 1, 1}, 0}},
-    {"gltf", {{kLeft, kUp, kFront}, kMetres, kRadians, kCarried, kXyz, {1, 1, 1}, 0}},
-    {"opengl", {{kRight, kUp, kBack}, kMetres, kRadians, kCarried, kXyz, {1, 1, 1}, 0}},
-    {"directx", {{kRight, kUp, kFront}, kMetres, kRadians, kCarried, kZxy, {1, 1, 1}, 0}},
-    {"houdini", {{kLeft, kUp, kFront}, kMetres, kDegrees, kCarried, kXyz, {1, 1, 1}, 0}},
+    {"maya", {{kLeft, kUp, kFront}, kCentimeters, kDegrees, kCarried, kXyz, {1, 1, 1}, 0}},
+    {"unreal", {{kFront, kRight, kUp}, kCentimeters, kDegrees, kCarried, kXyz, {-1, -1, 1}, 1}},
+    {"unreal-mesh", {{kLeft, kFront, kUp}, kCentimeters, kDegrees, kCarried, kXyz, {-1, -1, 1}, 1}},
+    {"unity", {{kRight, kUp, kFront}, kMeters, kDegrees, kCarried, kZxy, {1, 1, 1}, 0}},
+    {"godot", {{kLeft, kUp, kFront}, kMeters, kRadians, kCarried, kZxy, {1, 1, 1}, 1}},
+    {"blender", {{kLeft, kBack, kUp}, kMeters, kRadians, kCarried, kXyz, {1, 1, 1}, 0}},
+    {"gltf", {{kLeft, kUp, kFront}, kMeters, kRadians, kCarried, kXyz, {1, 1, 1}, 0}},
+    {"opengl", {{kRight, kUp, kBack}, kMeters, kRadians, kCarried, kXyz, {1, 1, 1}, 0}},
+    {"directx", {{kRight, kUp, kFront}, kMeters, kRadians, kCarried, kZxy, {1, 1, 1}, 0}},
+    {"houdini", {{kLeft, kUp, kFront}, kMeters, kDegrees, kCarried, kXyz, {1, 1, 1}, 0}},
 };
 
 bool spans_space(const uint32_t axes[3]) {
@@ -94,8 +94,8 @@ CoordinateChange coordinate_change(const CoordinateSystem& from, const Coordinat
   const bool even = (change.from[0] + 1) % 3 == change.from[1];
   const double handedness = sign[0] * sign[1] * sign[2] * (even ? 1 : -1);
 
-  constexpr double kCentimetresOf[] = {1, 100}, kRadiansOf[] = {kRadiansPerDegree, 1};
-  change.length_unit = kCentimetresOf[from.translation_unit] / kCentimetresOf[to.translation_unit];
+  constexpr double kCentimetersOf[] = {1, 100}, kRadiansOf[] = {kRadiansPerDegree, 1};
+  change.length_unit = kCentimetersOf[from.translation_unit] / kCentimetersOf[to.translation_unit];
   change.angle_unit = kRadiansOf[from.rotation_unit] / kRadiansOf[to.rotation_unit];
   for (int d = 0; d < 3; ++d) {
     change.normal[d] = static_cast<float>(sign[d]);

@@ -65,7 +65,7 @@ double interpolate(double y, const double (&table)[N][2]) {
   return interpolate(y, &table[0][0], &table[0][1], 2, N);
 }
 
-constexpr double kCentreZ = -0.4;
+constexpr double kCenterZ = -0.4;
 
 /// The larger one, and a little more where they meet.
 double smooth_max(double a, double b, double width) {
@@ -104,7 +104,7 @@ Form::Section Form::section(double y, double cosine) const {
   s.half_width *= mix(1, p.jaw, bump(0, y, 0, -8.2, 1, 3.2));
   s.half_width *= mix(1, p.face, bump(0, y, 0, -2.0, 1, 3.0));
   s.half_width *= mix(1, p.breadth, smooth_step(0, 6, y));
-  s.back = mix(s.back, kCentreZ + (s.back - kCentreZ) * p.length, smooth_step(-10, -2, y));
+  s.back = mix(s.back, kCenterZ + (s.back - kCenterZ) * p.length, smooth_step(-10, -2, y));
   s.front += p.forehead * smooth_step(3.5, 9, y);
   const double neck = mix(1, p.neck, smooth_step(-9.8, -12.2, y));
   s.half_width *= neck;
@@ -284,8 +284,8 @@ FacePoint Form::face(double angle, double y, Side side) const {
   const double front_mask = smooth_step(0, 0.42, cosine);
   Vec3 p;
   p.x = at.half_width * across;
-  p.z = cosine > 0 ? kCentreZ + (at.front - kCentreZ) * along
-                   : kCentreZ - (kCentreZ - at.back) * along;
+  p.z = cosine > 0 ? kCenterZ + (at.front - kCenterZ) * along
+                   : kCenterZ - (kCenterZ - at.back) * along;
 
   // Rows rise towards the back around the jaw, so that its edge runs up to the ear.
   const auto lift_at = [c = cosine](double row) {

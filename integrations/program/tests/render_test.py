@@ -223,7 +223,7 @@ class Several(RenderTest):
         self.assertEqual(inked, [labels] * count + [False] * (rows * columns - count))
         return found
 
-    def test_a_sheet_has_a_labelled_tile_for_each_control(self):
+    def test_a_sheet_has_a_labeled_tile_for_each_control(self):
         for rig in ("tiny", "small"):
             count = len(self.names(rig, "raw"))
             picture = self.picture("--sheet", "--size", "48", "--columns", "7", rig=rig)
