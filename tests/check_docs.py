@@ -20,7 +20,7 @@ SUFFIXES = {".h", ".hpp", ".c", ".cpp", ".inl", ".py", ".rs", ".cmake", ".txt", 
             ".map"}
 # Named before they exist.
 NOT_YET = {"capi/mien_abi.json"}
-AREAS = ("bench", "capi", "docs", "integrations", "runtime", "simd", "tests")
+AREAS = ("author", "bench", "capi", "docs", "examples", "integrations", "runtime", "simd", "tests")
 
 HEADING = re.compile(r"^(#{1,6})\s+(.*?)\s*#*$")
 NUMBERED = re.compile(r"(\d+(?:\.\d+)*)\.?\s+(.*)")
@@ -241,7 +241,7 @@ def problems_of(files):
     with tempfile.TemporaryDirectory() as folder:
         root = Path(folder).resolve()
         for name, text in files.items():
-            (root / name).parent.mkdir(exist_ok=True)
+            (root / name).parent.mkdir(parents=True, exist_ok=True)
             (root / name).write_text(text, encoding="utf-8")
         return Checker(root).run()
 
