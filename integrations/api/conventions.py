@@ -172,6 +172,8 @@ class Conventions:
         parameters = function["parameters"]
         for parameter in parameters:
             self.describe_parameter(function, parameter, plain)
+        if len(re.findall(r"\bmay be NULL", plain)) != sum(may_be_null(p, plain) for p in parameters):
+            fail(name, "of which parameter does \"may be NULL\" speak?")
         result = next((p for p in parameters if p["role"] == "object"), None)
         for parameter in parameters:
             parameter["lifetime"] = self.lifetime(function, parameter, result, plain)
@@ -416,6 +418,10 @@ def direction(parameter):
     return "inout"
 
 
+def may_be_null(parameter, text):
+    return re.search(rf"`{parameter['name']}`(, which)? may be NULL", text) is not None
+
+
 def nullable(function, parameter, text):
     """By the rules of mien.h, or because the comment says so."""
     if parameter["type"]["kind"] != "pointer":
@@ -424,4 +430,4 @@ def nullable(function, parameter, text):
         return False
     return parameter["name"] in ("desc", "allocator", "error") \
         or RELEASE.search(function) is not None \
-        or f"`{parameter['name']}` may be NULL" in text
+        or may_be_null(parameter, text)

@@ -88,7 +88,9 @@ class Functions(unittest.TestCase):
     def test_null(self):
         declaration = "mien_new(const MienParallelFor* parallel)"
         self.assertTrue(parameter("`parallel`\n * may be NULL.", declaration, "parallel")["nullable"])
+        self.assertTrue(parameter("Runs `parallel`, which\n * may be NULL.", declaration, "parallel")["nullable"])
         self.assertFalse(parameter("Runs `parallel`.", declaration, "parallel")["nullable"])
+        self.refused("may be NULL", "Runs `parallel`, and it may be NULL.", declaration)
         declaration = "mien_new(const MienBatchDesc* desc)"
         self.assertTrue(parameter("Does it.", declaration, "desc")["nullable"])
         self.assertFalse(parameter("`desc` is required.", declaration, "desc")["nullable"])

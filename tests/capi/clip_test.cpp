@@ -175,6 +175,17 @@ TEST(CapiClip, RowsMayHaveGaps) {
   }
 }
 
+TEST(CapiClip, WithoutChannelsRowsMayBeNull) {
+  Take take(Curves(0, 5));
+  const ClipHandle clip = build(take.desc());
+  EXPECT_EQ(mien_clip_read(clip.get(), 0, 5, nullptr, 0, nullptr), MIEN_OK);
+  EXPECT_EQ(mien_clip_read(clip.get(), 1, 4, nullptr, 7, nullptr), MIEN_OK);
+  float untouched = 3;
+  EXPECT_EQ(mien_clip_read(clip.get(), 0, 5, &untouched, 0, nullptr), MIEN_OK);
+  EXPECT_EQ(untouched, 3);
+  EXPECT_EQ(mien_clip_read(clip.get(), 1, 5, nullptr, 0, nullptr), MIEN_ERROR_INDEX);
+}
+
 TEST(CapiClip, TellsWhatItWasBuiltOf) {
   Take take(clean_solve(1, 90));
   take.names[7] = "CTRL_expressions.jawOpen";

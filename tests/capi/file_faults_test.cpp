@@ -21,6 +21,7 @@
 #include "tests/support/baked_bytes.h"
 #include "tests/support/counting_allocator.h"
 #include "tests/support/memory_stream.h"
+#include "tests/support/public_functions.h"
 #include "tests/support/rig_handles.h"
 
 // The calls of the system, in front of those of the C library -------------------------------------
@@ -126,18 +127,14 @@ size_t open_descriptors() {
   return count;
 }
 
-/// Functions of mien_api.json that read or write files or streams, by their names.
+/// Public functions that read or write files or streams, by their names.
 std::set<std::string> functions_of_files() {
-  std::ifstream in(MIEN_API_FILE);
   std::set<std::string> found;
-  std::string line;
-  while (std::getline(in, line)) {
-    const size_t at = line.find("\"name\": \"mien_");
-    if (at == std::string::npos) continue;
-    const std::string name = line.substr(at + 9, line.find('"', at + 9) - at - 9);
-    for (const char* end : {"_file", "_stream"}) {
-      const size_t length = strlen(end);
-      if (name.size() > length && name.compare(name.size() - length, length, end) == 0) {
+  for (const PublicFunction& function : kPublicFunctions) {
+    const std::string name = function.name;
+    for (const std::string end : {"_file", "_stream"}) {
+      if (name.size() > end.size() &&
+          name.compare(name.size() - end.size(), end.size(), end) == 0) {
         found.insert(name);
       }
     }
