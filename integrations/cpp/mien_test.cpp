@@ -35,6 +35,71 @@ struct Bytes {
   }
 };
 
+/// A stream whose function says that it has copied another number of bytes than it was asked for.
+struct Liar {
+  Bytes bytes;
+  size_t (*told)(size_t asked);
+
+  MienStream stream() { return {this, bytes.data.size(), read}; }
+  static size_t read(void* user, uint64_t offset, void* buffer, size_t size) {
+    Liar& liar = *static_cast<Liar*>(user);
+    const size_t told = liar.told(size);
+    Bytes::read(&liar.bytes, offset, buffer, told < size ? told : size);
+    return told;
+  }
+};
+
+/// Streams that give too much, too little, nothing, or have no function.
+template <typename Object>
+void test_streams_of(const std::vector<unsigned char>& data) {
+  size_t (*const lies[])(size_t) = {
+      [](size_t) { return size_t{0}; },
+      [](size_t asked) { return asked - 1; },
+      [](size_t asked) { return asked + 1; },
+      [](size_t) { return SIZE_MAX; },
+  };
+  for (const auto lie : lies) {
+    Liar liar = {{data}, lie};
+    CHECK(Object::open(liar.stream()).status() == MIEN_ERROR_FILE_READ);
+  }
+  Liar honest = {{data}, [](size_t asked) { return asked; }};
+  CHECK(Object::open(honest.stream()));
+  MienStream without = honest.stream();
+  without.read = nullptr;
+  CHECK(Object::open(without).status() == MIEN_ERROR_NULL_ARGUMENT);
+  MienStream empty = honest.stream();
+  empty.size = 0;
+  CHECK(!Object::open(empty));
+  MienStream endless = honest.stream();
+  endless.size = UINT64_MAX;
+  endless.read = [](void*, uint64_t, void*, size_t) { return size_t{0}; };
+  CHECK(!Object::open(endless));
+}
+
+void test_streams() {
+  const mien::Dna dna = generated();
+  std::vector<unsigned char> bytes(dna.write(mien::Span<unsigned char>()).value());
+  CHECK(dna.write(bytes));
+  test_streams_of<mien::Dna>(bytes);
+
+  const mien::Rig rig = mien::Rig::create(dna).value();
+  bytes.resize(mien::bake(mien::Span<unsigned char>(), rig).value());
+  CHECK(mien::bake(bytes, rig));
+  test_streams_of<mien::Baked>(bytes);
+
+  const MienStringView name = mien::view("jawOpen");
+  const float values[] = {0, 1};
+  mien::ClipDesc desc;
+  desc.frame_count = 2;
+  desc.channel_count = 1;
+  desc.names = &name;
+  desc.values = values;
+  const mien::Clip clip = mien::Clip::build(desc).value();
+  bytes.resize(clip.write(mien::Span<unsigned char>()).value());
+  CHECK(clip.write(bytes));
+  test_streams_of<mien::Clip>(bytes);
+}
+
 void test_baked_files() {
   const mien::Dna dna = generated();
   const mien::Rig rig = mien::Rig::create(dna).value();
@@ -562,6 +627,7 @@ int main() {
   CHECK(mien::version() == MIEN_VERSION && mien::is_available(MIEN_ISA_SCALAR));
   CHECK(std::string(mien::name_of(MIEN_ISA_SCALAR)) == "scalar");
   test_life();
+  test_streams();
   test_baked_files();
   test_clips();
   test_mixing();

@@ -32,7 +32,7 @@
 #define MIEN_CHECKED MIEN_API
 #endif
 
-/* Calling convention of callbacks. */
+/* Calling convention of callbacks. They return to the library: they neither throw nor jump past it. */
 #if defined(_WIN32) && !defined(_WIN64)
 #define MIEN_CALLBACK __cdecl
 #else
@@ -192,8 +192,8 @@ typedef struct MienIndex32View {
 typedef struct MienStream {
     void* user;    /* passed to the function */
     uint64_t size; /* of the file, in bytes */
-    /* Copies `size` bytes at `offset` to `buffer` and returns the number of bytes copied; a smaller
-     * number is an error. The range is within the file. */
+    /* Copies `size` bytes at `offset` to `buffer`, never more, and returns the number of bytes copied;
+     * any number but `size` is an error. The range is within the file. */
     size_t(MIEN_CALLBACK* read)(void* user, uint64_t offset, void* buffer, size_t size);
 } MienStream;
 

@@ -303,9 +303,11 @@ class FileStream:
         self._file = file
         self._raised: Optional[BaseException] = None
         kind: Any = dict(_api.MienStream._fields_)["read"]
-        start = file.tell()
+        start = index(file.tell())
         self._start = start
-        size = file.seek(0, os.SEEK_END) - start
+        size = index(file.seek(0, os.SEEK_END)) - start
+        if not 0 <= size < 1 << 63:  # ctypes would take it modulo 2**64
+            raise ArgumentError(f"the file object begins at {start} and has {size} bytes after that")
         self.stream = _api.MienStream(size=size, read=kind(self._read))
 
     def _read(self, _user: Any, offset: int, buffer: int, size: int) -> int:
@@ -313,10 +315,14 @@ class FileStream:
             self._file.seek(self._start + offset)
             done = 0
             while done < size:  # raw files may give less than they are asked for
-                part = self._file.read(size - done)
+                # Of what a file object returns nothing is certain: neither its type nor its length.
+                part = memoryview(self._file.read(size - done)).tobytes()
+                if len(part) > size - done:
+                    raise ArgumentError(f"read({size - done}) of {type(self._file).__name__} returned "
+                                        f"{len(part)} bytes")
                 if not part:
                     break
-                ctypes.memmove(buffer + done, bytes(part), len(part))
+                ctypes.memmove(buffer + done, part, len(part))
                 done += len(part)
             return done
         except BaseException as raised:  # must not cross the library

@@ -53,22 +53,27 @@ def call_with_threads(executor: Optional[Executor], call: Callable[[Any], None])
         call(None)
         return
     threads, failures = executor, []  # type: Executor, List[BaseException]
+    is_done = False
 
     def run(user: Any, count: int, task: Any, context: Any) -> None:
         tasks = _Tasks(task, context, count)
         try:
             for _ in range(min(count - 1, 64)):
                 threads.submit(tasks.work)
-        except RuntimeError as error:  # the pool was shut down meanwhile
+        except BaseException as error:  # must not cross the library, which takes all tasks for done
             failures.append(error)
         tasks.finish()
 
     def job() -> None:
+        nonlocal is_done
+        is_done = True
         call(ctypes.byref(_api.MienParallelFor(None, _run_type(run))))
         if failures:
             raise failures[0]
 
     if current_thread() is main_thread():
         threads.submit(job).result()
+        if not is_done:
+            raise TypeError(f"{type(threads).__name__} did not run what was submitted")
     else:
         job()

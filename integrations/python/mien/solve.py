@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 from _thread import allocate_lock
 from contextlib import ExitStack, contextmanager
+from operator import index
 from threading import local
 from typing import Any, Callable, Iterable, Iterator, List, NamedTuple, Optional, Sequence, Tuple, Union
 
@@ -135,7 +136,11 @@ class _Function:
     """A custom solver as the library calls it."""
 
     def __init__(self, solver: CustomSolver, lane_count: int) -> None:
-        self._solver, self._lane_count = solver, lane_count
+        # As numbers: the lists of the description may change, the memory of the states does not.
+        self._solve, self._lane_count = solver.solve, lane_count
+        self._previous_count = len(solver.previous_joints)
+        self._output_count = uint32(solver.output_count, "output_count")
+        self._state_floats = uint32(solver.state_floats, "state_floats")
         kind: Any = dict(_api.MienUserSolver._fields_)["solve"]
         self.c = kind(self._call)
 
@@ -144,7 +149,7 @@ class _Function:
         try:
             c = call.contents
             poses = [self._pose(c.poses[i], c.joint_count, steps[-1]) for i in range(c.pose_count)]
-            self._solver.solve(poses, c.ticks)
+            self._solve(poses, c.ticks)
         except BaseException as raised:  # must not cross the library
             steps[-1].raised = steps[-1].raised or raised
 
@@ -154,13 +159,12 @@ class _Function:
             shape = (count // width, width) if width else None
             return array_over(owner, address, count if address else 0, "f", writable, shape)
 
-        solver, lanes = self._solver, self._lane_count
         return SolverPose(over(pose.locals, joints * 10, True, 10),
                           over(pose.models, joints * 16, False, 16),
-                          over(pose.previous, len(solver.previous_joints) * 16, False, 16),
-                          over(pose.row, lanes, False), over(pose.outputs, solver.output_count, True),
-                          over(pose.state, solver.state_floats, True), pose.lod,
-                          bool(pose.is_reset))
+                          over(pose.previous, self._previous_count * 16, False, 16),
+                          over(pose.row, self._lane_count, False),
+                          over(pose.outputs, self._output_count, True),
+                          over(pose.state, self._state_floats, True), pose.lod, bool(pose.is_reset))
 
 
 class _Step:
@@ -250,7 +254,7 @@ class _Lists:
                 solve=function.c, reads=self._joints(s.reads), writes=self._joints(s.writes),
                 previous_joints=self._joints(s.previous_joints), read_count=len(s.reads),
                 write_count=len(s.writes), previous_joint_count=len(s.previous_joints),
-                state_bytes=uint32(4 * s.state_floats, "state_floats"),
+                state_bytes=uint32(4 * index(s.state_floats), "state_floats"),
                 output_count=uint32(s.output_count, "output_count")))
         return to
 

@@ -788,8 +788,8 @@ pub struct MienStream {
     pub user: *mut c_void,
     /// Of the file, in bytes.
     pub size: u64,
-    /// Copies `size` bytes at `offset` to `buffer` and returns the number of bytes copied; a
-    /// smaller number is an error. The range is within the file.
+    /// Copies `size` bytes at `offset` to `buffer`, never more, and returns the number of bytes
+    /// copied; any number but `size` is an error. The range is within the file.
     pub read: Option<unsafe extern "C" fn(user: *mut c_void, offset: u64, buffer: *mut c_void, size: usize) -> usize>,
 }
 
