@@ -52,8 +52,7 @@ Status check_header(const SharedBytes& file, Error& error) {
 
 }  // namespace
 
-// Eight sums that do not wait for each other; each step can be undone, so that a change of one word
-// always shows.
+// Eight independent sums. Each step is invertible, so a change of one word always changes the result.
 uint64_t baked_checksum(const uint8_t* bytes, size_t size) {
   constexpr size_t kLanes = 8, kStep = kLanes * sizeof(uint64_t);
   constexpr uint64_t kOdd = 0x9E37'79B9'7F4A'7C15;
@@ -89,7 +88,7 @@ Status read_baked(Baked& baked, Error& error) {
                 "again");
   }
 
-  // Parts follow each other, so none shares its bytes.
+  // Parts follow each other, so no two share bytes.
   const auto* parts = static_cast<const BakedPart*>(static_cast<const void*>(header + 1));
   uint64_t at = sizeof(BakedHeader) + uint64_t{header->part_count} * sizeof(BakedPart);
   for (uint32_t i = 0; i < header->part_count; ++i) {

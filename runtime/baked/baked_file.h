@@ -62,7 +62,7 @@ inline const BakedHeader* header_of(const uint8_t* bytes) {
 
 enum class BakedCheck : uint32_t {
   kSafe = 0,  // whatever the bytes are, evaluation and deformation stay within the arrays
-  kFull = 1,  // and the bytes are those that were written
+  kFull = 1,  // also compare the checksums
 };
 
 /// A file whose header and table are in order. Parts are checked when objects are made of them.

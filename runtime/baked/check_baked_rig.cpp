@@ -184,7 +184,7 @@ bool check_psds(const RigChecker& c, bool full) {
       !check_leading(c, psds.count_at_lod, count, "correctives")) {
     return false;
   }
-  // The first of a run tells for all of them how many inputs they have.
+  // All entries of a run have as many inputs as the first.
   bool good = true;
   for (uint32_t e = 0; e < count; ++e) {
     const uint32_t first = psds.first_input[e], inputs = psds.first_input[e + 1] - first;
@@ -273,9 +273,9 @@ bool check_targets(const RigChecker& c) {
   return c.ok(good, "targets of the joint matrix");
 }
 
-/// How often pairs or singles are more than in the part behind.
+/// How many parts have more pairs or singles than the part after them.
 size_t count_falls(const Span<ColumnPart>& parts) {
-  constexpr size_t kStrip = 0x4000;  // as many as sums of 16 bits can count
+  constexpr size_t kStrip = 0x4000;  // the most that 16-bit sums can count
   size_t falls = 0;
   for (size_t first = 0; first + 1 < parts.count; first += kStrip) {
     const size_t count = std::min(parts.count - first - 1, kStrip);
@@ -389,7 +389,7 @@ bool check_joints(const RigChecker& c) {
       !check_panels(c)) {
     return false;
   }
-  // Values tell by their absence that they are 16-bit ones, with scales.
+  // An empty array of float values means 16-bit values with scales.
   const size_t values = joints.values.count + joints.fixed_values.count;
   const size_t sums = size_t{joints.panels[joints.panel_count()].first_block_row} * kJointBlockRows;
   const bool stored = rig.half_storage ? joints.values.empty() && joints.scales.count == sums
@@ -617,13 +617,13 @@ bool check_ml(const RigChecker& c) {
          c.ok(!ml.converts || (is_order(ml.change.from) && is_order(ml.change.to)),
               "system of learned behavior") &&
          check_layers(c, widest) && check_steps(c, widest) &&
-         // Each instance takes as much: no more than something asks for.
+         // Every instance allocates this much, so it must not exceed what some step needs.
          c.ok(ml.widest_layer <= widest, "network layers");
 }
 
-/// After all else: what a frame at each LOD takes is counted along indices.
+/// Last, because counting the work of a frame follows indices.
 bool check_work(const RigChecker& c, uint64_t bytes) {
-  // More than compiling allows, whose measure is a little larger than the bytes that are written.
+  // Twice what compiling allows, because compiling measures a rig slightly larger than the bytes written.
   const uint64_t budget = 2 * work_budget(bytes);
   return c.ok(count_rbf_steps(c.rig, budget) <= budget, "work of RBF solvers") &&
          c.ok(count_ml_steps(c.rig, budget) <= budget, "work of learned behavior");

@@ -38,8 +38,8 @@ struct Extent {
   }
 };
 
-/// Of all numbers, counted from `zero`. Most are taken in strips: their length, which the compiler
-/// knows, lets it make vector code with several sums.
+/// Of all numbers, relative to `zero`. Most are processed in strips of a fixed length, which compilers
+/// vectorize with several accumulators.
 template <class T>
 Extent<T> extent_of(const Span<T>& values, T zero = 0) {
   constexpr size_t kStrip = 64 / sizeof(T);

@@ -41,7 +41,7 @@ struct CoordinateChange {
   double angle[3];   // of Euler angles, if the sequence is carried or there is only one angle
   double length_unit, angle_unit;
   bool moves_axes;      // some axis differs
-  bool carries_angles;  // angles only swap places, signs and unit
+  bool carries_angles;  // angles only change order, signs and unit
   bool reverses_faces;
 };
 

@@ -24,7 +24,7 @@ enum class FileAccess : uint32_t {
 
 /// Where reading stops, because a device or a pipe may have no end. Mapped files have no such limit.
 struct FileLimits {
-  /// What does not begin like this is not read any further: the caller sees it and refuses.
+  /// Reading stops early if the file does not begin like this; the caller refuses it.
   const char* signature = nullptr;
   size_t signature_size = 0;
   /// More fails with kFileRead.

@@ -70,7 +70,7 @@ Status fail(Error& error, Status status, uint64_t byte_offset, const char* forma
 void make_printable(char* text) {
   uint8_t* at = reinterpret_cast<uint8_t*>(text);
   while (*at) {
-    // How many bytes follow, and the smallest number that needs so many.
+    // How many bytes follow, and the smallest code point that needs that many.
     const uint32_t lead = *at;
     const int more = lead < 0x80       ? 0
                      : lead >> 5 == 6  ? 1

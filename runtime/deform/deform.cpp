@@ -12,7 +12,7 @@ constexpr float kMinChannelWeight = 1e-5f;
 constexpr uint32_t kMinParallelPositions = 16384;
 constexpr uint32_t kTaskPositions = 1024;  // or faces, or vertices
 constexpr uint32_t kTaskBlocks = kTaskPositions / kBlockPositions;
-constexpr uint32_t kMinTasks = 64;  // that skinning is cut into, if there are enough instances
+constexpr uint32_t kMinTasks = 64;  // of skinning, if there are enough instances
 
 uint32_t divide_up(size_t a, size_t b) { return static_cast<uint32_t>((a + b - 1) / b); }
 

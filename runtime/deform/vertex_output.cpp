@@ -6,9 +6,9 @@
 namespace mien {
 namespace {
 
-/// Vertex i takes `size` bytes from begin + i * stride on.
+/// Vertex i takes `size` bytes at begin + i * stride.
 struct Run {
-  uintptr_t begin, end;  // of all vertices
+  uintptr_t begin, end;  // the extent of all vertices
   size_t size, stride;
 };
 

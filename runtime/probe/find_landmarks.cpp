@@ -9,7 +9,8 @@ namespace {
 
 constexpr double kTouching = 0.01;  // millimeters
 constexpr double kApart = 2;        // millimeters
-// Lids move when eyes look or smile, and jaws when anything is said: that is no blink and no s.
+// Lids also move when the eyes look around or the face smiles, and the jaw moves in all speech: smaller
+// motions are no blink and no S.
 constexpr float kLidsOn = 6, kTeethOn = 4;
 
 /// Positions on the two edges of a slit, and where they meet, from right to left.
@@ -183,7 +184,7 @@ class Finder {
   RigProbe& probe_;
   Arena& arena_;
   StandardGuards& out_;
-  Span<EdgePair> edges_;  // found last
+  Span<EdgePair> edges_;  // the pair found last
   uint32_t mesh_ = 0;     // of these
   bool failed_ = false;
 };

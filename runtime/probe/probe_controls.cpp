@@ -16,7 +16,7 @@ Status no_memory(Error& error) {
 // Mirror images
 // ------------------------------------------------------------------------------------------------
 
-constexpr double kSame = 0.25;  // of the size of a motion: by so much mirror images may differ
+constexpr double kSame = 0.25;  // share of the motion by which mirror images may differ
 constexpr uint32_t kMaxName = 256;
 
 bool begins_with(Span<const char> text, size_t at, const char* word) {
@@ -66,7 +66,7 @@ uint16_t find_mirrored_name(const NameList& names, uint32_t index) {
   return 0xFFFF;
 }
 
-/// How three points at each joint are displaced: in the middle, to the front, and above it.
+/// Displacements of three points at each joint: at its origin, in front of it, and above it.
 constexpr uint32_t kMotionFloats = 9;
 constexpr uint32_t kMaxMotions = 1 << 22;  // 151 MB
 
@@ -136,7 +136,7 @@ class Mirror {
     }
   }
 
-  /// Of the size of the first: 0 if one motion is the mirror image of the other.
+  /// The difference as a share of the first motion: 0 if one is the mirror image of the other.
   double difference(uint16_t a, uint16_t b) const {
     double square = 0;
     for (uint32_t j = 0; j < rig_.joint_count; ++j) {
@@ -242,7 +242,7 @@ Status find_mirror(const Deformer& deformer, const Allocator& allocator, Span<ui
   if (!mirror.ready()) return no_memory(error);
   mirror.measure();
   for (uint16_t c = 0; c < out.count; ++c) out[c] = mirror.find(c);
-  // Only pairs that agree: a map that is not its own inverse would lose controls.
+  // Only pairs that name each other: a map that is not its own inverse would lose controls.
   for (uint16_t c = 0; c < out.count; ++c) {
     if (out[out[c]] != c) out[c] = c;
   }

@@ -8,7 +8,7 @@
 namespace mien {
 namespace {
 
-constexpr double kLeastTangent = 0.05;  // some three degrees
+constexpr double kLeastTangent = 0.05;  // about three degrees
 constexpr double kMaxAcross = 0.35;     // of the tangent in the direction itself
 
 struct Eye {
@@ -35,7 +35,7 @@ void pose(RigProbe& probe, std::initializer_list<uint16_t> controls, float value
   probe.pose();
 }
 
-/// The tangent of a direction; what lies across it goes to `aside`.
+/// The tangent of a direction; the component across it goes to `aside`.
 double part_of(Vec3 d, uint32_t direction, double& aside) {
   if (!(d.z > 0)) return 0;
   const double across = d.x / d.z, above = d.y / d.z;
@@ -44,7 +44,7 @@ double part_of(Vec3 d, uint32_t direction, double& aside) {
   return sign * (direction < kGazeUp ? across : above);
 }
 
-/// By how many degrees the eye misses where the table says it looks, with two controls at a value.
+/// The error in degrees between where the eye looks and where the table says, with two controls at a value.
 double miss(RigProbe& probe, const Eye& eye, const GazeEye& table, uint32_t horizontal,
             uint32_t vertical, uint32_t step, bool yaw_first) {
   pose(probe, {table.lanes[horizontal], table.lanes[vertical]},
@@ -108,7 +108,7 @@ Status probe_gaze(const Deformer& deformer, const uint32_t (&eyes)[2], const All
                   "no raw control turns eye %u %s, farther with each step", e, kNames[way]);
     }
   }
-  // Which of the two turns is about an axis that the other one turns: what fits better.
+  // Which of the two rotations carries the axis of the other: the order that fits better.
   double worst[2] = {};
   for (uint32_t order = 0; order < 2; ++order) {
     for (uint32_t e = 0; e < 2; ++e) {

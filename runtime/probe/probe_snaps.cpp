@@ -7,8 +7,8 @@
 namespace mien {
 namespace {
 
-constexpr float kReach = 1.0f / 64;  // over which speeds are measured: far above rounding
-constexpr double kMargin = 1.05;     // for speeds between the places where it is tried
+constexpr float kReach = 1.0f / 64;  // step over which speeds are measured: far above rounding
+constexpr double kMargin = 1.05;     // margin for speeds between the values that are tried
 
 /// One pose of a face, as positions of meshes or of joints.
 struct Shape {
@@ -26,7 +26,7 @@ struct Shape {
     for (uint16_t c : binding.controls) probe.set(c, raw[c]);
     probe.pose();
   }
-  /// Calls back with the coordinates of each point, and where they stand in `before`.
+  /// Calls back with the coordinates of each point and its index in `before`.
   template <class Visit>
   void each(Visit visit) {
     size_t at = 0;
@@ -47,7 +47,7 @@ struct Shape {
   void keep() {
     each([this](const float* from, size_t at) { std::copy(from, from + 3, before.data + at); });
   }
-  /// The farthest that a point has moved since keep().
+  /// The largest distance that a point has moved since keep().
   double moved() {
     double farthest = 0;
     each([&](const float* now, size_t at) {
@@ -104,7 +104,7 @@ Status probe_snaps(const Deformer& deformer, const Binding& binding, float toler
       const float value = static_cast<float>(quarter) / 4;
       shape.pose(c, value);
       shape.keep();
-      // Towards 0, so that ranges are not left.
+      // Towards 0, to stay within the range.
       shape.pose(c, value > 0 ? value - kReach : value + kReach);
       farthest = std::max(farthest, shape.moved());
     }

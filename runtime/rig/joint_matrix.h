@@ -67,9 +67,9 @@ struct JointMatrix {
   Span<JointPanel> panels;       // one more at the end
   Span<uint32_t> panels_at_lod;  // leading panels
 
-  // By panel, with packed rows counted from its first one: those of six rows, of three, of one; of each kind those that more LODs reach first.
-  // After the last panel, if fits_tile(), once more those of all panels, in order of their outputs,
-  // with packed rows counted from the first one of the matrix.
+  // By panel, with packed rows counted from its first one: those of six rows, of three, of one; of each kind
+  // those that more LODs reach first. After the last panel, if fits_tile(), once more those of all panels, in
+  // order of their outputs, with packed rows counted from the first one of the matrix.
   Span<JointTarget> targets;
   Span<uint16_t> targets_at_lod;  // [panel, or all][kind][lod]: leading ones of the kind
 
@@ -99,7 +99,7 @@ struct JointMatrix {
     return panel;
   }
   bool fits_tile() const { return panels[panel_count()].first_block_row <= kMaxTileBlockRows; }
-  /// How much of a column the first `panel_end` panels have.
+  /// How many blocks of a column the first `panel_end` panels have.
   const ColumnPart& part(size_t column, uint32_t panel_end) const {
     return parts[column * panels.count + panel_end];
   }

@@ -115,8 +115,8 @@ struct RotationTable {
   Span<RotationOutput> turns;     // by group, then lane; a later one for the same joint counts
   Span<uint32_t> blocks_at_lod;   // leading blocks
   Span<uint32_t> first_steps;     // [block] into steps, one more at the end
-  Span<uint32_t> steps_at_lod;    // [lod][block]: the most that a lane uses
-  Span<float> lane_steps_at_lod;  // [lod][block][lane]: that it uses, as a float to compare with
+  Span<uint32_t> steps_at_lod;    // [lod][block]: the most steps that a lane uses
+  Span<float> lane_steps_at_lod;  // [lod][block][lane]: steps that it uses, as a float
   Span<uint16_t> columns;         // [step][lane]: control that it reads
   Span<float> values;             // [step][x y z w][lane], or
   Span<uint16_t> halves;          // the same in half storage
@@ -219,7 +219,7 @@ struct MlTable {
   uint32_t buffer_size = 0;   // floats of an instance's ML buffer
   uint32_t widest_layer = 0;  // inputs or padded outputs
 
-  bool blend_masks = false;           // else a mask is on or off
+  bool blend_masks = false;           // masks blend; else they switch
   bool quaternion_rotations = false;  // of the ML joints
   bool converts = false;              // ML joints come in a system of their own:
   CoordinateChange change = {};       // from it to the rig's

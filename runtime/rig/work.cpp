@@ -50,7 +50,7 @@ uint64_t count_rbf_steps(const Rig& rig, uint64_t budget) {
     for (const uint16_t solver : rbf.lod_solvers.at(l)) {
       if (steps > budget) return steps;
       steps += solver_steps(rbf, solver, budget);
-      // Solvers that read what others write fetch all their inputs each.
+      // A solver that reads what another one writes gathers all its inputs itself.
       steps += rbf.plans[solver].input_count;
     }
   }

@@ -11,7 +11,7 @@
 namespace mien {
 
 constexpr uint64_t kStepsPerByte = 64;
-constexpr uint64_t kLeastBytes = uint64_t{1} << 20;  // a smaller file may ask for as much as this
+constexpr uint64_t kLeastBytes = uint64_t{1} << 20;  // smaller files may cause this much work
 
 constexpr uint64_t work_budget(uint64_t bytes) {
   return kStepsPerByte * (bytes > kLeastBytes ? bytes : kLeastBytes);

@@ -45,7 +45,7 @@ inline Rotation between(Vec3 a, Vec3 b) {
   return {axis.x, axis.y, axis.z, 0};
 }
 
-/// A share 0 ... 1 of a rotation, the short way, within 1e-7 radians: halved again and again.
+/// A fraction 0 ... 1 of a rotation, by the shorter way, within 1e-7 radians; found by repeated halving.
 inline Rotation part_of(Rotation q, double share) {
   if (share >= 1) return q;
   if (!(share > 0)) return {};

@@ -17,7 +17,7 @@ constexpr size_t kStateAlignment = alignof(double);
 struct DepthFirst {
   Span<uint16_t> order;  // [place] joint
   Span<uint16_t> place;  // [joint]
-  Span<uint16_t> ends;   // [joint] place behind all that hang on it
+  Span<uint16_t> ends;   // [joint] place after all its descendants
   Span<uint16_t> next;   // [joint] while sorting: place of its next child
 
   JointRange below(uint16_t joint) const { return {place[joint], ends[joint]}; }
@@ -29,8 +29,7 @@ bool sort_depth_first(const Skeleton& skeleton, Arena& scratch, DepthFirst& out)
     *list = scratch.array<uint16_t>(count);
     if (list->count != count) return false;
   }
-  const Span<uint16_t> sizes =
-      out.ends;  // of a joint and all that hang on it, until its end is known
+  const Span<uint16_t> sizes = out.ends;  // of a joint and its descendants, until its end is known
   for (uint32_t i = count;
        i-- > 0;) {  // parents come before their children in the skeleton's order
     const uint16_t joint = skeleton.order[i], parent = skeleton.parents[joint];
@@ -51,7 +50,7 @@ bool sort_depth_first(const Skeleton& skeleton, Arena& scratch, DepthFirst& out)
 
 bool overlap(JointRange a, JointRange b) { return a.first < b.end && b.first < a.end; }
 
-/// Adds a range, and what it touches, as one.
+/// Adds a range, merged with those it touches.
 void add_range(Span<JointRange>& ranges, JointRange range) {
   size_t kept = 0;
   for (const JointRange& other : ranges) {
@@ -135,7 +134,7 @@ bool plan_stack(const StackDesc& desc, const DepthFirst& tree, Arena& scratch, S
   for (size_t i = 0; i < desc.solvers.count; ++i) {
     const SolverDesc& from = desc.solvers[i];
     Solver& solver = plan.solvers[i] = planned_solver(from, plan);
-    // What is stale before it runs and what of this it reads.
+    // What is stale before it runs, and which of that it reads.
     solver.first_update = static_cast<uint32_t>(plan.updates.count);
     for (size_t r = 0; r < stale.count;) {
       const JointRange range = stale[r];

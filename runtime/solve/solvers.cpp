@@ -133,7 +133,7 @@ void solve_aim(const SolverArgs& args) {
       const Vec3 from = normalized(has - wanted * dot(has, wanted));
       const Vec3 to = normalized(wants - wanted * dot(wants, wanted));
       if (!is_zero(from) && !is_zero(to)) {
-        // About the axis also where half a turn is needed.
+        // About the axis, even for half a turn.
         move = (dot(from, to) > -1 + 1e-9 ? between(from, to)
                                           : Rotation{wanted.x, wanted.y, wanted.z, 0}) *
                move;
@@ -148,7 +148,7 @@ void solve_aim(const SolverArgs& args) {
 // ------------------------------------------------------------------------------------------------
 
 struct SpaceState {
-  Vec3 place, off;  // where the joint was after the last step; what it is off where it belongs
+  Vec3 place, off;  // where the joint was after the last step; its offset from where it belongs
   Rotation rotation, turned_off;
   int64_t elapsed;
   uint32_t space, zero;
@@ -232,7 +232,7 @@ Propagator propagator(double k, double c, double t) {
   const double size = std::sqrt(k) + c;
   while (size * t > 0.125 && halvings < 64) t *= 0.5, ++halvings;
   const Propagator step = {0, t, -k * t, -c * t};
-  Propagator sum = {0, 0, 0, 0};  // without the identity, which would swallow its last bits
+  Propagator sum = {0, 0, 0, 0};  // without the identity, to keep the last bits
   for (int n = 14; n > 0; --n) {
     const Propagator next = {1 + sum.xx, sum.xv, sum.vx, 1 + sum.vv};
     sum = step * next;

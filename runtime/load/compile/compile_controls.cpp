@@ -70,7 +70,7 @@ Status fill_reverse(const ControlTable& table, uint32_t gui_count, Arena& scratc
   if (row_count && !leader.data) return no_scratch(error);
   Span<uint32_t> rows = reverse.rows;
   for (uint32_t r = 0; r < row_count; ++r) rows[r] = r;
-  // Equal to the bit: what is not a number has no order otherwise.
+  // Compared by bits, because NaN has no order.
   const auto same_interval = [&](uint32_t a, uint32_t b) {
     return table.inputs[a] == table.inputs[b] && bits(table.from[a]) == bits(table.from[b]) &&
            bits(table.to[a]) == bits(table.to[b]);
@@ -174,7 +174,7 @@ Status fill_psds(const dna::DnaView& view, Span<uint8_t> reach, Arena& scratch, 
   Span<uint32_t> next_use = scratch.array<uint32_t>(entries);
   Span<uint32_t> waits_for = scratch.array<uint32_t>(count);
   Span<uint32_t> order = scratch.array<uint32_t>(count);
-  Span<uint32_t> depth = scratch.array<uint32_t>(count);  // of the longest chain behind it
+  Span<uint32_t> depth = scratch.array<uint32_t>(count);  // of the longest chain after it
   if (!first.data || !last_use.data || !waits_for.data || !order.data || !depth.data ||
       (entries && (!by_psd.data || !next_use.data))) {
     return no_scratch(error);
@@ -199,7 +199,7 @@ Status fill_psds(const dna::DnaView& view, Span<uint8_t> reach, Arena& scratch, 
   for (uint32_t p = 0; p < count; ++p) first[p] = first[p + 1];
   first[count] = entries;
 
-  // Kahn's order: a corrective is ready when all that it waits for have their place.
+  // Kahn's algorithm: a corrective is ready once all its inputs are placed.
   uint32_t ready = 0;
   for (uint32_t p = 0; p < count; ++p) {
     if (waits_for[p] == 0) order[ready++] = p;
@@ -219,7 +219,7 @@ Status fill_psds(const dna::DnaView& view, Span<uint8_t> reach, Arena& scratch, 
                 p);
   }
 
-  // What a corrective needs is needed wherever it is.
+  // A LOD that needs a corrective needs its inputs, too.
   for (uint32_t i = count; i-- > 0;) {
     const uint32_t p = order[i];
     for (uint32_t k = first[p]; k < first[p + 1]; ++k) {
@@ -273,7 +273,7 @@ Status fill_psds(const dna::DnaView& view, Span<uint8_t> reach, Arena& scratch, 
       weight *= table.values[by_psd[k]];
       psds.inputs[psds.first_input[i] + k - first[p]] = table.columns[by_psd[k]];
     }
-    // A product too large would make nothing of an input of 0.
+    // An infinite product would turn an input of 0 into NaN.
     psds.weights[i] = std::min(std::max(weight, -kLargestFloat), kLargestFloat);
   }
   return Status::kOk;

@@ -38,7 +38,7 @@ Status plan_strips(const dna::DnaView& view, const Rig& rig, Arena& scratch, Joi
   size_t end_block = 0, end_input = 0;
   const auto begin_strip = [&](uint32_t block_row) {
     end_block += rows * inputs;
-    end_block += end_block % 2;  // filled up, for strips that begin with an even block
+    end_block += end_block % 2;  // padded, for strips that begin with an even block
     end_input += inputs;
     rows = inputs = 0;
     plan.strips[count++] = {block_row, static_cast<uint32_t>(end_block),
@@ -87,7 +87,7 @@ void fill_strips(const JointPlan& plan, JointMatrix& joints) {
     const auto* const values = from.data + size_t{block} * kJointBlockRows;
     std::copy_n(values, kJointBlockRows, to.data + place * kJointBlockRows);
   };
-  // From here on plan.strips says where the next input of each strip goes.
+  // From here on, plan.strips holds where the next input of each strip goes.
   std::copy(plan.strips.begin(), plan.strips.end(), joints.strips.begin());
   uint32_t& first = joints.first_strip_column;
   while (joints.columns[first] < plan.first_strip_control) ++first;

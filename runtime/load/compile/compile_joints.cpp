@@ -74,7 +74,7 @@ Status pair_blocks(const Rig& rig, Arena& scratch, JointPlan& plan, Error& error
   for (uint64_t word : plan.blocks) most += bit_count(word);
   const uint32_t block_row_count = plan.block_row_count();
   const Span<uint8_t> halves_of_control = scratch.array<uint8_t>(rig.control_count);
-  plan.halves = scratch.unwritten_array<BlockHalves>(most + 1);  // one is written in vain
+  plan.halves = scratch.unwritten_array<BlockHalves>(most + 1);  // the last may be unused
 
   plan.first_halves = scratch.array<uint32_t>(block_row_count / 2 + 1);
   plan.places = scratch.array<uint32_t>(rig.control_count);
@@ -92,7 +92,7 @@ Status pair_blocks(const Rig& rig, Arena& scratch, JointPlan& plan, Error& error
       PlannedRows& rows = plan.rows[i];
       const uint8_t half = 1 << rows.block_row % 2;
       uint32_t before = 0;
-      // Without branches: nobody foresees what is a pair.
+      // Without branches, which would be mispredicted: pairs come at random.
       word = for_each_block(plan.groups[rows.group].inputs, word, [&](size_t control) {
         const uint8_t halves = halves_of[control];
         halves_of[control] = halves | half;
@@ -142,7 +142,7 @@ void for_each_packed_row(const dna::DnaView& view, const JointPlan& plan, const 
 template <class F>
 void for_each_target(const dna::DnaView& view, const JointPlan& plan, const Rig& rig,
                      uint32_t first_block_row, uint32_t end_block_row, F&& f) {
-  // The run that is growing: rows side by side whose sums go side by side.
+  // The current run: neighboring rows whose sums go to neighboring values.
   uint32_t packed_row = 0, output = 0, group = 0, count = 0;
   uint8_t reach = 0;
   const auto pass = [&] {
@@ -200,7 +200,7 @@ Status plan_targets(const dna::DnaView& view, const Rig& rig, Arena& scratch, Jo
   return Status::kOk;
 }
 
-/// Of a panel, or with the number behind the last one of all panels. Returns where they end.
+/// The targets of a panel; the number after the last panel means those of all panels. Returns their end.
 uint32_t fill_targets(const JointPlan& plan, uint32_t panel, Rig& rig) {
   JointMatrix& joints = rig.joints;
   // Where targets of each kind and reach begin, the farthest first.
@@ -258,7 +258,7 @@ void mark_reach(const JointPlan& plan, Span<uint8_t> reach) {
   for (const GroupColumns& group : plan.groups) {
     const uint32_t row_count = group.row_count;
     for (uint32_t w = 0; w < group.words_per_row; ++w) {
-      uint64_t seen = 0;  // the first row that is not zero reaches farthest
+      uint64_t seen = 0;  // the first nonzero row has the largest reach
       for (uint32_t r = 0; r < row_count && rows[r] != 0; ++r) {
         const uint64_t used = group.row(r)[w];
         for (uint64_t bits = used & ~seen; bits != 0; bits &= bits - 1) {

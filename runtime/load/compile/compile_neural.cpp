@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Learned behavior: operations -> steps (docs/rig-evaluation.md, 8 "Machine-learned behavior").
+// Machine-learned behavior: operations -> steps (docs/rig-evaluation.md, 8 "Machine-learned behavior").
 #include <algorithm>
 #include <cmath>
 
@@ -334,7 +334,7 @@ Status fill_ml(const DnaView& view, Arena& scratch, Rig& rig, Error& error) {
   Span<uint32_t> first_layer = scratch.array<uint32_t>(view.mlbh.networks.count);
   Span<uint32_t> position = scratch.array<uint32_t>(rig.joint_count);
   Span<StepNumbers> numbers = scratch.array<StepNumbers>(view.mlbe.types.count);
-  // What was not to be had has no elements.
+  // An array that could not be allocated has no elements.
   bool memory = masks.count == view.mlbh.networks.count &&
                 first_layer.count == view.mlbh.networks.count &&
                 position.count == rig.joint_count && numbers.count == view.mlbe.types.count;
@@ -404,7 +404,7 @@ Status fill_ml(const DnaView& view, Arena& scratch, Rig& rig, Error& error) {
         to.weight = load_big_endian<float>(operation.parameters.data + 4 * (d + 1));
       ++step.dependency_count;
     }
-    // The limit of the last layer alone means something: how many outputs are scattered.
+    // Only the limit of the last layer matters: the number of outputs that are scattered.
     const size_t limits = operation.parameters.count - 1;
     if (visit.network != kNone && limits > 1) {
       for (uint32_t l = 0; l < rig.lod_count; ++l) {

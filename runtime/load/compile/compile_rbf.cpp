@@ -61,8 +61,8 @@ double weight(uint8_t function, double x) {
   }
 }
 
-/// What the weight functions of RbfSolverPlan take the distance times: 1/r, or what is meant by
-/// exp(-d/r^2) and exp(-2d/r).
+/// The factor of the distance in the weight functions of RbfSolverPlan: 1/r, or that of exp(-d/r^2) and
+/// exp(-2d/r).
 double distance_scale(uint8_t function, double radius) {
   constexpr double kLog2E = 1.4426950408889634;
   if (function == kGaussian) return -kLog2E / (radius * radius);
@@ -130,7 +130,7 @@ void fill_inverse(RbfTable& rbf, const RbfSolverPlan& s, const Span<double>& scr
   }
 }
 
-/// What the squares and cubes of pose counts cost.
+/// The cost, which grows with squares and cubes of pose counts.
 uint64_t count_matrix_steps(const dna::DnaView& view, const RbfTable& rbf) {
   uint64_t steps = 0;
   for (uint32_t i = 0; i < rbf.plans.count; ++i) {
@@ -152,7 +152,7 @@ Status check_work(const dna::DnaView& view, const Rig& rig, Error& error) {
       static_cast<unsigned long long>(steps), static_cast<unsigned long long>(budget));
 }
 
-/// Numbers that a rotation has for a distance, 0 if it does not see rotations.
+/// Floats per rotation for a distance function; 0 if it does not compare rotations.
 uint32_t angle_inputs(uint16_t distance) {
   switch (distance) {
     case kQuaternion: return 4;
@@ -168,14 +168,14 @@ uint32_t parted_rotations(const dna::RbfSolver& solver) {
   return parts ? solver.raw_control_indices.count / 4 : 0;
 }
 
-/// Inputs as the kernel counts them: of rotations whole ones.
+/// Inputs as the kernel counts them: whole rotations.
 uint32_t plan_inputs(const dna::RbfSolver& solver) {
   const uint32_t count = solver.raw_control_indices.count,
                  width = angle_inputs(solver.distance_method);
   return width ? count / 4 * width : count;
 }
 
-/// Floats that the targets of a solver take.
+/// Floats of the targets of a solver.
 size_t target_floats(uint32_t poses, uint32_t inputs) {
   return size_t{padded(poses)} * std::max(inputs, 1u);
 }
@@ -259,7 +259,7 @@ void fill_poses(const dna::DnaView& view, RbfTable& rbf) {
   }
 }
 
-/// True for poses that drive one control each, one behind the other, and multiply with none.
+/// True if each pose drives one control, in consecutive order, without inputs to multiply by.
 bool drives_in_order(const RbfTable& rbf, const RbfSolver& solver, uint32_t pose_count) {
   for (uint32_t p = 0; p < pose_count; ++p) {
     const uint32_t pose = rbf.poses[solver.first_pose + p];
@@ -273,7 +273,7 @@ bool drives_in_order(const RbfTable& rbf, const RbfSolver& solver, uint32_t pose
   return pose_count != 0;
 }
 
-/// Finds which solvers may write without looking, and whether all may run side by side.
+/// Finds which solvers may overwrite without reading first, and whether all of them are independent.
 /// `writer` is zeroed scratch: [control], the last solver found to drive it, counted from 1.
 void find_order(RbfTable& rbf, const Span<uint32_t>& writer) {
   rbf.independent = true;
@@ -523,7 +523,7 @@ Status fill_twists_and_swings(const dna::DnaView& view, Arena& scratch, Rig& rig
     end_setup(first_output);
   }
   table.setups.count = setup_count;
-  // What fills the last block reads what the first lane of it reads.
+  // The padding of the last block reads the inputs of its first lane.
   for (size_t lane = output; lane % kBlockLanes != 0; ++lane) {
     for (size_t k = 0; k < 4; ++k) {
       uint16_t* inputs = table.inputs.data + (lane / kBlockLanes * 4 + k) * kBlockLanes;

@@ -111,7 +111,7 @@ void fill_names(const DnaView& view, Rig& rig) {
       if (order != 0) return order < 0;
       return a != b ? a < b : x < y;
     };
-    // Many of one name are in order as they are.
+    // Names that are equal keep their order.
     if (!std::is_sorted(list.sorted.begin(), list.sorted.end(), less)) {
       std::sort(list.sorted.begin(), list.sorted.end(), less);
     }
@@ -286,7 +286,7 @@ Status fill_all(const DnaView& view, JointPlan& joints, const RotationPlan& rota
   return Status::kOk;
 }
 
-/// About what compiling takes for its own use.
+/// Estimate of the scratch memory of compiling.
 size_t scratch_bytes(const DnaView& view, const Rig& rig) {
   size_t bytes = size_t{rig.joint_value_count()} * 8 + size_t{rig.control_count} * 32 +
                  size_t{view.bhvr.controls.conditionals.input_indices.count} * 4 +
@@ -343,7 +343,7 @@ Status compile_rig(const DnaView& view, const CompileOptions& options, const All
                 "%u joints are too many for quaternion outputs; use MIEN_ROTATION_OUTPUT_EULER",
                 measured.joint_count);
   }
-  // A mesh's name stands before each of its regions, so a long one multiplies.
+  // A mesh's name is repeated for each of its regions, so a long one multiplies.
   constexpr size_t kMaxMaskNameBytes = size_t{1} << 20;
   size_t mask_name_bytes = 0;
   for_each_name(view, measured, [&](Kind kind, uint32_t, const String& a, const String& b) {

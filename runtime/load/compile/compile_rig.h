@@ -32,7 +32,7 @@ void place_controls(const dna::DnaView& view, Placer& placer, Rig& rig);
 /// kMemory (scratch), or kDnaValue for correctives that depend on each other in a cycle.
 Status fill_controls(const dna::DnaView& view, Arena& scratch, Rig& rig, Error& error);
 
-/// What the planning of a joint group asks for often.
+/// What planning needs of a joint group.
 struct GroupColumns {
   Span<uint16_t> inputs;   // controls
   Span<uint64_t> nonzero;  // [row][column / 64] bit column % 64: the number is not zero
@@ -49,7 +49,7 @@ struct GroupColumns {
   }
 };
 
-/// Rows of one joint group that are computed in one block: what lies between them writes nothing.
+/// Rows of one joint group in one block row; the rows between them write nothing.
 struct PlannedRows {
   uint32_t group;
   uint32_t block_row;
@@ -60,7 +60,7 @@ struct PlannedRows {
   bool contested;
   bool whole;  // fills its block row, and lists no control twice
 
-  uint8_t reach() const { return reaches[0]; }  // of the whole: rows are in order
+  uint8_t reach() const { return reaches[0]; }  // of the whole range: the rows are in order
 };
 
 /// What a control has in two neighboring block rows, of which the first has an even number.
@@ -117,7 +117,7 @@ Status plan_joints(const dna::DnaView& view, const Rig& rig, Arena& scratch, Joi
                    Error& error);
 void place_joints(const dna::DnaView& view, const JointPlan& plan, Placer& placer, Rig& rig);
 /// Also marks in `reach` how many LODs, counted from 0, read each control through a joint group.
-/// Uses the plan up.
+/// The plan must not be used afterwards.
 void fill_joints(const dna::DnaView& view, JointPlan& plan, Span<uint8_t> reach, Rig& rig);
 
 /// After joints, twists and swings, and before the neutral pose.
@@ -153,16 +153,15 @@ Status plan_rotations(const dna::DnaView& view, const JointPlan& joints, const R
 void place_rotations(const RotationPlan& plan, Placer& placer, Rig& rig);
 void fill_rotations(const dna::DnaView& view, const RotationPlan& plan, Rig& rig);
 
-/// Steps that compiling, and a frame at each LOD, may take (work.h). What makes a rig large may be other
-/// layers of its file than those that are work, so the smaller of both counts; then a rig that was
-/// compiled opens as a baked file too.
+/// Steps that compiling, and a frame at each LOD, may take (work.h). A rig may be large because of layers
+/// that cause no work, so the smaller of the two sizes counts; then a compiled rig opens as a baked file, too.
 uint64_t compile_budget(const dna::DnaView& view, const Rig& rig);
 
 /// kDnaLimit for a solver too large to be made, and for work that is out of proportion.
 Status place_rbf(const dna::DnaView& view, Placer& placer, Rig& rig, Error& error);
 Status fill_rbf(const dna::DnaView& view, Arena& scratch, Rig& rig, Error& error);
 
-/// kDnaLimit for operations that repeat values or networks beyond measure.
+/// kDnaLimit for operations that repeat values or networks too often.
 Status place_ml(const dna::DnaView& view, Placer& placer, Rig& rig, Error& error);
 Status fill_ml(const dna::DnaView& view, Arena& scratch, Rig& rig, Error& error);
 /// How many LODs, counted from 0, read a control to move a joint.

@@ -33,7 +33,7 @@ uint32_t count_joints(const dna::DnaView& view, const dna::JointGroup& group, Ro
 
 constexpr uint32_t kNone = ~uint32_t{0};
 
-/// For the time of planning.
+/// Scratch of planning.
 struct Scratch {
   Span<uint32_t> position;        // [joint]: its angle joint or turn in this group, or kNone
   Span<uint32_t> first_rows;      // [column] of the widest group
@@ -262,7 +262,7 @@ void fill_rotations(const dna::DnaView& view, const RotationPlan& plan, Rig& rig
       fill_step(group, turn, order[k], step++ * 4 * kBlockLanes + lane, rig);
     });
   }
-  // What fills a step reads a control that the step reads anyway.
+  // The padding of a step reads a control that the step reads anyway.
   for (size_t block = 0; block < blocks; ++block) {
     const size_t count = std::min<size_t>(plan.sorted.count - block * kBlockLanes, kBlockLanes);
     for (size_t step = table.first_steps[block]; step < table.first_steps[block + 1]; ++step) {

@@ -31,7 +31,7 @@ void read_columns(const KernelTable& kernels, const PlannedRows& rows, const Fil
 }
 
 /// Adds rows to a block that others have begun. Rows of others get 0, which leaves them as they are.
-/// By way of a copy, so that the compiler makes vector code.
+/// Through a copy, so that the compiler vectorizes.
 void add_rows(const float* from, float* block) {
   float sums[kJointBlockRows];
   for (uint32_t r = 0; r < kJointBlockRows; ++r) {
@@ -70,7 +70,7 @@ void place_blocks(const JointPlan& plan, uint32_t b, JointMatrix& joints) {
     whole[rows.block_row % 2] = whole[rows.block_row % 2] && rows.whole;
   }
   const bool zeros = !joints.values.empty() && !(whole[0] && whole[1]);
-  // In names of their own: for all the compiler knows, what is written could lie in `plan`.
+  // Local copies, because the compiler must assume that the writes alias `plan`.
   PlannedColumn* const columns = plan.columns.data;
   uint32_t* const places = plan.places.data;
   uint16_t* const block_rows = joints.block_rows.data;

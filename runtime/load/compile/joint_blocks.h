@@ -10,7 +10,7 @@ namespace mien {
 
 /// Where rows stand in the file.
 struct FileRows {
-  const uint8_t* at[kJointBlockRows];  // behind the last one it stands again
+  const uint8_t* at[kJointBlockRows];  // the last one is repeated after the end
   uint32_t count;
 
   FileRows(const dna::JointGroup& group, const PlannedRows& rows) : count(rows.row_count) {
@@ -27,8 +27,8 @@ struct FileRows {
 /// columns. `plan` says where columns begin.
 void fill_joint_blocks(const dna::DnaView& view, const JointPlan& plan, Rig& rig);
 
-/// Cuts block rows into strips, if strips are worth their memory: a block row joins the one before if then
-/// less is read. kMemory (scratch).
+/// Cuts block rows into strips where strips are worth their memory: a block row joins the one before it if that
+/// reduces what is read. kMemory (scratch).
 Status plan_strips(const dna::DnaView& view, const Rig& rig, Arena& scratch, JointPlan& plan,
                    Error& error);
 void place_strips(const Rig& rig, const JointPlan& plan, Placer& placer, JointMatrix& joints);

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Rows of joint groups -> rows that count -> block rows of 8.
 //
-// Block rows 2i and 2i + 1 are neighbors for good: blocks that a column has in both are read at
-// once. So block rows of one group come in twos, and those left over are matched by what their
-// groups read.
+// Block rows 2i and 2i + 1 stay neighbors: blocks that a column has in both are read together. So block rows
+// of one group come in twos, and those left over are matched by what their groups read.
 #include "runtime/load/compile/plan_block_rows.h"
 
 #include <algorithm>
@@ -71,8 +70,8 @@ Status choose_rows(const dna::DnaView& view, const Rig& rig, Arena& scratch, Joi
 
 // Block rows and panels ---------------------------------------------------------------------------
 
-/// The rows of each group one behind the other: those that the same LODs reach by their outputs, so
-/// that what moves one joint stands together, and is zero together.
+/// The rows of each group in sequence: rows that the same LODs reach are sorted by output, so that the rows
+/// of a joint are neighbors and share their zeros.
 Status order_rows(const dna::DnaView& view, const Span<uint8_t>& reaches, Arena& scratch,
                   Span<uint16_t>& order, Error& error) {
   const auto& groups = view.bhvr.joints.groups;

@@ -32,7 +32,7 @@ inline Status no_scratch(Error& error) {
   return fail(error, Status::kMemory, kNoOffset, "no memory to compile the joint groups");
 }
 
-/// What becomes of a row: JointPlan::uses.
+/// The use of a row: JointPlan::uses.
 enum RowUse : uint8_t {
   kUnused,  // zeros, out of reach, or overridden wherever it is reached
   kUsed,

@@ -57,7 +57,7 @@ class FieldReader {
     return good_;
   }
 
-  /// Same layer, another place: the parts of the behavior layer in version 2.1.
+  /// The same layer in several sections: the parts of the behavior layer in version 2.1.
   template <class Record>
   bool read_part(const char* layer, const char* part, const uint8_t* data, size_t from, size_t to,
                  Record& record) {
@@ -310,7 +310,7 @@ class DnaReader {
       report(error.status, error.byte_offset, "", "%s", error.message);
       return;
     }
-    // What was made of a good file is not taken to be good.
+    // Converted and selected views are checked again, even if the file was valid.
     if ((lods_ != 0 || options_.system) && check_definition(view_, sink_)) {
       check_layers(view_, sink_);
     }
@@ -344,7 +344,7 @@ class DnaReader {
   const uint8_t* fetch(uint64_t offset, size_t size) {
     if (!stream_.read) return view_.file + offset;
     const Span<FileSegment> segment = arena_.array<FileSegment>(1);
-    // A byte more keeps the end of one segment and the beginning of the next apart.
+    // One more byte, so that the end of a segment is never the address of the next one.
     void* data = segment.data ? arena_.allocate(size + 1, 1) : nullptr;
     if (!data) {
       report(Status::kMemory, offset, "", "no memory for %zu bytes of the file", size);
@@ -643,7 +643,7 @@ class DnaReader {
   // Nothing is selected if all are chosen.
   void choose_lods() {
     const unsigned lod_count = view_.desc.lod_count;
-    if (options_.lods == 0 || lod_count >= 64) return;  // the latter is refused later on
+    if (options_.lods == 0 || lod_count >= 64) return;  // so many LODs are refused later
     const uint64_t existing = (uint64_t{1} << lod_count) - 1;
     lods_ = options_.lods & existing;
     none_exists_ = lods_ == 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Would a file open that is about to be written? A version leaves out layers that others may need.
+// Whether a file that is about to be written will open: a version may leave out layers that others need.
 #pragma once
 
 #include "runtime/base/status.h"

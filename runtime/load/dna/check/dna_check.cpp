@@ -16,7 +16,7 @@ constexpr uint32_t kMaxJoints = 65536 / 9;  // joint values have 16-bit numbers,
 // Descriptor ------------------------------------------------------------------------------------
 
 void check_metadata(Checker& c, const Field& desc) {
-  // Every pair against every other, so no more than a person would write.
+  // Compares all pairs with each other, so only up to a number that a person would write.
   constexpr uint32_t kMaxCompared = 1024;
   const List<MetadataPair>& pairs = c.view.desc.metadata;
   const uint32_t count = pairs.count < kMaxCompared ? pairs.count : kMaxCompared;
@@ -132,7 +132,7 @@ void check_hierarchy(Checker& c, const Field& defn) {
   c.has_length(field, parents, count, "joints");
   c.indices_below(field, parents, count, "joints");
   if (parents.count != count || count > kMaxJoints) return;
-  // Where no parent comes behind its child no line of parents turns back.
+  // If every parent precedes its children there are no cycles.
   uint16_t later = 0;
   for (uint32_t j = 0; j < count; ++j) {
     later |= static_cast<uint16_t>(parents[j] > static_cast<uint16_t>(j));
@@ -320,7 +320,7 @@ void check_behavior(Checker& c) {
 
 // Geometry --------------------------------------------------------------------------------------
 
-// A mesh may do without texture coordinates or normals; its layouts then point nowhere.
+// A mesh may lack texture coordinates or normals; its layouts then refer to nothing.
 void check_optional(Checker& c, const Field& field, const Array<uint32_t>& indices, uint32_t limit,
                     const char* of) {
   if (limit != 0) return c.indices_below(field, indices, limit, of);

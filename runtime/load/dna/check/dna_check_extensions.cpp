@@ -132,7 +132,7 @@ void check_network(Checker& c, const Field& at, const NeuralNetwork& network) {
   c.indices_below(Field{&at, "inputIndices"}, network.input_indices, c.control_limit, "controls");
   c.numbered(Field{&at, "layers"}, network.layers.count);
 
-  // With operations, those say what comes in and where it goes; else the network does.
+  // If there are operations they define inputs and outputs; else the network does.
   const bool stands_alone = c.view.mlbe.types.count == 0;
   bool inputs_known = stands_alone;
   uint32_t inputs = network.input_indices.count;
@@ -331,7 +331,7 @@ void check_weighted_sum(Checker& c, const Field& at, const MlType& type,
   const uint32_t dependencies = operation.set_dependencies.count;
   c.has_length(field, p, 1 + uint64_t{dependencies}, "dependencies and the number of outputs");
   if (p.count == 0) return;
-  c.finite(field, {p.data, p.count});  // the first one is no float, but passes for a tiny one
+  c.finite(field, {p.data, p.count});  // the first one is not a float, but reads as a tiny one
   for (uint32_t d = 0; d < dependencies && !c.stopped(); ++d) {
     const uint32_t given = output_count(
         c.view,

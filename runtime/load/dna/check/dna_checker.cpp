@@ -110,7 +110,7 @@ Checker::Tally& Checker::tally_of(const Field& field) {
   for (size_t i = 0; i < tally_count_; ++i) {
     if (tallies_[i].pattern == pattern) return tallies_[i];
   }
-  if (tally_count_ == kTallies) return tallies_[kTallies - 1];  // the rest share the last one
+  if (tally_count_ == kTallies) return tallies_[kTallies - 1];  // all others share the last entry
   Tally& tally = tallies_[tally_count_++];
   tally = {};
   tally.pattern = pattern;

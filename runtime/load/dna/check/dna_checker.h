@@ -55,9 +55,9 @@ class Checker {
   const DnaView& view;
   const bool thorough;
   const uint32_t control_limit;       // first number that no control can have
-  const uint32_t first_lod, end_lod;  // the others are not looked at; end_lod may be kAllLods
+  const uint32_t first_lod, end_lod;  // other LODs are not checked; end_lod may be kAllLods
 
-  /// The sink wants no more.
+  /// The sink has stopped the examination.
   bool stopped() const { return stopped_; }
 
   /// Reports what flood control held back. False if the sink ended the examination.
@@ -87,7 +87,7 @@ class Checker {
 
   // Lengths -------------------------------------------------------------------------------------
 
-  /// All as long as the first; an error otherwise.
+  /// Reports an error if any is not as long as the first.
   void equal_lengths(const Field& record, std::initializer_list<Length> arrays);
 
   template <class T>
@@ -106,7 +106,7 @@ class Checker {
   void indices_below(const Field& field, const Array<T>& indices, uint32_t limit, const char* of) {
     if (limit > static_cast<T>(~T{0})) return;
     const auto end = static_cast<T>(limit);
-    T bad = 0;  // of the width of the numbers, which vectors like
+    T bad = 0;  // as wide as the numbers, which vectorizes well
     for (uint32_t i = 0; i < indices.count; ++i) bad |= static_cast<T>(indices[i] >= end);
     if (bad == 0) return;
     for (uint32_t i = 0; i < indices.count && !stopped_; ++i) {
@@ -116,7 +116,7 @@ class Checker {
     }
   }
 
-  /// Warns of controls that no loaded layer gives. Thorough only.
+  /// Warns of controls that no loaded layer writes. Thorough only.
   void known_controls(const Field& field, const Array<uint16_t>& indices);
 
   /// Numbers of an enumeration 0 ... last. Those that evaluation branches on are errors; those that
@@ -166,7 +166,7 @@ class Checker {
   const FindingSink& sink_;
   bool stopped_ = false;
   size_t tally_count_ = 0;
-  Tally tallies_[kTallies];  // unwritten past the count: a good file needs none of them
+  Tally tallies_[kTallies];  // not initialized past the count: valid files need none of them
 };
 
 /// jbmd, twsw, rbfb and rbfe, mlbh and mlbe: the layers whose numbers refer to controls and joints

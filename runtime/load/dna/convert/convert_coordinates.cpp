@@ -67,14 +67,14 @@ class CoordinateConverter {
     return controls_.find(view_, change_, ml_joints_change(), arena_, error_);
   }
 
-  /// Winding alone means nothing to them.
+  /// The winding does not affect controls.
   bool ml_joints_change() const {
     CoordinateSystem wound = from_;
     wound.face_winding = to_.face_winding;
     return !same_system(wound, to_) && view_.mlbe.joints.output_indices.count != 0;
   }
 
-  /// A place that has no room for a sign reads or writes a control.
+  /// A field without room for a sign refers to a control.
   Status refuse(const Array<uint16_t>& where, uint32_t index, const char* field) {
     return fail(error_, Status::kDnaValue, view_.offset_of(where.data + 2 * size_t{index}),
                 "%s[%u]: control %u is a component of a rotation, and this use of it cannot be "
@@ -153,7 +153,7 @@ class CoordinateConverter {
 
   // Joint groups ------------------------------------------------------------------------------
 
-  /// What becomes of a row: the attribute that it writes, and its factor.
+  /// The new attribute that a row writes, and its factor.
   uint32_t new_output(uint32_t output) const {
     const uint32_t attribute = output % 9;
     return output - attribute % 3 + change_.to[attribute % 3];
@@ -238,7 +238,7 @@ class CoordinateConverter {
     return Status::kOk;
   }
 
-  /// Euclidean distances: each input by itself.
+  /// Euclidean distances: each input on its own.
   Status convert_numbers(RbfSolver& solver, uint32_t number) {
     const Array<uint16_t> inputs = solver.raw_control_indices;
     bool same = true, negates = false;
@@ -375,7 +375,7 @@ class CoordinateConverter {
       const uint16_t key = joints.parameter_keys[i];
       stated += key >= kFirstSystemKey && key <= kLastSystemKey;
     }
-    const bool states_own = stated == kSystemKeyCount;  // no key comes twice
+    const bool states_own = stated == kSystemKeyCount;  // keys are unique
     for (uint32_t i = 0; states_own && i < joints.parameter_keys.count; ++i) {
       const uint16_t key = joints.parameter_keys[i];
       if (key >= kFirstSystemKey && key <= kLastSystemKey) {

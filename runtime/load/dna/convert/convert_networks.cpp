@@ -4,7 +4,7 @@
 namespace mien::dna {
 namespace {
 
-constexpr uint16_t kTanh = 3;  // this and those behind it bend what goes through
+constexpr uint16_t kTanh = 3;  // this activation function and those after it are not linear
 
 MlOperationType type_of(const MlOperation& operation) {
   return static_cast<MlOperationType>(operation.type);
@@ -48,7 +48,7 @@ class NetworkConverter {
   }
 
  private:
-  /// What the weights of a network have to take up. 0: not known yet, so anything will do.
+  /// Factors to fold into the weights of a network. 0: not known yet, so any factor fits.
   struct Ends {
     Span<int8_t> signs;   // by input
     Span<double> units;   // by output

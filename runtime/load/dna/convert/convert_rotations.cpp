@@ -21,7 +21,7 @@ class AngleConverter {
   void convert(const float in[3], float out[3]) const {
     int turns = 0;
     for (int i = 0; i < 3; ++i) turns += in[i] != 0;
-    if (turns <= 1) {  // the order does not matter, so nothing is bent
+    if (turns <= 1) {  // the order does not matter, so the result is exact
       for (int d = 0; d < 3; ++d) out[d] = scaled(in[change_.from[d]], change_.angle[d]);
       return;
     }
@@ -228,7 +228,7 @@ class RowConverter {
   Arena& arena_;
   Error& error_;
   AngleConverter angles_;
-  Span<JointRows> rows_;     // by joint, of the group in hand
+  Span<JointRows> rows_;     // by joint, of the current group
   Span<uint8_t> axes_;       // by joint: axes about which Euler angles are added
   Span<uint8_t> added_;      // by row: bits of axes whose rows come behind it
   Span<uint32_t> new_rows_;  // by row

@@ -27,7 +27,7 @@ struct Numbers {
 };
 
 void mark(const Array<uint16_t>& elements, const Span<uint8_t>& marks) {
-  const Array<uint16_t> from = elements;  // in names of their own: a byte may be anybody's
+  const Array<uint16_t> from = elements;  // local copies: bytes may alias anything
   uint8_t* const to = marks.data;
   for (uint32_t i = 0; i < from.count; ++i) to[from[i]] = 1;
 }
@@ -119,7 +119,7 @@ class LodSelector {
     const Definition& defn = view_.defn;
     const BlendShapeChannels& channels = view_.bhvr.channels;
     const AnimatedMaps& maps = view_.bhvr.maps;
-    // Rows hardly ever write what no list has; then it stays all the same.
+    // Rows rarely write elements that no list has; these are kept, too.
     joints_ = number_joints(false);
     if (!renumber_outputs()) {
       joints_ = number_joints(true);
@@ -149,7 +149,7 @@ class LodSelector {
     return number(marks);
   }
 
-  /// 0, 1, 2 ... as LODs list what they drop nothing of.
+  /// 0, 1, 2 ...: a list of everything.
   static bool is_every(const Array<uint16_t>& list, uint32_t count) {
     if (list.count != count) return false;
     uint16_t others = 0;
@@ -209,7 +209,7 @@ class LodSelector {
     if (numbers.all_stay) return old;
     if (numbers.none_stays()) return {};
     const NewArray<uint16_t> array = make_array<uint16_t>(old.count);
-    const Span<uint32_t> new_of = numbers.new_of;  // in a name of its own: bytes may be anybody's
+    const Span<uint32_t> new_of = numbers.new_of;  // a local copy: bytes may alias anything
     uint32_t kept = 0;
     for (uint32_t i = 0; i < array.count; ++i) {
       const uint32_t n = new_of[old[i]];
@@ -444,7 +444,7 @@ class LodSelector {
 
   // The weights that remain are scaled to make up for those of joints that are gone.
   void select_influences(VertexSkinWeights& vertex) {
-    if (view_.defn.joint_names.count == 0) return void(vertex = {});  // no joint, so no root either
+    if (view_.defn.joint_names.count == 0) return void(vertex = {});  // no joints, so no root
     const uint32_t count = vertex.weights.count;
     float dropped = 0, left = 0;
     uint32_t kept = 0;

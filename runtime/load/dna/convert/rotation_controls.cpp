@@ -27,7 +27,7 @@ bool named_as_quaternion(const List<String>& names, const uint16_t controls[4], 
   return stem != 0;
 }
 
-constexpr uint16_t kQuaternionDistances = 1;  // this and all others read quaternions
+constexpr uint16_t kQuaternionDistances = 1;  // this method and those after it read quaternions
 
 }  // namespace
 
@@ -138,7 +138,7 @@ Status RotationControls::add_setups(const DnaView& view, const CoordinateChange&
   return Status::kOk;
 }
 
-// As evaluation sees them: a rotation is what begins at the first control listed for the joint.
+// As evaluation reads them: a rotation begins at the first control listed for the joint.
 Status RotationControls::add_ml_joints(const DnaView& view, const CoordinateChange& change,
                                        Arena& arena, Error& error) {
   const MlJoints& joints = view.mlbe.joints;

@@ -29,7 +29,7 @@ struct FieldNames {
   }
 };
 
-/// Walks down a path, one step a call; the rest of the path is what is still to go.
+/// Follows a path, one step per call; `rest` is the part that is left.
 class FieldFinder {
  public:
   FieldFinder(const DnaView& view, const char* path, Error& error)

@@ -57,7 +57,7 @@ class FieldWriter {
     at_ += count;
   }
 
-  /// Overwrites a number that was left open.
+  /// Overwrites a number that was reserved earlier.
   void put(uint64_t at, uint32_t value) {
     if (out_) store_big_endian(out_ + at, value);
   }
