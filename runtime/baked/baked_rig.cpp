@@ -9,7 +9,7 @@ namespace mien {
 namespace {
 
 /// To be raised whenever the list of numbers or arrays, or the meaning of one, changes.
-constexpr uint32_t kRigPartVersion = 7;
+constexpr uint32_t kRigPartVersion = 8;
 
 template <class AnyRig, class Visitor>
 void visit_numbers(AnyRig& rig, Visitor& visitor) {
@@ -33,6 +33,7 @@ void visit_numbers(AnyRig& rig, Visitor& visitor) {
 
   auto& ml = rig.ml;
   each(ml.buffer_size, ml.widest_layer, ml.quaternion_rotations, ml.converts);
+  each(ml.scale_magnitude);
   auto& change = ml.change;
   all(change.from);
   all(change.to);

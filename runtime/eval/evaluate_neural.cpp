@@ -185,8 +185,7 @@ void scatter(const Rig& rig, Instance& instance, const MlStep& step, uint32_t lo
   }
 }
 
-// ML joints may come in axes and angles of their own. Scales have no direction: they keep their
-// sign.
+// ML joints may come in axes and angles of their own. Scales have no direction, only a magnitude.
 void convert_triple(const Rig& rig, Instance& instance, const uint16_t controls[3], bool scale) {
   const CoordinateChange& change = rig.ml.change;
   float v[3] = {};
@@ -194,7 +193,10 @@ void convert_triple(const Rig& rig, Instance& instance, const uint16_t controls[
     v[i] = controls[i] == kNoControl ? 0.0f : instance.controls[controls[i]];
   for (int i = 0; i < 3; ++i) {
     if (controls[i] == kNoControl) continue;
-    instance.controls[controls[i]] = v[change.from[i]] * (scale ? 1.0f : change.normal[i]);
+    const float value = v[change.from[i]];
+    instance.controls[controls[i]] = !scale                   ? value * change.normal[i]
+                                     : rig.ml.scale_magnitude ? std::fabs(value)
+                                                              : value;
   }
 }
 

@@ -222,6 +222,7 @@ struct MlTable {
   bool blend_masks = false;           // masks blend; else they switch
   bool quaternion_rotations = false;  // of the ML joints
   bool converts = false;              // ML joints come in a system of their own:
+  bool scale_magnitude = false;       // scales lose their signs
   CoordinateChange change = {};       // from it to the rig's
   RotationConvention rotation;        // its angles
   Matrix3 to_rig;                     // the change of axes, for row vectors

@@ -314,9 +314,47 @@ TEST(MlJoints, ConvertFromASystemOfTheirOwn) {
       rig.ml_parameters.push_back({key, static_cast<uint16_t>(random.below(2))});
     }
     rig.ml_parameters.push_back({uint16_t{9}, static_cast<uint16_t>(random.below(6))});
+    if (round % 3) rig.ml_parameters.push_back({uint16_t{0x8000}, uint16_t(round % 3 - 1)});
     SCOPED_TRACE(round);
     expect_model(rig, random, 3, 1e-3);
   }
+}
+
+// Mien's key says whether they do, where the systems do not.
+TEST(MlJoints, ScalesOfAnotherSystemLoseTheirSigns) {
+  const auto scales_of = [](const std::vector<std::pair<uint16_t, uint16_t>>& parameters) {
+    LayerRig rig;
+    rig.base.raw_count = kRaw;
+    rig.base.joint_count = 1;
+    rig.ml_count = 3;
+    rig.axes = {0, 2, 4};
+    rig.signs = {1, 1, 1};
+    PlainNetwork network;
+    network.inputs = {0};
+    network.outputs = {kRaw, kRaw + 1, kRaw + 2};
+    network.layers = {{{0, 0, 0}, {1, -1, 0.5f}, 0, {}}};
+    rig.networks = {network};
+    rig.ml_parameters = {{uint16_t{2}, uint16_t{0}}};
+    rig.ml_parameters.insert(rig.ml_parameters.end(), parameters.begin(), parameters.end());
+    for (uint16_t k = 0; k < 3; ++k) rig.ml_joints.push_back({static_cast<uint16_t>(kRaw + k), k});
+    const LayerFile file(rig);
+    Character character(make_rig(file, {}));
+    character.raw[0] = -0.5f;
+    character.evaluate(0);
+    return std::vector<float>(&character.joints[6], &character.joints[6] + 3);
+  };
+  using Scales = std::vector<float>;
+  std::vector<std::pair<uint16_t, uint16_t>> stated = {{3, 0}, {4, 2}, {5, 4}, {6, 1},
+                                                       {7, 1}, {8, 1}, {9, 0}};
+  EXPECT_EQ(scales_of({}), (Scales{-0.5f, 0.5f, -0.25f}));
+  EXPECT_EQ(scales_of(stated), (Scales{-0.5f, 0.5f, -0.25f})) << "the rig's own system";
+  EXPECT_EQ(scales_of({{0x8000, 1}}), (Scales{0.5f, 0.5f, 0.25f}));
+  stated[0].second = 1;  // x to the right
+  EXPECT_EQ(scales_of(stated), (Scales{0.5f, 0.5f, 0.25f}));
+  stated[0].second = 2, stated[1].second = 0;  // x and y change places
+  EXPECT_EQ(scales_of(stated), (Scales{0.5f, 0.5f, 0.25f}));
+  stated.push_back({0x8000, 0});
+  EXPECT_EQ(scales_of(stated), (Scales{0.5f, -0.5f, -0.25f}));
 }
 
 // docs/rig-evaluation.md, 12.10 "What is missing has a default"

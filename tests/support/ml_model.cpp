@@ -70,7 +70,9 @@ struct Converter {
 void convert(const LayerRig& rig, uint32_t lod, Row& controls) {
   uint32_t axes[3] = {}, seen = 0;
   Converter converter = {rig, convention_of(rig)};
+  bool magnitude = true;
   for (const auto& [key, value] : rig.ml_parameters) {
+    if (key == 0x8000) magnitude = value == 1;
     if (key < 3 || key > 9) continue;
     seen |= 1u << key;
     if (key < 6) axes[key - 3] = value;
@@ -102,13 +104,13 @@ void convert(const LayerRig& rig, uint32_t lod, Row& controls) {
       if (triple->size() != 3) continue;  // the tests give all three or none
       const std::array<double, 3> v = {controls[(*triple)[0]], controls[(*triple)[1]],
                                        controls[(*triple)[2]]};
-      // Scale has no direction: it goes to the other axis as it is, with its sign.
+      // Scale has no direction: it goes to the other axis as it is, or its magnitude alone does.
       for (int i = 0; i < 3; ++i) {
         double sum = 0;
         for (int k = 0; k < 3; ++k) {
           sum += v[k] * (triple == &scale ? std::fabs(converter.c[k][i]) : converter.c[k][i]);
         }
-        controls[(*triple)[i]] = sum;
+        controls[(*triple)[i]] = triple == &scale && magnitude ? std::fabs(sum) : sum;
       }
     }
     if (rotation < 0) continue;

@@ -5,6 +5,7 @@
 
 #include "runtime/base/half.h"
 #include "runtime/load/compile/compile_rig.h"
+#include "runtime/load/dna/format/ml_joint_system.h"
 #include "runtime/rig/work.h"
 
 namespace mien {
@@ -186,23 +187,6 @@ uint32_t file_attribute(uint32_t attribute, const dna::MlJointWidths& widths) {
   return 6 + attribute - widths.rotation;
 }
 
-/// Keys 3 to 9 describe the system of the ML joints; false unless all are there.
-bool find_system(const dna::MlJoints& joints, CoordinateSystem& system) {
-  uint32_t seen = 0;
-  for (uint32_t i = 0; i < joints.parameter_keys.count; ++i) {
-    const uint16_t key = joints.parameter_keys[i], value = joints.parameter_values[i];
-    if (key < 3 || key > 9) continue;
-    seen |= 1u << key;
-    if (key < 6)
-      system.axes[key - 3] = value;
-    else if (key < 9)
-      system.rotation_signs[key - 6] = value == 1 ? 1 : -1;
-    else
-      system.rotation_sequence = value;
-  }
-  return seen == 0x3F8;
-}
-
 void fill_ml_joints(const DnaView& view, Rig& rig, Span<uint32_t> position) {
   const dna::MlJoints& from = view.mlbe.joints;
   MlTable& ml = rig.ml;
@@ -246,15 +230,14 @@ void fill_ml_joints(const DnaView& view, Rig& rig, Span<uint32_t> position) {
     }
   }
 
-  CoordinateSystem own, rigs;
-  if (!find_system(from, own)) return;
+  CoordinateSystem rigs;
   std::copy(rig.units.axes, rig.units.axes + 3, rigs.axes);
   std::copy(rig.units.rotation_signs, rig.units.rotation_signs + 3, rigs.rotation_signs);
   rigs.rotation_sequence = rig.units.rotation_sequence;
-  ml.converts = spans_space(own.axes) && spans_space(rigs.axes) &&
-                (!std::equal(own.axes, own.axes + 3, rigs.axes) ||
-                 !std::equal(own.rotation_signs, own.rotation_signs + 3, rigs.rotation_signs) ||
-                 own.rotation_sequence != rigs.rotation_sequence);
+  const dna::MlJointSystem stated = dna::ml_joint_system(from, rigs);
+  const CoordinateSystem& own = stated.system;
+  ml.scale_magnitude = stated.scale_magnitude && widths.scale != 0;
+  ml.converts = stated.differs || (ml.scale_magnitude && spans_space(rigs.axes));
   if (!ml.converts) return;
   ml.change = coordinate_change(own, rigs);
   ml.rotation = rotation_convention(own.rotation_sequence, own.rotation_signs, rig.units.rotation);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "runtime/load/dna/check/dna_checker.h"
+#include "runtime/load/dna/format/ml_joint_system.h"
 
 namespace mien::dna {
 namespace {
@@ -396,25 +397,27 @@ void check_ml_joints(Checker& c) {
   c.indices_below(Field{&field, "inputIndices"}, joints.input_indices, c.control_limit, "controls");
 
   // Largest value of keys 0 to 9: three representations, three directions, three signs, a sequence.
-  constexpr unsigned kLast[10] = {0, 1, 0, 5, 5, 5, 65535, 65535, 65535, 5};
+  // Then that of Mien's own key.
+  constexpr unsigned kLast[11] = {0, 1, 0, 5, 5, 5, 65535, 65535, 65535, 5, 1};
   const Array<uint16_t>& keys = joints.parameter_keys;
   uint32_t seen = 0;
   for (uint32_t i = 0; i < keys.count && i < joints.parameter_values.count && !c.stopped(); ++i) {
     const unsigned key = keys[i];
-    if (key > 9) {
+    if (key > 9 && key != kMlScaleKey) {
       c.warning(Field{&field, "parameterKeys"}, c.offset(keys, i),
                 "element %u is %u; only 0 to 9 are "
                 "known",
                 i, key);
       continue;
     }
-    if (seen >> key & 1) {
+    const unsigned place = key > 9 ? 10 : key;
+    if (seen >> place & 1) {
       c.error(Field{&field, "parameterKeys"}, Status::kDnaValue, c.offset(keys, i),
               "element %u repeats %u", i, key);
     }
-    seen |= 1u << key;
+    seen |= 1u << place;
     c.enumeration(Field{&field, "parameterValues", i}, c.offset(joints.parameter_values, i),
-                  joints.parameter_values[i], kLast[key]);
+                  joints.parameter_values[i], kLast[place]);
   }
 
   const Field outputs{&field, "outputIndices"};

@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/load/dna/convert/convert_coordinates.h"
 
+#include <algorithm>
 #include <cstdio>
 
 #include "runtime/load/dna/convert/convert_networks.h"
 #include "runtime/load/dna/convert/convert_rotations.h"
 #include "runtime/load/dna/convert/converted_arrays.h"
 #include "runtime/load/dna/convert/rotation_controls.h"
+#include "runtime/load/dna/format/ml_joint_system.h"
 #include "runtime/load/dna/format/quaternion_columns.h"
 
 namespace mien::dna {
 namespace {
-
-// Keys of mlbJoints (docs/dna-format.md, 7.4 "Machine learning").
-constexpr uint16_t kFirstSystemKey = 3, kLastSystemKey = 9, kSystemKeyCount = 7;
 
 bool same_system(const CoordinateSystem& a, const CoordinateSystem& b) {
   for (int i = 0; i < 3; ++i) {
@@ -365,52 +364,60 @@ class CoordinateConverter {
 
   // ML joints keep their axes and angles and tell which they are (keys 3 to 9); evaluation
   // converts. What would only repeat the rig's own system goes, so that converting back leaves no
-  // trace.
+  // trace. Scales that had signs keep them, and those that had none get none.
   Status convert_ml_joints() {
     MlJoints& joints = view_.mlbe.joints;
-    uint16_t own[kSystemKeyCount];
+    const MlJointSystem before = ml_joint_system(joints, from_);
+    uint16_t own[kMlSystemKeyCount], rigs[kMlSystemKeyCount];
     describe_system(from_, own);
-    uint32_t stated = 0;
+    describe_system(to_, rigs);
+    uint32_t kept = 0;
     for (uint32_t i = 0; i < joints.parameter_keys.count; ++i) {
       const uint16_t key = joints.parameter_keys[i];
-      stated += key >= kFirstSystemKey && key <= kLastSystemKey;
-    }
-    const bool states_own = stated == kSystemKeyCount;  // keys are unique
-    for (uint32_t i = 0; states_own && i < joints.parameter_keys.count; ++i) {
-      const uint16_t key = joints.parameter_keys[i];
-      if (key >= kFirstSystemKey && key <= kLastSystemKey) {
-        own[key - kFirstSystemKey] = joints.parameter_values[i];
+      if (!is_system_key(key)) {
+        kept += key != kMlScaleKey;
+      } else if (before.stated) {
+        own[key - kMlFirstSystemKey] = joints.parameter_values[i];
       }
     }
     if (Status s = check_ml_vectors(own); s != Status::kOk) return s;
 
-    uint16_t rigs[kSystemKeyCount];
-    describe_system(to_, rigs);
-    bool repeats = true;
-    for (int i = 0; i < kSystemKeyCount; ++i) repeats &= own[i] == rigs[i];
-
-    const uint32_t others = joints.parameter_keys.count - stated;
-    const uint32_t count = others + (repeats ? 0 : kSystemKeyCount);
-    const NewArray<uint16_t> keys = arrays_.room<uint16_t>(count);
-    const NewArray<uint16_t> values = arrays_.room<uint16_t>(count);
+    const uint32_t most = kept + kMlSystemKeyCount + 1;
+    const NewArray<uint16_t> keys = arrays_.room<uint16_t>(most);
+    const NewArray<uint16_t> values = arrays_.room<uint16_t>(most);
     if (arrays_.out_of_memory()) return Status::kOk;
-    uint32_t at = 0;
+    uint32_t count = 0;
+    const auto add = [&](uint16_t key, uint16_t value) {
+      keys.set(count, key);
+      values.set(count++, value);
+    };
     for (uint32_t i = 0; i < joints.parameter_keys.count; ++i) {
       const uint16_t key = joints.parameter_keys[i];
-      if (key >= kFirstSystemKey && key <= kLastSystemKey) continue;
-      keys.set(at, key);
-      values.set(at++, joints.parameter_values[i]);
+      if (!is_system_key(key) && key != kMlScaleKey) add(key, joints.parameter_values[i]);
     }
-    for (uint16_t i = 0; at < count; ++i, ++at) {
-      keys.set(at, static_cast<uint16_t>(kFirstSystemKey + i));
-      values.set(at, own[i]);
+    if (!std::equal(own, own + kMlSystemKeyCount, rigs)) {
+      for (uint16_t i = 0; i < kMlSystemKeyCount; ++i) {
+        add(static_cast<uint16_t>(kMlFirstSystemKey + i), own[i]);
+      }
     }
-    joints.parameter_keys = keys;
-    joints.parameter_values = values;
+    const auto state = [&] {
+      joints.parameter_keys = Array<uint16_t>(keys).first(count);
+      joints.parameter_values = Array<uint16_t>(values).first(count);
+    };
+    state();
+    if (ml_joint_widths(joints).scale != 0 &&
+        ml_joint_system(joints, to_).scale_magnitude != before.scale_magnitude) {
+      add(kMlScaleKey, before.scale_magnitude);
+      state();
+    }
     return Status::kOk;
   }
 
-  static void describe_system(const CoordinateSystem& system, uint16_t out[kSystemKeyCount]) {
+  static bool is_system_key(uint16_t key) {
+    return key >= kMlFirstSystemKey && key <= kMlLastSystemKey;
+  }
+
+  static void describe_system(const CoordinateSystem& system, uint16_t out[kMlSystemKeyCount]) {
     for (int i = 0; i < 3; ++i) {
       out[i] = static_cast<uint16_t>(system.axes[i]);
       out[3 + i] = static_cast<uint16_t>(system.rotation_signs[i]);  // -1 becomes 65535
@@ -420,7 +427,7 @@ class CoordinateConverter {
 
   // A vector turns as a whole: where only some of its parts are given and axes change places, there
   // is no control for what comes out.
-  Status check_ml_vectors(const uint16_t own[kSystemKeyCount]) {
+  Status check_ml_vectors(const uint16_t own[kMlSystemKeyCount]) {
     bool moves = false;
     for (int i = 0; i < 3; ++i) moves |= own[i] / 2 != to_.axes[i] / 2;
     const MlJoints& joints = view_.mlbe.joints;

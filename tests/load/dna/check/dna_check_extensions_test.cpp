@@ -277,6 +277,16 @@ const Damage kNetworkCases[] = {
        v.mlbe.joints.parameter_keys = be(a, U16{0, 1, 2, 10});
        v.mlbe.joints.parameter_values = be(a, U16{0, 1, 0, 0});
      }},
+    {"MlJointScale", kValue, "mlbe.mlbJoints.parameterValues[3]",
+     [](DnaView& v, Arena& a) {
+       v.mlbe.joints.parameter_keys = be(a, U16{0, 1, 2, 0x8000});
+       v.mlbe.joints.parameter_values = be(a, U16{0, 1, 0, 2});
+     }},
+    {"MlJointScaleTwice", kValue, "mlbe.mlbJoints.parameterKeys",
+     [](DnaView& v, Arena& a) {
+       v.mlbe.joints.parameter_keys = be(a, U16{0, 1, 2, 0x8000, 0x8000});
+       v.mlbe.joints.parameter_values = be(a, U16{0, 1, 0, 1, 1});
+     }},
 };
 
 class DnaCheckExtensions : public testing::TestWithParam<Damage> {};

@@ -371,6 +371,58 @@ TEST(CoordinateConversion, GoldenRigsMoveTheSame) {
   }
 }
 
+// The converted rig gives the golden results, turned into its axes. The networks of this one give scales
+// below 0.
+TEST(CoordinateConversion, GoldenMlExtGivesItsResultsInOtherSystems) {
+  golden::File golden;
+  ASSERT_EQ(golden::parse(golden::read_bytes(golden::path_of("ml_ext", ".golden.bin")), golden),
+            "");
+  const Bytes bytes = golden::read_rig("ml_ext");
+  const DnaHandle original = open_dna(bytes);
+  const size_t width = 10, joints = original->view.defn.joint_names.count;
+  const golden::Record &raw = *golden.find("in.raw"), &mode = *golden.find("in.mode"),
+                       &masks = *golden.find("in.mlMask"),
+                       &expected = *golden.find("lod0.joints.quat");
+  uint32_t negative_scales = 0;
+  for (const char* name : all_names()) {
+    SCOPED_TRACE(name);
+    const DnaHandle converted = open_in_system(bytes, named(name));
+    ASSERT_TRUE(converted);
+    const SpaceChange change(original.get(), converted.get());
+    const RigHandle rig =
+        create_rig(converted.get(), MIEN_ISA_ENVIRONMENT, MIEN_OK, MIEN_ROTATION_OUTPUT_QUATERNION);
+    for (uint32_t frame = 0; frame < mode.integers.size(); ++frame) {
+      if (mode.integers[frame] == 0) continue;
+      Character character(rig);
+      const Span<const float> row = raw.row(frame), mask = masks.row(frame);
+      std::copy(row.begin(), row.end(), character.raw.begin());
+      std::copy(mask.begin(), mask.end(), character.masks.begin());
+      character.evaluate(0);
+      for (size_t j = 0; j < joints; ++j) {
+        const float* from = expected.row(frame).data + j * width;
+        const float* to = character.joints.data + j * width;
+        const double old[3] = {from[0], from[1], from[2]};
+        double moved[3];
+        change.vector(old, moved);
+        for (int i = 0; i < 3; ++i) {
+          ASSERT_NEAR(to[i], moved[i], 1e-4 * (1 + std::fabs(moved[i]))) << "joint " << j;
+        }
+        EXPECT_LE(difference(change.rotation(rotation_of_quaternion(from + 3)),
+                             rotation_of_quaternion(to + 3)),
+                  1e-4);
+        for (int r = 0; r < 3; ++r) {
+          negative_scales += from[7 + r] < -0.01f;
+          for (int c = 0; c < 3; ++c) {
+            if (change.change.m[r][c] == 0) continue;
+            EXPECT_NEAR(from[7 + r], to[7 + c], 1e-4) << "joint " << j;
+          }
+        }
+      }
+    }
+  }
+  EXPECT_GT(negative_scales, 1000u);
+}
+
 // There and back -------------------------------------------------------------------------------
 
 /// Written as 2.8, so that files of older versions can be compared.
@@ -433,6 +485,32 @@ TEST(CoordinateConversion, GoldenRigsReturnExactly) {
       expect_exact_return(bytes, named(name));
     }
   }
+}
+
+// A file whose networks give scales in another system: magnitudes, whatever it is converted to, the
+// networks' system included, and after it was written and read.
+TEST(CoordinateConversion, MagnitudesOfScalesStayMagnitudes) {
+  Arena arena(default_allocator());
+  const Bytes plain = golden::read_rig("ml_ext");
+  const DnaHandle dna = open_dna(plain);
+  dna::DnaView view = dna->view;
+  dna::MlJoints& joints = view.mlbe.joints;
+  // As of Unreal, where the rig is as of Maya.
+  joints.parameter_keys = dna::be<uint16_t>(arena, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9});
+  joints.parameter_values = dna::be<uint16_t>(arena, {0, 1, 0, 4, 1, 2, 65535, 65535, 1, 0});
+  const Bytes bytes = write_view(view);
+  const DnaHandle original = open_dna(bytes);
+  ASSERT_TRUE(original);
+  Random random = Random::from_seed(5, 7);
+  for (const char* name : {"unreal", "unity", "gltf"}) {
+    SCOPED_TRACE(name);
+    const DnaHandle converted = open_in_system(bytes, named(name));
+    ASSERT_TRUE(converted);
+    expect_same_movements(original.get(), converted.get(), random, 2, {1e-3, 1e-3, 2e-3});
+    const Bytes written = write_dna(converted.get());
+    expect_same_movements(original.get(), open_dna(written).get(), random, 1, {1e-3, 1e-3, 2e-3});
+  }
+  expect_exact_return(bytes, named("unreal"));
 }
 
 /// All floats of a file that were changed and changed back.

@@ -199,9 +199,12 @@ TEST_F(RotationControls, UnknownParametersOfMlJointsStay) {
   const DnaHandle dna = converted(mirrored);
   ASSERT_TRUE(dna);
   const dna::MlJoints& joints = dna->view.mlbe.joints;
-  ASSERT_EQ(joints.parameter_keys.count, 11u) << "the system behind them";
+  ASSERT_EQ(joints.parameter_keys.count, 12u)
+      << "the system behind them, and that scales have signs";
   EXPECT_EQ(joints.parameter_keys[3], 12u);
   EXPECT_EQ(joints.parameter_values[3], 7u);
+  EXPECT_EQ(joints.parameter_keys[11], 0x8000u);
+  EXPECT_EQ(joints.parameter_values[11], 0u);
   const std::vector<uint8_t> again = write_dna(dna.get());
   const DnaHandle back = open_in_system(again, turned);
   ASSERT_TRUE(back);
