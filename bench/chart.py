@@ -1,16 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Turns what benchmarks printed into the tables and the chart of README.md.
+"""Turns what benchmarks printed into the tables of docs/speed.md, the one of README.md, and the charts.
 
     chart.py record BENCH.json,... ... NAME=BENCH.json,... ... PARTS.json ...
-                                    keeps results in bench/results/CPU.json, then does what readme
+                                    keeps results in bench/results/CPU.json, then does what write
                                     does. BENCH.json is what `mien bench --json` printed; LOD 0 is
                                     kept: the rig of the table with each storage, then other rigs.
                                     Of several files with commas between, which are runs of the
                                     same, the medians. PARTS.json is what a bench_* program printed
                                     as JSON, with repetitions
-    chart.py readme                 writes the tables between the marks of README.md, and the charts
-    chart.py check                  fails if README.md or a chart is not what the results give
+    chart.py write                  writes the tables between the marks of both documents, and the charts
+    chart.py check                  fails if a document or a chart is not what the results give
 """
 import html
 import json
@@ -21,13 +21,15 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 RESULTS = ROOT / "bench" / "results"
-README = ROOT / "README.md"
+README, SPEED = ROOT / "README.md", ROOT / "docs" / "speed.md"
 
 # Heading, activity, instances, whether all have the same active controls.
 COLUMNS = [("5 %", 0.05, 1, False), ("8 %", 0.08, 1, False), ("25 %", 0.25, 1, False),
            ("50 %", 0.5, 1, False), ("100 %", 1.0, 1, False),
            ("64 instances, 25 %", 0.25, 64, False), ("64 instances, same controls, 25 %", 0.25, 64, True),
            ("512 instances, 8 %", 0.08, 512, False)]
+# Those of README.md.
+SUMMARY_COLUMNS = ["8 %", "25 %", "100 %", "64 instances, same controls, 25 %"]
 # The same of other rigs: no CSR, as the joint matrix is a small part of them.
 OTHER_COLUMNS = [("25 %", 0.25, 1, False), ("100 %", 1.0, 1, False),
                  ("64 instances, 25 %", 0.25, 64, False)]
@@ -41,7 +43,7 @@ COLORS = {"scalar": "#8b949e", "sse2": "#bf8700", "avx2": "#2f81f7", "avx512": "
 
 
 def trimmed(run):
-    """LOD 0 is what the README shows; the rest need not be kept."""
+    """LOD 0 is what the documents show; the rest need not be kept."""
     return {key: [row for row in value if row["lod"] == 0] if key in ("csr", "rows") else value
             for key, value in run.items()}
 
@@ -122,15 +124,11 @@ def other_table(result):
         return []
     names = [name for name, *_ in OTHER_COLUMNS + FRAME_COLUMNS]
     lines = ["", "Other rigs, LOD 0: all stages, and whole frames (evaluation, matrices, all meshes with "
-             "skinned normals) at 25 %,", "microseconds per character; behind them, how many times as "
-             "fast as scalar code.", "",
-             "| |" + "|".join(f" {name} " for name in names) + "|", "|---|" + "---|" * len(names)]
-    for run in others:
-        for label, _, values in other_series(run):
-            cells = [f" {values[name][0] / 1000:.1f} ({values[name][1]:.1f}x) "
-                     if name in values else " " for name in names]
-            lines.append(f"| {run['name']}, {label} |" + "|".join(cells) + "|")
-    return lines
+             "skinned normals) at 25 %,", "microseconds per character; in parentheses, how many times as "
+             "fast as scalar code.", ""]
+    found = [(f"{run['name']}, {label}", isa, values)
+             for run in others for label, isa, values in other_series(run)]
+    return lines + rows_of(found, names)
 
 
 def stage_rows(result):
@@ -158,26 +156,39 @@ def of_runs(result):
     if run.get("runs", 1) == 1:
         return []
     spread = statistics.median(r["spread"] for r in result["runs"] + result["others"])
-    return [f"Medians of {run['runs']} runs; the slowest and the fastest are {100 * spread:.0f} % apart, in the "
-            "median of all times."]
+    return [f"Medians of {run['runs']} runs. The slowest run of a row takes {100 * spread:.0f} % longer than the "
+            "fastest (median of all rows)."]
+
+
+def introduction(result):
+    run = result["runs"][0]
+    return [f"{run['cpu']}, {run['compiler']}, one core: LOD 0 of \"{run['rig']}\", all stages, "
+            "microseconds per character by the",
+            "share of raw controls that are active; in parentheses, how many times as fast as the "
+            "joint matrix in compressed",
+            f"sparse rows ({run['csr'][0]['joints_ns'] / 1000:.0f} us), which skips no control that "
+            "is zero. `mien bench` prints the same rows.",
+            *of_runs(result), ""]
+
+
+def rows_of(found, names):
+    lines = ["| |" + "|".join(f" {name} " for name in names) + "|", "|---|" + "---|" * len(names)]
+    for label, _, values in found:
+        cells = [f" {values[name][0] / 1000:.1f} ({values[name][1]:.1f}x) "
+                 if name in values else " " for name in names]
+        lines.append(f"| {label} |" + "|".join(cells) + "|")
+    return lines
+
+
+def summary(result):
+    """What README.md shows: one rig, 32-bit storage."""
+    found = [row for row in series(result) if row[0] == row[1]]
+    return introduction(result) + rows_of(found, SUMMARY_COLUMNS)
 
 
 def table(result):
-    run = result["runs"][0]
-    lines = [f"{run['cpu']}, {run['compiler']}, one core: LOD 0 of \"{run['rig']}\", all stages, "
-             "microseconds per character by the",
-             "share of raw controls that are active; behind them, how many times as fast as the "
-             "joint matrix in compressed",
-             f"sparse rows ({run['csr'][0]['joints_ns'] / 1000:.0f} us), which skips no control that "
-             "is zero. `mien bench` prints the same rows.",
-             *of_runs(result), "",
-             "| |" + "|".join(f" {name} " for name, *_ in COLUMNS) + "|",
-             "|---|" + "---|" * len(COLUMNS)]
-    for label, _, values in series(result):
-        cells = [f" {values[name][0] / 1000:.1f} ({values[name][1]:.1f}x) "
-                 if name in values else " " for name, *_ in COLUMNS]
-        lines.append(f"| {label} |" + "|".join(cells) + "|")
-    return lines + other_table(result) + stage_table(result) + loading(result)
+    return introduction(result) + rows_of(series(result), [name for name, *_ in COLUMNS]) + \
+        other_table(result) + stage_table(result) + loading(result)
 
 
 def loading(result):
@@ -285,30 +296,34 @@ def results():
 def speed():
     lines = []
     for path, result in results():
-        picture = path.with_suffix(".svg").relative_to(ROOT).as_posix()
+        picture = "../" + path.with_suffix(".svg").relative_to(ROOT).as_posix()
         lines += table(result) + ["", f"![Times as fast as compressed sparse rows]({picture})", ""]
     return lines
 
 
-def deformers():
-    return [line for _, result in results() for line in deformer_table(result) + [""]]
+def of_each(lines_of):
+    return [line for _, result in results() for line in lines_of(result) + [""]]
 
 
-def readme_with_tables(text):
-    for name, lines in (("bench", speed()), ("bench-deform", deformers())):
+def documents():
+    """{document: its text with the tables of the results}"""
+    written = {}
+    for file, name, lines in ((README, "bench-summary", of_each(summary)), (SPEED, "bench", speed()),
+                              (SPEED, "bench-deform", of_each(deformer_table))):
+        text = written.get(file) or file.read_text(encoding="utf-8")
         begin, end = f"<!-- {name}:begin -->", f"<!-- {name}:end -->"
         if text.count(begin) != 1 or text.count(end) != 1:
-            sys.exit(f"chart.py: README.md needs {begin} and {end} once each")
+            sys.exit(f"chart.py: {file.name} needs {begin} and {end} once each")
         head, rest = text.split(begin)
-        text = head + "\n".join([begin, *lines, end]) + rest.split(end)[1]
-    return text
+        written[file] = head + "\n".join([begin, *lines, end]) + rest.split(end)[1]
+    return written
 
 
 def write_all():
     for path, result in results():
         path.with_suffix(".svg").write_text(chart(result), encoding="utf-8")
-    text = README.read_text(encoding="utf-8")
-    README.write_text(readme_with_tables(text), encoding="utf-8")
+    for file, text in documents().items():
+        file.write_text(text, encoding="utf-8")
 
 
 def record(files):
@@ -328,12 +343,11 @@ def record(files):
     (RESULTS / f"{name}.json").write_text(json.dumps({"runs": runs, "others": others, "parts": measured},
                                                      indent=1) + "\n", encoding="utf-8")
     write_all()
-    print(f"wrote bench/results/{name}.json, its chart and README.md")
+    print(f"wrote bench/results/{name}.json, its chart, docs/speed.md and README.md")
 
 
 def check():
-    text = README.read_text(encoding="utf-8")
-    wrong = [] if readme_with_tables(text) == text else ["README.md"]
+    wrong = [file.name for file, text in documents().items() if file.read_text(encoding="utf-8") != text]
     for path, result in results():
         picture = path.with_suffix(".svg")
         if not picture.exists() or picture.read_text(encoding="utf-8") != chart(result):
@@ -342,13 +356,13 @@ def check():
         wrong.append("bench/results, which is empty")
     if wrong:
         sys.exit("chart.py: not what the results give: " + ", ".join(wrong) +
-                 "; run bench/chart.py readme")
+                 "; run bench/chart.py write")
 
 
 def main(arguments):
     if len(arguments) > 1 and arguments[0] == "record":
         record(arguments[1:])
-    elif arguments == ["readme"]:
+    elif arguments == ["write"]:
         write_all()
     elif arguments == ["check"]:
         check()

@@ -140,7 +140,7 @@ std::string times_text(const BenchRow& row, double csr_ns) {
   return text;
 }
 
-/// As in the table of README.md.
+/// As in the tables of docs/speed.md.
 std::string row_name(const MienRigInfo& info) {
   const bool half = info.storage == MIEN_STORAGE_16_BIT;
   return mien_isa_name(info.isa) + std::string(half ? ", 16 bits" : "");
