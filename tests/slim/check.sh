@@ -19,6 +19,9 @@ die() {
 
 # The same names are exported; the program needs no other library of ours.
 python3 "$root/tests/check_exports.py" "$2/lib/libmien.so"
+if [[ $(uname -m) = x86_64 && $(readelf -p .comment "$2/lib/libmien.so") = *"GCC: "*" 12."* ]]; then
+  python3 "$root/tests/check_sizes.py" --slim "$2/lib/libmien.so"
+fi
 [ ! -e "$2/lib/libmien-author.so" ] || die "the slim build makes libmien-author"
 
 frames='{"frames": [{}]}'
