@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Mixing: its parts on rows of 256 lanes, and whole steps of a character beside the evaluation of its
+// Mixing: its parts on rows of 256 curves, and whole steps of a character beside the evaluation of its
 // rig, so that their ratio comes from one run.
 //
 // The character is the one of face_scene.h: two clips, a stream, moods, a reaction, blinks, breath,
@@ -22,20 +22,20 @@
 namespace mien::bench {
 namespace {
 
-constexpr size_t kLanes = 256;
+constexpr size_t kCurves = 256;
 
 struct Rows {
-  alignas(64) float x[2 * kLanes], cover[2 * kLanes], mask[kLanes], row[2 * kLanes];
-  alignas(64) float lower[kLanes], upper[kLanes];
+  alignas(64) float x[2 * kCurves], cover[2 * kCurves], mask[kCurves], row[2 * kCurves];
+  alignas(64) float lower[kCurves], upper[kCurves];
 
   Rows() {
     Random random = Random::from_seed(1, 0);
-    for (size_t i = 0; i < 2 * kLanes; ++i) {
+    for (size_t i = 0; i < 2 * kCurves; ++i) {
       x[i] = static_cast<float>(random.real());
       cover[i] = 1;
       row[i] = static_cast<float>(random.real());
     }
-    for (size_t i = 0; i < kLanes; ++i) {
+    for (size_t i = 0; i < kCurves; ++i) {
       mask[i] = static_cast<float>(random.real());
       lower[i] = 0;
       upper[i] = 1;
@@ -43,23 +43,23 @@ struct Rows {
   }
 };
 
-std::vector<uint16_t> first_lanes(uint32_t count) {
-  std::vector<uint16_t> lanes;
-  for (uint16_t l = 0; l < count; ++l) lanes.push_back(l);
-  return lanes;
+std::vector<uint16_t> first_curves(uint32_t count) {
+  std::vector<uint16_t> curves;
+  for (uint16_t l = 0; l < count; ++l) curves.push_back(l);
+  return curves;
 }
 
 // Parts
 // ------------------------------------------------------------------------------------------------
 
-/// A layer of a clip, with a mask and channels for all lanes; poses have no cover.
+/// A layer of a clip, with a mask and channels for all curves; poses have no cover.
 void masked_layer(benchmark::State& state, Isa isa, BlendMode mode, bool covered) {
   const KernelTable* const kernels = kernels_for(isa);
   Rows rows;
   for (auto _ : state) {
     memcpy(rows.row, rows.upper, sizeof(rows.upper));  // repeated blending leads to denormals
     kernels->blend_row(
-        {rows.x, covered ? rows.cover : nullptr, rows.mask, rows.row, kLanes, 0.5f, mode});
+        {rows.x, covered ? rows.cover : nullptr, rows.mask, rows.row, kCurves, 0.5f, mode});
     benchmark::ClobberMemory();
   }
 }
@@ -69,25 +69,25 @@ void masked_layer(benchmark::State& state, Isa isa, BlendMode mode, bool covered
 void inertial_transition(benchmark::State& state, Isa isa, size_t count) {
   const KernelTable* const kernels = kernels_for(isa);
   Rows rows;
-  alignas(64) static float quintics[4][2 * kLanes];
+  alignas(64) static float quintics[4][2 * kCurves];
   const QuinticRows out = {quintics[0], quintics[1], quintics[2], quintics[3]};
-  start_quintics(rows.x, rows.x, rows.row, 0, 2 * kLanes, out);
+  start_quintics(rows.x, rows.x, rows.row, 0, 2 * kCurves, out);
   for (auto _ : state) {
     kernels->add_quintics(out, 0.4f, count, rows.x, rows.row);
     benchmark::ClobberMemory();
   }
 }
 
-/// Eight layers of poses that have all lanes, with masks; 48 pairs of antagonists; limits.
+/// Eight layers of poses that have all curves, with masks; 48 pairs of antagonists; limits.
 struct DenseMix {
   Mix* mix = nullptr;
   explicit DenseMix(Isa isa) {
     Random random = Random::from_seed(2, 0);
-    std::vector<float> values(kLanes), mask(kLanes), lower(kLanes, 0.0f), upper(kLanes, 1.0f);
+    std::vector<float> values(kCurves), mask(kCurves), lower(kCurves, 0.0f), upper(kCurves, 1.0f);
     for (float& v : values) v = static_cast<float>(random.real());
     for (float& m : mask) m = static_cast<float>(random.real());
-    const std::vector<uint16_t> lanes = first_lanes(kLanes);
-    const PoseDesc pose = {{lanes.data(), lanes.size()}, {values.data(), values.size()}};
+    const std::vector<uint16_t> curves = first_curves(kCurves);
+    const PoseDesc pose = {{curves.data(), curves.size()}, {values.data(), values.size()}};
     LayerDesc layers[8];
     for (LayerDesc& layer : layers) {
       layer.mode = BlendMode::kScreen;
@@ -98,7 +98,7 @@ struct DenseMix {
     std::vector<AntagonistPair> pairs;
     for (uint16_t l = 0; l < 96; l += 2) pairs.push_back({l, static_cast<uint16_t>(l + 1), 1});
     MixDesc desc;
-    desc.raw_count = kLanes;
+    desc.raw_count = kCurves;
     desc.layers = {layers, 8};
     desc.poses = {&pose, 1};
     desc.antagonists = {pairs.data(), pairs.size()};
@@ -122,14 +122,14 @@ void dense_layers(benchmark::State& state, Isa isa) {
   const DenseMix dense(isa);
   const auto count = static_cast<size_t>(state.range(0));
   std::vector<Mixer*> mixers;
-  std::vector<float> rows(count * kLanes);
+  std::vector<float> rows(count * kCurves);
   std::vector<float*> outs;
   for (size_t i = 0; i < count; ++i) {
     mixers.push_back(dense.mixer());
-    outs.push_back(rows.data() + i * kLanes);
+    outs.push_back(rows.data() + i * kCurves);
   }
   for (auto _ : state) {
-    step_mixers({mixers.data(), count}, kSceneStep, outs.data(), kLanes, nullptr, 0);
+    step_mixers({mixers.data(), count}, kSceneStep, outs.data(), kCurves, nullptr, 0);
     benchmark::ClobberMemory();
   }
   using benchmark::Counter;
@@ -138,18 +138,19 @@ void dense_layers(benchmark::State& state, Isa isa) {
   for (Mixer* mixer : mixers) destroy_mixer(mixer);
 }
 
-/// Eight guards of 24 lanes and 8 pairs each, fully active, while later layers move all of the 48 lanes
+/// Eight guards of 24 curves and 8 pairs each, fully active, while later layers move all of the 48 curves
 /// that they have together: more than any face does.
 void guards(benchmark::State& state, float activation) {
   constexpr uint32_t kGuarded = 48;
-  const std::vector<uint16_t> lanes = first_lanes(kGuarded);
+  const std::vector<uint16_t> curves = first_curves(kGuarded);
   std::vector<Guard> all;
-  for (uint32_t g = 0; g < kMaxGuards; ++g) all.push_back(scene_guard(g, lanes));
+  for (uint32_t g = 0; g < kMaxGuards; ++g) all.push_back(scene_guard(g, curves));
   const PlacedGuards placed(all);
   Rows rows;
-  alignas(64) float held[kLanes] = {}, back[kLanes], row[kLanes];
-  const float *const before = rows.x, *const free_row = rows.row;  // lane by lane: all have guards
-  scene_requires(placed.table.lanes.count == kGuarded ? Status::kOk : Status::kMismatch);
+  alignas(64) float held[kCurves] = {}, back[kCurves], row[kCurves];
+  const float *const before = rows.x, *const free_row =
+                                          rows.row;  // curve by curve: all have guards
+  scene_requires(placed.table.curves.count == kGuarded ? Status::kOk : Status::kMismatch);
   for (auto _ : state) {
     alignas(64) float distances[kMaxGuards];
     float activations[kMaxGuards];
@@ -338,9 +339,9 @@ const int kRegistered = [] {
       RegisterBenchmark((layer + "/poses").c_str(), masked_layer, own, each.mode, false);
     }
     const std::string transition = "inertial_transition/" + name;
-    RegisterBenchmark(transition.c_str(), inertial_transition, own, kLanes);
+    RegisterBenchmark(transition.c_str(), inertial_transition, own, kCurves);
     RegisterBenchmark((transition + "/other_channels").c_str(), inertial_transition, own,
-                      2 * kLanes);
+                      2 * kCurves);
     RegisterBenchmark(("dense_layers/" + name + "/8").c_str(), dense_layers, own)
         ->ArgName("characters")
         ->Arg(1)

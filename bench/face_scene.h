@@ -79,8 +79,8 @@ class FaceScene {
          ++c) {
       if (!is_mouth(c)) parts.channels.push_back(parts.moved[c]);
     }
-    parts.blinks = lanes_of("eyeBlink 1");
-    parts.small = lanes_of("browOuterUp 1, noseSneer 1");
+    parts.blinks = curves_of("eyeBlink 1");
+    parts.small = curves_of("browOuterUp 1, noseSneer 1");
   }
 
   SceneParts parts;
@@ -93,18 +93,18 @@ class FaceScene {
     return name.rfind("mouth", 0) == 0 || name.rfind("jaw", 0) == 0 || name.rfind("tongue", 0) == 0;
   }
 
-  std::vector<uint16_t> lanes_of(PoseText text) const {
-    std::vector<uint16_t> lanes;
+  std::vector<uint16_t> curves_of(PoseText text) const {
+    std::vector<uint16_t> curves;
     const Pose pose = pose_of(text, head_.controls);
     for (size_t c = 0; c < pose.size(); ++c) {
-      if (pose[c] != 0) lanes.push_back(parts.moved[c]);
+      if (pose[c] != 0) curves.push_back(parts.moved[c]);
     }
-    return lanes;
+    return curves;
   }
 
   void place_guards() {
     for (Guard guard : head_.guards) {
-      for (uint32_t i = 0; i < guard.count; ++i) guard.lanes[i] = parts.moved[guard.lanes[i]];
+      for (uint32_t i = 0; i < guard.count; ++i) guard.curves[i] = parts.moved[guard.curves[i]];
       parts.guards.push_back(guard);
     }
   }
@@ -144,17 +144,17 @@ class FaceScene {
     }
   }
 
-  /// Further lanes stand for what the head lacks: pupils, a turn of the head.
+  /// Further curves stand for what the head lacks: pupils, a turn of the head.
   void set_pose(uint32_t at, PoseText text, std::vector<uint16_t> others = {}) {
     SceneParts::Pose& pose = parts.poses[at];
     const Pose values = pose_of(text, head_.controls);
     for (size_t c = 0; c < values.size(); ++c) {
       if (values[c] == 0) continue;
-      pose.lanes.push_back(parts.moved[c]);
+      pose.curves.push_back(parts.moved[c]);
       pose.values.push_back(values[c]);
     }
-    for (uint16_t lane : others) {
-      pose.lanes.push_back(lane);
+    for (uint16_t curve : others) {
+      pose.curves.push_back(curve);
       pose.values.push_back(0.5f);
     }
   }

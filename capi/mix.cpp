@@ -52,8 +52,8 @@ struct MixLists {
       to.mask = {from.mask, from.mask ? from.mask_count : 0};
       to.first_pose = from.first_pose;
       to.pose_count = from.pose_count;
-      to.lanes = {from.lanes, from.lane_count};
-      to.amounts = {from.amounts, from.amounts ? from.lane_count : 0};
+      to.curves = {from.curves, from.curve_count};
+      to.amounts = {from.amounts, from.amounts ? from.curve_count : 0};
       to.generator = static_cast<Generator>(from.generator);
       to.period = from.period;
       to.delay = from.delay;
@@ -61,7 +61,7 @@ struct MixLists {
     }
     for (size_t i = 0; i < desc.pose_count; ++i) {
       const MienMixPose& from = desc.poses[i];
-      poses[i] = {{from.lanes, from.count}, {from.values, from.count}};
+      poses[i] = {{from.curves, from.count}, {from.values, from.count}};
     }
     size_t stroke = 0;
     for (size_t i = 0; i < desc.reaction_count; ++i) {
@@ -106,7 +106,7 @@ MienStatus check_mix_desc(const MienMixDesc& desc, MienError* error) {
                       "NULL; or guards are not 0 without a deformer");
   }
   if (desc.layer_count > kMaxLayers || desc.pose_count > kMaxPoses ||
-      desc.reaction_count > kMaxReactions || desc.antagonist_count > kMaxLanes ||
+      desc.reaction_count > kMaxReactions || desc.antagonist_count > kMaxCurves ||
       desc.guards > MIEN_GUARD_ALL || desc.custom_guard_count > kMaxGuards || desc.reserved != 0) {
     return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
                       "MienMixDesc: too many layers, poses, reactions or antagonists, unknown "
@@ -114,8 +114,8 @@ MienStatus check_mix_desc(const MienMixDesc& desc, MienError* error) {
   }
   for (size_t i = 0; i < desc.layer_count; ++i) {
     const MienMixLayer& layer = desc.layers[i];
-    if (!layer.lanes && layer.lane_count != 0) {
-      return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "layer %zu: lanes is NULL", i);
+    if (!layer.curves && layer.curve_count != 0) {
+      return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "layer %zu: curves is NULL", i);
     }
     if (layer.group > MIEN_LAYER_GROUP_LIFE || layer.mode > MIEN_BLEND_MODE_SCALE ||
         layer.source > MIEN_LAYER_SOURCE_GENERATOR || layer.generator > MIEN_GENERATOR_GAZE ||
@@ -137,8 +137,8 @@ MienStatus check_mix_desc(const MienMixDesc& desc, MienError* error) {
   }
   for (size_t i = 0; i < desc.pose_count; ++i) {
     const MienMixPose& pose = desc.poses[i];
-    if ((pose.lanes && pose.values) || pose.count == 0) continue;
-    return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "pose %zu: lanes or values is NULL", i);
+    if ((pose.curves && pose.values) || pose.count == 0) continue;
+    return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "pose %zu: curves or values is NULL", i);
   }
   for (size_t i = 0; i < desc.reaction_count; ++i) {
     const MienMixReaction& reaction = desc.reactions[i];
@@ -272,14 +272,14 @@ MienStatus mien_mix_create(const MienRig* rig, const MienMixDesc* desc, MienMix*
   mix.raw_count = of.raw_count;
   mix.names = of.names[static_cast<size_t>(Kind::kRawControl)];
   mix.variable_count = known.variable_count;
-  const size_t lanes = size_t{of.raw_count} + known.variable_count;
+  const size_t curves = size_t{of.raw_count} + known.variable_count;
   mix.layers = lists.layers;
   mix.poses = lists.poses;
   mix.reactions = lists.reactions;
   mix.antagonists = lists.antagonists;
-  if (known.mirror) mix.mirror = {known.mirror, lanes};
-  if (known.lower) mix.lower = {known.lower, lanes};
-  if (known.upper) mix.upper = {known.upper, lanes};
+  if (known.mirror) mix.mirror = {known.mirror, curves};
+  if (known.lower) mix.lower = {known.lower, curves};
+  if (known.upper) mix.upper = {known.upper, curves};
   mix.player_count = known.player_count != 0 ? known.player_count : 2 * clip_layer_count(known);
   mix.max_channels = known.max_channels != 0 ? known.max_channels : of.raw_count;
   mix.max_changing_channels = known.max_changing_channels;
@@ -318,7 +318,7 @@ MienStatus mien_mix_info(const MienMix* handle, MienMixInfo* out_info) {
   MienMixInfo info = {};
   info.raw_control_count = mix.raw_count;
   info.variable_count = mix.variable_count;
-  info.lane_count = mix.used_lanes();
+  info.curve_count = mix.used_curves();
   info.layer_count = static_cast<uint32_t>(mix.layers.count);
   info.stage_count = stage_count(mix);
   info.guard_count = static_cast<uint32_t>(mix.guards.count);
@@ -335,7 +335,7 @@ MienStatus mien_mix_guard(const MienMix* handle, uint32_t guard, MienMixGuardInf
   if (guard >= mix.guards.count) return MIEN_ERROR_INDEX;
   const Guard& of = mix.guards[guard];
   MienMixGuardInfo info = {};
-  info.lanes = {of.lanes, of.count};
+  info.curves = {of.curves, of.count};
   info.gains = {of.gains, of.count};
   info.needs_speech = of.needs_speech;
   info.pair_count = of.pair_count;
@@ -508,7 +508,7 @@ MienStatus mien_mixer_guard(const MienMixer* handle, uint32_t guard, MienGuardSt
   const char* name = guard_name(kind);
   MienGuardState state = {};
   state.name = {name, strlen(name)};
-  state.controls = {found.lanes.data, found.lanes.count};
+  state.controls = {found.curves.data, found.curves.count};
   state.kind = mixer.mix->guards[guard].kind < kStandardGuardCount ? guard_bit(kind) : 0;
   state.activation = found.activation;
   state.protected_distance = found.protected_distance;
@@ -582,7 +582,7 @@ MienStatus mien_mixer_row(const MienMixer* mixer, MienFloatView* out_row) {
   if (!out_row) return MIEN_ERROR_NULL_ARGUMENT;
   *out_row = {};
   if (MienStatus status = check(mixer)) return status;
-  *out_row = {object(mixer)->row.data, object(mixer)->mix->used_lanes()};
+  *out_row = {object(mixer)->row.data, object(mixer)->mix->used_curves()};
   return MIEN_OK;
 }
 
@@ -593,7 +593,7 @@ MienStatus mien_mixer_stage(const MienMixer* handle, uint32_t stage, MienFloatVi
   const Mixer& mixer = *object(handle);
   if (!mixer.stages) return MIEN_ERROR_INVALID_ARGUMENT;
   if (stage >= stage_count(*mixer.mix)) return MIEN_ERROR_INDEX;
-  *out_row = {mixer.stages + size_t{stage} * mixer.mix->lane_count, mixer.mix->used_lanes()};
+  *out_row = {mixer.stages + size_t{stage} * mixer.mix->curve_count, mixer.mix->used_curves()};
   return MIEN_OK;
 }
 

@@ -27,27 +27,27 @@ MienStatus mien_mix_antagonists(const MienRig* rig, MienMixAntagonists* out_pair
   return MIEN_OK;
 }
 
-MienStatus mien_mix_mirror(const MienDeformer* deformer, uint16_t* out_lanes, size_t lane_count,
+MienStatus mien_mix_mirror(const MienDeformer* deformer, uint16_t* out_curves, size_t curve_count,
                            MienError* error) {
   if (MienStatus status = check_error(error)) return status;
-  if (!out_lanes) return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "out_lanes is NULL");
+  if (!out_curves) return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "out_curves is NULL");
   if (MienStatus status = check(deformer)) return give_error(error, status, "not a deformer");
   const Deformer& of = *object(deformer);
-  if (lane_count < of.rig->raw_count || lane_count > kMaxLanes) {
-    return give_error(error, MIEN_ERROR_MISMATCH, "%zu lanes; the rig has %u raw controls",
-                      lane_count, of.rig->raw_count);
+  if (curve_count < of.rig->raw_count || curve_count > kMaxCurves) {
+    return give_error(error, MIEN_ERROR_MISMATCH, "%zu curves; the rig has %u raw controls",
+                      curve_count, of.rig->raw_count);
   }
   Error detail;
-  const Span<uint16_t> lanes = {out_lanes, of.rig->raw_count};
-  if (find_mirror(of, of.rig->allocator, lanes, detail) != Status::kOk) {
+  const Span<uint16_t> curves = {out_curves, of.rig->raw_count};
+  if (find_mirror(of, of.rig->allocator, curves, detail) != Status::kOk) {
     return give_error(detail, error);
   }
-  for (size_t i = lanes.count; i < lane_count; ++i) out_lanes[i] = static_cast<uint16_t>(i);
+  for (size_t i = curves.count; i < curve_count; ++i) out_curves[i] = static_cast<uint16_t>(i);
   return succeed(error);
 }
 
 MienStatus mien_mix_mask(const MienRig* rig, const uint32_t* groups, size_t group_count,
-                         float otherwise_weight, float* out_mask, size_t lane_count,
+                         float otherwise_weight, float* out_mask, size_t curve_count,
                          MienError* error) {
   if (MienStatus status = check_error(error)) return status;
   if (!out_mask || (!groups && group_count != 0)) {
@@ -55,16 +55,16 @@ MienStatus mien_mix_mask(const MienRig* rig, const uint32_t* groups, size_t grou
   }
   if (MienStatus status = check(rig)) return give_error(error, status, "not a rig");
   const Rig& of = *object(rig);
-  if (lane_count < of.raw_count) {
-    return give_error(error, MIEN_ERROR_MISMATCH, "%zu lanes; the rig has %u raw controls",
-                      lane_count, of.raw_count);
+  if (curve_count < of.raw_count) {
+    return give_error(error, MIEN_ERROR_MISMATCH, "%zu curves; the rig has %u raw controls",
+                      curve_count, of.raw_count);
   }
   Error detail;
   if (mask_of_groups(of, {groups, group_count}, otherwise_weight, of.allocator,
                      {out_mask, of.raw_count}, detail) != Status::kOk) {
     return give_error(detail, error);
   }
-  std::fill(out_mask + of.raw_count, out_mask + lane_count, otherwise_weight);
+  std::fill(out_mask + of.raw_count, out_mask + curve_count, otherwise_weight);
   return succeed(error);
 }
 

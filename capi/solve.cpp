@@ -22,7 +22,7 @@ struct MienSolverStack {
   mutable std::atomic<uint32_t> owners{1};  // the creator and every state
   const Deformer* deformer;                 // owned with others
   Stack* stack;
-  uint32_t lane_count;
+  uint32_t curve_count;
 };
 
 struct MienSolverState {
@@ -59,8 +59,8 @@ void solve_custom(const SolverArgs& args) {
 /// Turns the solvers of a desc into those of the runtime, in memory of the arena.
 class Describer {
  public:
-  Describer(const Skeleton& skeleton, uint32_t lane_count, Arena& arena, MienError* error)
-      : skeleton_(skeleton), lane_count_(lane_count), arena_(arena), error_(error) {}
+  Describer(const Skeleton& skeleton, uint32_t curve_count, Arena& arena, MienError* error)
+      : skeleton_(skeleton), curve_count_(curve_count), arena_(arena), error_(error) {}
 
   MienStatus describe_solver(size_t index, const MienSolver& from, SolverDesc& to) {
     index_ = index;
@@ -95,11 +95,11 @@ class Describer {
     to = static_cast<uint16_t>(from);
     return MIEN_OK;
   }
-  MienStatus check_lanes(uint32_t first, uint32_t count) {
-    if (first < lane_count_ && count <= lane_count_ - first) return MIEN_OK;
+  MienStatus check_curves(uint32_t first, uint32_t count) {
+    if (first < curve_count_ && count <= curve_count_ - first) return MIEN_OK;
     return give_error(error_, MIEN_ERROR_INDEX,
-                      "solver %zu: lane %u of %u (MienSolverStackDesc.lane_count)", index_, first,
-                      lane_count_);
+                      "solver %zu: curve %u of %u (MienSolverStackDesc.curve_count)", index_, first,
+                      curve_count_);
   }
 
   /// A direction of length 1; 0 0 0 becomes `otherwise`, or is wrong without it.
@@ -127,10 +127,10 @@ class Describer {
     if (MienStatus status = read_joint(from.joint, out.joint)) return status;
     if (from.target_joint != MIEN_NO_JOINT) {
       if (MienStatus status = read_joint(from.target_joint, out.target_joint)) return status;
-    } else if (MienStatus status = check_lanes(from.target_lane, 3)) {
+    } else if (MienStatus status = check_curves(from.target_curve, 3)) {
       return status;
     }
-    out.target_lane = from.target_lane;
+    out.target_curve = from.target_curve;
     const Vec3 none = {}, up = {0, 1, 0};
     if (MienStatus status = read_direction(from.axis, nullptr, out.axis)) return status;
     if (MienStatus status = read_direction(from.up_axis, &none, out.up_axis)) return status;
@@ -152,7 +152,7 @@ class Describer {
     if (!solver.data) return no_solver_memory();
     SpaceSolver& out = solver[0];
     if (MienStatus status = read_joint(from.joint, out.joint)) return status;
-    if (MienStatus status = check_lanes(from.lane, 1)) return status;
+    if (MienStatus status = check_curves(from.curve, 1)) return status;
     if (!from.spaces || from.space_count == 0 || from.space_count > kMaxSolverJoints ||
         from.ease_ticks < 0 || from.ease_ticks > kMaxFadeTicks || from.reserved != 0) {
       return refuse_solver(
@@ -164,7 +164,7 @@ class Describer {
       if (MienStatus status = read_joint(from.spaces[i], out.spaces[i])) return status;
     }
     out.space_count = from.space_count;
-    out.lane = from.lane;
+    out.curve = from.curve;
     out.ease_ticks = from.ease_ticks;
     to = mien::describe(skeleton_, out);
     return MIEN_OK;
@@ -256,7 +256,7 @@ class Describer {
   }
 
   const Skeleton& skeleton_;
-  uint32_t lane_count_;
+  uint32_t curve_count_;
   Arena& arena_;
   MienError* error_;
   size_t index_ = 0;
@@ -301,7 +301,7 @@ MienStatus mien_solver_stack_create(const MienDeformer* deformer, const MienSolv
                     : nullptr;
   if (!block) return give_error(error, MIEN_ERROR_MEMORY, "no memory for a solver stack");
   Stack* stack = nullptr;
-  Describer describer(skeleton, known.lane_count, arena, error);
+  Describer describer(skeleton, known.curve_count, arena, error);
   MienStatus status = MIEN_OK;
   for (size_t i = 0; i < solvers.count && status == MIEN_OK; ++i) {
     status = describer.describe_solver(i, known.solvers[i], solvers[i]);
@@ -323,7 +323,7 @@ MienStatus mien_solver_stack_create(const MienDeformer* deformer, const MienSolv
   made->allocator = allocator;
   made->deformer = object(deformer);
   made->stack = stack;
-  made->lane_count = known.lane_count;
+  made->curve_count = known.curve_count;
   *out_stack = made;
   return succeed(error);
 }
@@ -338,7 +338,7 @@ MienStatus mien_solver_stack_info(const MienSolverStack* handle, MienSolverStack
   const Stack& stack = *handle->stack;
   MienSolverStackInfo info = {};
   info.solver_count = static_cast<uint32_t>(stack.solvers.count);
-  info.lane_count = handle->lane_count;
+  info.curve_count = handle->curve_count;
   info.output_count = stack.output_count;
   info.joint_count = stack.skeleton->joint_count;
   info.state_bytes = sizeof(MienSolverState) + stack_state_size(stack);
@@ -385,7 +385,7 @@ MienStatus check_input(const MienSolverState& state, const MienDeformerInstance*
   const MienSolverStack& stack = *state.stack;
   if (object(instance)->deformer != stack.deformer) return MIEN_ERROR_MISMATCH;
   if (input && !input->row && input->row_count != 0) return MIEN_ERROR_NULL_ARGUMENT;
-  if (stack.lane_count > (input ? input->row_count : 0)) return MIEN_ERROR_MISMATCH;
+  if (stack.curve_count > (input ? input->row_count : 0)) return MIEN_ERROR_MISMATCH;
   return input && input->lod > 63 ? MIEN_ERROR_INVALID_ARGUMENT : MIEN_OK;
 }
 
@@ -431,7 +431,7 @@ MienStatus mien_solver_state_step_batch(MienSolverState* const* states,
     for (size_t i = 0; i < some; ++i) {
       const MienSolverInput input = inputs ? inputs[first + i] : MienSolverInput{};
       poses[i] = {states[first + i]->state, &object(instances[first + i])->joints,
-                  stack.lane_count != 0 ? input.row : nullptr, input.lod, input.is_reset != 0};
+                  stack.curve_count != 0 ? input.row : nullptr, input.lod, input.is_reset != 0};
     }
     step_stack(*stack.stack, {poses, some}, ticks);
   }

@@ -4,10 +4,10 @@
 #include <stdlib.h>
 
 /* mix: a head speaks, is glad, and closes its eyes when a flashlight hits them. */
-enum { JAW, SMILE_L, SMILE_R, CHEEK_L, CHEEK_R, BLINK_L, BLINK_R, SQUINT_L, SQUINT_R, LANES };
-static const char* const names[LANES] = {"jawOpen",         "mouthSmileLeft",   "mouthSmileRight",
-                                         "cheekSquintLeft", "cheekSquintRight", "eyeBlinkLeft",
-                                         "eyeBlinkRight",   "eyeSquintLeft",    "eyeSquintRight"};
+enum { JAW, SMILE_L, SMILE_R, CHEEK_L, CHEEK_R, BLINK_L, BLINK_R, SQUINT_L, SQUINT_R, CURVES };
+static const char* const names[CURVES] = {"jawOpen",         "mouthSmileLeft",   "mouthSmileRight",
+                                          "cheekSquintLeft", "cheekSquintRight", "eyeBlinkLeft",
+                                          "eyeBlinkRight",   "eyeSquintLeft",    "eyeSquintRight"};
 static MienError error = {.struct_size = sizeof error};
 
 static void check(MienStatus status) {
@@ -27,11 +27,11 @@ int main(void) {
   check(mien_rig_create(dna, NULL, &rig, &error));
   check(mien_deformer_create(dna, rig, NULL, &deformer, &error));
   check(mien_instance_create(rig, NULL, &face, &error));
-  uint16_t lane[LANES];
-  for (int i = 0; i < LANES; ++i) {
+  uint16_t curve[CURVES];
+  for (int i = 0; i < CURVES; ++i) {
     uint32_t index;
     check(mien_rig_find(rig, MIEN_KIND_RAW_CONTROL, names[i], &index));
-    lane[i] = (uint16_t)index;
+    curve[i] = (uint16_t)index;
   }
 
   /* Speech: the jaw at 60 frames a second, closed for every m of "mama mama". */
@@ -56,7 +56,7 @@ int main(void) {
   /* Joy over it, held back where it would part the lips; the flashlight acts last. */
   const float joy[] = {0.2f, 0.9f, 0.9f, 0.6f, 0.6f}, closed[] = {1, 1}, narrow[] = {0.8f, 0.8f};
   const MienMixPose poses[] = {
-      {lane, joy, 5}, {lane + BLINK_L, closed, 2}, {lane + SQUINT_L, narrow, 2}};
+      {curve, joy, 5}, {curve + BLINK_L, closed, 2}, {curve + SQUINT_L, narrow, 2}};
   const MienMixStroke strokes[] = {{.pose = 1,
                                     .mode = MIEN_BLEND_MODE_MAX,
                                     .delay = 60 * ms,
@@ -110,8 +110,8 @@ int main(void) {
     float most = 0;
     for (size_t j = 0; j < joints.count; ++j) most = joints.data[j] > most ? joints.data[j] : most;
     printf("%3d  jaw %.4f  smile %.4f  lids %.4f  squint %.4f  joints up to %.3f\n", i,
-           row.data[lane[JAW]], row.data[lane[SMILE_L]], row.data[lane[BLINK_L]],
-           row.data[lane[SQUINT_L]], most);
+           row.data[curve[JAW]], row.data[curve[SMILE_L]], row.data[curve[BLINK_L]],
+           row.data[curve[SQUINT_L]], most);
   }
   mien_mixer_destroy(mixer);
   mien_mix_destroy(mix);

@@ -14,7 +14,7 @@ int main() try {
   const mien::Rig rig = mien::Rig::create(dna).value();
   const mien::Deformer deformer = mien::Deformer::create(dna, rig).value();
   mien::Instance face = rig.instance().value();
-  const auto lane = [&](const char* name) {
+  const auto curve = [&](const char* name) {
     return static_cast<uint16_t>(rig.find(MIEN_KIND_RAW_CONTROL, name).value());
   };
 
@@ -35,10 +35,10 @@ int main() try {
   const mien::ClipBinding binding = speech.bind(rig).value();
 
   // Joy over it, held back where it would part the lips; the flashlight acts last.
-  const uint16_t glad[] = {lane("jawOpen"), lane("mouthSmileLeft"), lane("mouthSmileRight"),
-                           lane("cheekSquintLeft"), lane("cheekSquintRight")};
-  const uint16_t lids[] = {lane("eyeBlinkLeft"), lane("eyeBlinkRight")};
-  const uint16_t squints[] = {lane("eyeSquintLeft"), lane("eyeSquintRight")};
+  const uint16_t glad[] = {curve("jawOpen"), curve("mouthSmileLeft"), curve("mouthSmileRight"),
+                           curve("cheekSquintLeft"), curve("cheekSquintRight")};
+  const uint16_t lids[] = {curve("eyeBlinkLeft"), curve("eyeBlinkRight")};
+  const uint16_t squints[] = {curve("eyeSquintLeft"), curve("eyeSquintRight")};
   const float joy[] = {0.2f, 0.9f, 0.9f, 0.6f, 0.6f}, closed[] = {1, 1}, narrow[] = {0.8f, 0.8f};
   const MienMixPose poses[] = {{glad, joy, 5}, {lids, closed, 2}, {squints, narrow, 2}};
   MienMixStroke strokes[2] = {};

@@ -538,7 +538,7 @@ struct VertexArgs {
   uint32_t count;
 };
 
-/// How a layer changes a lane of a mix: o is the value so far, x the value of the layer, a = weight * mask.
+/// How a layer changes a curve of a mix: o is the value so far, x the value of the layer, a = weight * mask.
 enum class BlendMode : uint8_t {
   kOverride,  // o + a (x - o)
   kAdd,       // o + a x
@@ -547,11 +547,11 @@ enum class BlendMode : uint8_t {
   kScale,     // o (1 + a (x - 1))
 };
 
-/// Blends `x` over `row`. `cover` is 1 in lanes for which the source has a value, 0 in the others, and in
+/// Blends `x` over `row`. `cover` is 1 for curves for which the source has a value, 0 for the others, and in
 /// between during a transition from one to the other (x is then already multiplied by it); null: 1
 /// everywhere. kAdd and kScreen do not need it, because x is 0 where it is 0.
 ///
-/// A lane to which nothing is added keeps its bits, as with a = 0; kOverride with a = 1 and cover = 1
+/// A curve to which nothing is added keeps its bits, as with a = 0; kOverride with a = 1 and cover = 1
 /// gives those of x. Weights and masks are at most 1.
 struct BlendArgs {
   const float *x, *cover, *mask;
@@ -562,7 +562,7 @@ struct BlendArgs {
   float scale = 1;  // of x; with a cover it is 1
 };
 
-/// Coefficients of one Quintic (runtime/mix/fade.h) per lane.
+/// Coefficients of one Quintic (runtime/mix/fade.h) per curve.
 struct QuinticRows {
   float *c0, *c1, *c2, *rate;
 };
@@ -659,7 +659,7 @@ struct KernelTable {
   /// 32767 in magnitude; 0 where the scale is not positive. `count` is even; `blocks` and `fixed` are
   /// 64-byte aligned.
   void (*fix_blocks)(const float* blocks, const float* scales, size_t count, int16_t* fixed);
-  // Rows of a mix: 64-byte aligned, counts are multiples of 16. Every lane is computed alone and
+  // Rows of a mix: 64-byte aligned, counts are multiples of 16. Every curve is computed alone and
   // nothing is fused, so all instruction sets give the same bits.
   void (*blend_row)(const BlendArgs& args);
   /// out = from + s (to - from); the bits of `to` where they are equal or s is 1.

@@ -31,7 +31,7 @@ struct Whole {
   Vec operator()(size_t) const { return broadcast(1.0f); }
 };
 
-/// What a mode adds to a lane, by o, x, c and a.
+/// What a mode adds to a curve, by o, x, c and a.
 struct BlendOverride {
   Vec operator()(Vec o, Vec x, Vec c, Vec a) const { return a * (x - c * o); }
 };

@@ -170,17 +170,17 @@ void test_mixing() {
   const mien::Dna dna = generated();
   const mien::Rig rig = mien::Rig::create(dna).value();
   const uint32_t raw_count = rig.count(MIEN_KIND_RAW_CONTROL);
-  const uint16_t lanes[] = {0};
+  const uint16_t curves[] = {0};
   const float half[] = {0.5f};
-  const MienMixPose pose = {lanes, half, 1};
+  const MienMixPose pose = {curves, half, 1};
   MienMixLayer layers[3] = {};
   layers[0].weight = layers[1].weight = layers[2].weight = 1;
   layers[1].source = MIEN_LAYER_SOURCE_POSES;
   layers[1].mode = MIEN_BLEND_MODE_SCREEN;
   layers[1].pose_count = 1;
   layers[2].source = MIEN_LAYER_SOURCE_STREAM;
-  layers[2].lanes = lanes;
-  layers[2].lane_count = 1;
+  layers[2].curves = curves;
+  layers[2].curve_count = 1;
   const MienMixStroke stroke = {0, 100, 0, 100, 0, MIEN_BLEND_MODE_MAX, 1, 0, 1, 0};
   MienMixReaction reaction = {};
   reaction.strokes = &stroke;
@@ -211,7 +211,7 @@ void test_mixing() {
   CHECK(mien::arkit_matrix(matrix) && matrix.back().weight > 0);
 
   const mien::Mix mix = mien::Mix::create(rig, desc).value();
-  CHECK(mix.info()->lane_count == raw_count + 1);
+  CHECK(mix.info()->curve_count == raw_count + 1);
   std::vector<unsigned char> mix_bytes(mix.write(mien::Span<unsigned char>()).value());
   CHECK(mix.write(mix_bytes).value() == mix_bytes.size() && mix.write("mien_test.mix"));
   const mien::Mix same = mien::Mix::open(mix_bytes, &rig).value();

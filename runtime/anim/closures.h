@@ -14,7 +14,7 @@ constexpr const char* kClosureNames[kClosures] = {"close:lips", "close:lip-to-te
 /// Phonemes are shorter; what is longer takes several events.
 constexpr int64_t kLongestClosure = kTicksPerSecond;
 /// What is closed begins to be held this long before, and is let go of in as much time after. So it is
-/// no faster than kGuardSpeed where a lane has to go all the way.
+/// no faster than kGuardSpeed where a curve has to go all the way.
 constexpr int64_t kClosureRamp = kTicksPerSecond / 8;
 /// Of events in this time the last ones count. Speech has 12 phonemes a second.
 constexpr uint32_t kMaxNearEvents = 64;

@@ -18,13 +18,13 @@ float control_at(const float* tangents, float tangent) {
   return 1.0f;
 }
 
-/// Sets two opposite lanes; returns the tangent beyond their reach.
+/// Sets two opposite curves; returns the tangent beyond their reach.
 float turn(const GazeEye& eye, uint32_t direction, float tangent, float* row) {
   const bool opposite = tangent < 0.0f;
   const float size = opposite ? -tangent : tangent;
   const float* tangents = eye.tangents[direction + opposite];
-  row[eye.lanes[direction + !opposite]] = 0.0f;
-  row[eye.lanes[direction + opposite]] = control_at(tangents, size);
+  row[eye.curves[direction + !opposite]] = 0.0f;
+  row[eye.curves[direction + opposite]] = control_at(tangents, size);
   const float over = size - tangents[kGazeSteps - 1];
   return over > 0.0f ? (opposite ? -over : over) : 0.0f;
 }

@@ -11,8 +11,8 @@ constexpr uint32_t kGazeSteps = 8;
 enum GazeDirection : uint32_t { kGazeLeft, kGazeRight, kGazeUp, kGazeDown };
 
 struct GazeEye {
-  float center[3];    // millimeters to the left, up and to the front, in the rig's model space
-  uint16_t lanes[4];  // [GazeDirection]
+  float center[3];     // millimeters to the left, up and to the front, in the rig's model space
+  uint16_t curves[4];  // [GazeDirection]
   float tangents[4][kGazeSteps];  // of the angle at 1/8, 2/8, ... 1 of the control, ascending
 };
 
@@ -24,7 +24,7 @@ struct GazeTable {
   float fit_error;  // degrees, the largest found when the eye turns sideways and up at once
 };
 
-/// Sets the lanes of both eyes so that they look at a target, which has the form of GazeEye::center. Eyes
+/// Sets the curves of both eyes so that they look at a target, which has the form of GazeEye::center. Eyes
 /// converge on near targets. `beyond` gets the part that the eyes cannot reach and the head may turn:
 /// tangents to the left and up, averaged over both eyes. It may be null. For a target behind an eye, the
 /// eye turns as far aside as it can.

@@ -48,13 +48,13 @@ void blink(const LayerDesc& layer, uint64_t seed, uint32_t stream, int64_t now, 
     if (shift >= last + kBlinkGap) state.next = shift;
   }
   constexpr int64_t kWhole = kBlinkClose + kBlinkHold + kBlinkOpen + kBlinkOnset;
-  if (now < state.next && row[layer.lanes[0]] > kBlinkSeen) {
+  if (now < state.next && row[layer.curves[0]] > kBlinkSeen) {
     state.next = now + interval(layer, seed, stream, ++state.index);
   }
   while (now >= state.next + kWhole) {
     state.next += interval(layer, seed, stream, ++state.index);
   }
-  for (size_t i = 0; i < layer.lanes.count; ++i) {
+  for (size_t i = 0; i < layer.curves.count; ++i) {
     const double late =
         i % 2 == 0 ? 0.0
                    : static_cast<double>(random_at(seed, uint64_t{stream} + 0x100, state.index));
@@ -70,20 +70,20 @@ void blink(const LayerDesc& layer, uint64_t seed, uint32_t stream, int64_t now, 
 
 void generate(const LayerDesc& layer, uint64_t seed, uint32_t stream, int64_t now, int64_t shift,
               const float* row, GeneratorState& state, float* out) {
-  if (layer.lanes.empty()) return;
+  if (layer.curves.empty()) return;
   switch (layer.generator) {
     case Generator::kGaze: break;  // generate_gaze()
     case Generator::kBlink: blink(layer, seed, stream, now, shift, row, state, out); break;
     case Generator::kBreath: {
       const int64_t in = layer.period * 2 / 5, t = now % layer.period;
       const float breath = smooth_at(t, in) - smooth_at(t - in, layer.period - in);
-      for (size_t i = 0; i < layer.lanes.count; ++i) out[i] = layer.amounts[i] * breath;
+      for (size_t i = 0; i < layer.curves.count; ++i) out[i] = layer.amounts[i] * breath;
       break;
     }
     case Generator::kNoise: {
       const auto cell = static_cast<uint64_t>(now / layer.period);
       const float s = smooth_at(now % layer.period, layer.period);
-      for (size_t i = 0; i < layer.lanes.count; ++i) {
+      for (size_t i = 0; i < layer.curves.count; ++i) {
         out[i] = layer.amounts[i] * noise_at(seed, (uint64_t{stream} << 32) + i, cell, s);
       }
       break;
@@ -128,7 +128,7 @@ void generate_gaze(const GazeTable& table, const LayerDesc& layer, uint64_t seed
                    float* out) {
   float target[3];
   for (int k = 0; k < 3; ++k) {  // other layers may have made anything of it
-    const float value = row[layer.lanes[static_cast<size_t>(k)]];
+    const float value = row[layer.curves[static_cast<size_t>(k)]];
     target[k] = value > -1e6f && value < 1e6f ? value : 0.0f;
   }
   if (!state.begun) {
@@ -161,8 +161,8 @@ void generate_gaze(const GazeTable& table, const LayerDesc& layer, uint64_t seed
   }
   float beyond[2];
   look_at(table, place, scratch, beyond);
-  for (uint32_t i = 0; i < 8; ++i) out[i] = scratch[table.eyes[i / 4].lanes[i % 4]];
-  for (size_t i = 3; i < layer.lanes.count; ++i) out[5 + i] = layer.amounts[i] * beyond[i - 3];
+  for (uint32_t i = 0; i < 8; ++i) out[i] = scratch[table.eyes[i / 4].curves[i % 4]];
+  for (size_t i = 3; i < layer.curves.count; ++i) out[5 + i] = layer.amounts[i] * beyond[i - 3];
 }
 
 }  // namespace mien

@@ -13,14 +13,14 @@ struct GeneratorState {
   uint32_t zero;
 };
 
-/// `out` gets a value for each of the layer's lanes; `row` is the result of the layers before it.
+/// `out` gets a value for each of the layer's curves; `row` is the result of the layers before it.
 /// `stream` gives each generator of a mix its own random numbers.
 ///
 /// kBlink: closes in 75 ms, stays closed for 25 ms, opens in 150 ms. The time from one blink to the next
-/// is 0.5 s to 2 * period - 0.5 s; every other lane begins up to 10 ms later. If the first lane of the
+/// is 0.5 s to 2 * period - 0.5 s; every other curve begins up to 10 ms later. If the first curve of the
 /// row is above kBlinkSeen, the performance blinks, and the wait for the next blink starts over.
 /// kBreath: 40 % of the period in, 60 % out.
-/// kNoise: smooth between -1 and 1; each lane has a new random number every period.
+/// kNoise: smooth between -1 and 1; each curve has a new random number every period.
 /// `shift` is when the eyes last began a large turn (GazeState::large_shift). A blink begins with it if
 /// the last one began 0.5 s before or earlier.
 void generate(const LayerDesc& layer, uint64_t seed, uint32_t stream, int64_t now, int64_t shift,
@@ -42,7 +42,7 @@ struct GazeState {
 
 /// kGaze: the eyes pursue a target that moves by less than kPursuitSpeed. Otherwise they make a saccade to
 /// it, which takes 21 ms plus 2.2 ms per degree and does not change its goal on the way. `out` gets values
-/// for Mix::gaze_lanes; `scratch` has as many lanes as a row.
+/// for Mix::gaze_curves; `scratch` has as many curves as a row.
 void generate_gaze(const GazeTable& table, const LayerDesc& layer, uint64_t seed, uint32_t stream,
                    int64_t now, int64_t ticks, const float* row, GazeState& state, float* scratch,
                    float* out);

@@ -15,16 +15,16 @@ constexpr float kEnough = 5e-5f;  // millimeters beyond a limit that are not wor
 float higher(float a, float b) { return a > b ? a : b; }
 float lower(float a, float b) { return a < b ? a : b; }
 
-/// How far a lane may go back, and what that closes while the others are as they have become; zeros
+/// How far a curve may go back, and what that closes while the others are as they have become; zeros
 /// if it opens nothing.
 struct Opening {
   float change, closes;
 };
 
-/// Takes lanes back by what closes `excess` millimeters: `most` keeps the most that any guard wants.
+/// Takes curves back by what closes `excess` millimeters: `most` keeps the most that any guard wants.
 void hold_guard(const PlacedGuard& guard, uint32_t width, const float* protected_row, float excess,
                 const float* row, float* most) {
-  float values[kMaxGuardedLanes];
+  float values[kMaxGuardedCurves];
   memcpy(values, row, width * sizeof(float));
   // What else depends on values goes without branches: they are hard to foretell.
   const auto opening = [&](uint32_t i) {
@@ -81,10 +81,10 @@ void take_off(const float* __restrict free_row, const float* __restrict more, ui
 
 float guard_distance(const Guard& guard, const float* row) {
   float sum = guard.rest;
-  for (uint32_t i = 0; i < guard.count; ++i) sum += guard.gains[i] * row[guard.lanes[i]];
+  for (uint32_t i = 0; i < guard.count; ++i) sum += guard.gains[i] * row[guard.curves[i]];
   for (uint32_t i = 0; i < guard.pair_count; ++i) {
     const GuardPair& pair = guard.pairs[i];
-    sum += pair.gain * row[guard.lanes[pair.first]] * row[guard.lanes[pair.second]];
+    sum += pair.gain * row[guard.curves[pair.first]] * row[guard.curves[pair.second]];
   }
   return sum;
 }
@@ -96,12 +96,12 @@ float guard_activation(const Guard& guard, float distance) {
 
 namespace {
 
-/// Lists the lanes of all guards in ascending order; returns their number.
-size_t list_lanes(Span<const Guard> guards, uint16_t* lanes) {
-  uint16_t* end = lanes;
-  for (const Guard& guard : guards) end = std::copy(guard.lanes, guard.lanes + guard.count, end);
-  std::sort(lanes, end);
-  return static_cast<size_t>(std::unique(lanes, end) - lanes);
+/// Lists the curves of all guards in ascending order; returns their number.
+size_t list_curves(Span<const Guard> guards, uint16_t* curves) {
+  uint16_t* end = curves;
+  for (const Guard& guard : guards) end = std::copy(guard.curves, guard.curves + guard.count, end);
+  std::sort(curves, end);
+  return static_cast<size_t>(std::unique(curves, end) - curves);
 }
 
 /// Where a product stands in the list, which it joins if it is new.
@@ -117,14 +117,14 @@ uint32_t find_product(uint16_t a, uint16_t b, uint16_t* products, uint32_t& coun
   return i;
 }
 
-void place_guard(const Guard& guard, Span<const uint16_t> lanes, PlacedGuard& out) {
+void place_guard(const Guard& guard, Span<const uint16_t> curves, PlacedGuard& out) {
   out.count = guard.count;
   out.together = guard.together;
   out.tolerance = guard.tolerance;
   for (uint32_t i = 0; i < guard.count; ++i) {
-    const uint16_t* const end = lanes.data + lanes.count;
+    const uint16_t* const end = curves.data + curves.count;
     out.places[i] =
-        static_cast<uint16_t>(std::lower_bound(lanes.data, end, guard.lanes[i]) - lanes.data);
+        static_cast<uint16_t>(std::lower_bound(curves.data, end, guard.curves[i]) - curves.data);
     out.gains[i] = guard.gains[i];
   }
   uint16_t partners = 0;
@@ -148,26 +148,26 @@ constexpr uint32_t round_up(size_t count, uint32_t step) {
 
 void place_guards(Placer& placer, Span<const Guard> guards, const KernelTable* kernels,
                   GuardTable& out) {
-  size_t max_lanes = 0, max_products = 0;
+  size_t max_curves = 0, max_products = 0;
   for (const Guard& guard : guards) {
-    max_lanes += guard.count;
+    max_curves += guard.count;
     max_products += guard.pair_count;
   }
   max_products = round_up(max_products, 4);
-  out.lanes = placer.array<uint16_t>(max_lanes);
+  out.curves = placer.array<uint16_t>(max_curves);
   out.guards = placer.array<PlacedGuard>(guards.count);
   const Span<uint16_t> products = placer.array<uint16_t>(2 * max_products);
   const Span<float> gains = placer.array<float>(
-      (1 + round_up(max_lanes, kGuardStep) + max_products) * kGuardVector, kBlockAlignment);
+      (1 + round_up(max_curves, kGuardStep) + max_products) * kGuardVector, kBlockAlignment);
   out.kernels = kernels;
   if (placer.measuring()) return;
-  out.lanes.count = list_lanes(guards, out.lanes.data);
-  out.width = round_up(out.lanes.count, kGuardStep);
+  out.curves.count = list_curves(guards, out.curves.data);
+  out.width = round_up(out.curves.count, kGuardStep);
   uint32_t product_count = 0;
   for (size_t g = 0; g < guards.count; ++g) {
     const Guard& guard = guards[g];
     PlacedGuard& placed = out.guards[g];
-    place_guard(guard, out.lanes, placed);
+    place_guard(guard, out.curves, placed);
     gains[g] = guard.rest;
     for (uint32_t i = 0; i < guard.count; ++i) {
       gains[(1 + placed.places[i]) * kGuardVector + g] += guard.gains[i];
@@ -191,7 +191,7 @@ void hold_guards(const GuardTable& table, const float* protected_row, const floa
   const uint32_t width = table.width;
   memset(back, 0, width * sizeof(float));
   memcpy(row, free_row, width * sizeof(float));
-  float more[kMaxGuardedLanes];
+  float more[kMaxGuardedCurves];
   float limits[kMaxGuards];
   alignas(kBlockAlignment) float open[kMaxGuards];
   uint32_t limited = 0;  // bit g: the limit of guard g is known

@@ -13,10 +13,10 @@
 namespace mien {
 
 constexpr uint32_t kMaxGuards = kGuardVector;
-constexpr uint32_t kMaxGuardLanes = 24;
+constexpr uint32_t kMaxGuardCurves = 24;
 constexpr uint32_t kMaxGuardPairs = 24;
 
-/// Two lanes, as indices into Guard::lanes, whose product adds to the distance.
+/// Two curves, as indices into Guard::curves, whose product adds to the distance.
 struct GuardPair {
   uint16_t first, second;
   float gain;  // millimeters
@@ -35,19 +35,19 @@ enum class StandardGuard : uint8_t {
 constexpr uint32_t kStandardGuardCount = 7;
 
 /// A distance in millimeters; at 0 both sides touch, below 0 they overlap:
-///     f(row) = rest + sum of gain * lane + sum of gain * lane * lane over the pairs
+///     f(row) = rest + sum of gain * curve + sum of gain * curve * curve over the pairs
 /// runtime/probe/probe_guards.h measures the gains on a rig.
 struct Guard {
-  uint32_t count;  // of lanes
+  uint32_t count;  // of curves
   uint32_t pair_count;
   uint32_t needs_speech;  // 1: at most as active as the speech layers, as lips touch at rest too
   float rest;             // f of a row of zeros
   float f_on;             // active if f(protected row) is less than this, fully at 0; above 0
   float tolerance;        // by which later layers may open the distance
   float fit_error;        // of this function: root mean square over the measured rows
-  uint16_t lanes[kMaxGuardLanes];  // raw controls, by descending absolute gain
-  float gains[kMaxGuardLanes];     // beside lanes
-  /// Bit i: lanes i - 1 and i are the same control in both halves of the face; they go back by the same
+  uint16_t curves[kMaxGuardCurves];  // raw controls, by descending absolute gain
+  float gains[kMaxGuardCurves];      // beside curves
+  /// Bit i: curves i - 1 and i are the same control in both halves of the face; they go back by the same
   /// share.
   uint32_t together;
   GuardPair pairs[kMaxGuardPairs];
@@ -61,9 +61,9 @@ float guard_distance(const Guard& guard, const float* row);
 /// `distance` is f(protected row).
 float guard_activation(const Guard& guard, float distance);
 
-constexpr uint32_t kMaxGuardedLanes = kMaxGuards * kMaxGuardLanes;
+constexpr uint32_t kMaxGuardedCurves = kMaxGuards * kMaxGuardCurves;
 
-/// A guard in the form that steps use. Its rows hold only the lanes of all guards, then zeros up to a
+/// A guard in the form that steps use. Its rows hold only the curves of all guards, then zeros up to a
 /// multiple of kGuardStep; a place is an index into such a row.
 constexpr uint32_t kGuardStep = 8;
 struct PlacedGuard {
@@ -73,17 +73,17 @@ struct PlacedGuard {
   };
   uint32_t count, together;
   float tolerance;
-  uint16_t places[kMaxGuardLanes];              // by descending absolute gain
-  float gains[kMaxGuardLanes];                  // of places
-  float both_gains[kMaxGuardLanes];             // of the pair with the place before
-  uint16_t partner_begins[kMaxGuardLanes + 1];  // of places, into partners
+  uint16_t places[kMaxGuardCurves];              // by descending absolute gain
+  float gains[kMaxGuardCurves];                  // of places
+  float both_gains[kMaxGuardCurves];             // of the pair with the place before
+  uint16_t partner_begins[kMaxGuardCurves + 1];  // of places, into partners
   Partner partners[2 * kMaxGuardPairs];  // in pairs with the first of places, then the second, ...
 };
 
 /// All guards of a mix.
 struct GuardTable {
-  Span<uint16_t> lanes;  // that they have, ascending
-  uint32_t width = 0;    // of rows
+  Span<uint16_t> curves;  // that they have, ascending
+  uint32_t width = 0;     // of rows
   Span<PlacedGuard> guards;
   GuardGains gains = {};
   const KernelTable* kernels = nullptr;
@@ -99,29 +99,29 @@ inline void guard_distances(const GuardTable& guards, const float* row, float* o
   guards.kernels->guard_distances(guards.gains, row, out);
 }
 
-/// Computes how far guards take back each lane of the free row: `back`. The limit of a guard is
+/// Computes how far guards take back each curve of the free row: `back`. The limit of a guard is
 /// f(protected row), or 0 if that is less, plus the tolerance. A guard with activation 1 brings f(row) down
 /// to its limit; with a smaller activation, that share of the way. `distances` are f(protected row), one
-/// per guard, as are `activations`. Rows have the lanes that PlacedGuard describes.
+/// per guard, as are `activations`. Rows have the curves that PlacedGuard describes.
 ///
-/// All guards look at the same row. If several take back the same lane, the largest amount counts. So
-/// their order makes no difference, and mirrored rows give mirrored results. Lanes with the largest gains
+/// All guards look at the same row. If several take back the same curve, the largest amount counts. So
+/// their order makes no difference, and mirrored rows give mirrored results. Curves with the largest gains
 /// go first, so that as little as possible of the row is lost; both halves of a face go together
-/// (Guard::together). Lanes that do not open the distance stay. The amounts are in closed form, because f
-/// is linear in each lane. A lane that one guard took back may have helped another: then all guards look
+/// (Guard::together). Curves that do not open the distance stay. The amounts are in closed form, because f
+/// is linear in each curve. A curve that one guard took back may have helped another: then all guards look
 /// at the row once more.
 void hold_guards(const GuardTable& guards, const float* protected_row, const float* distances,
                  const float* activations, const float* free_row, float* back, float* row);
 constexpr uint32_t kGuardSweeps = 2;
 
-/// How fast the amount that guards take off a lane may change, per second. Without this limit it would
+/// How fast the amount that guards take off a curve may change, per second. Without this limit it would
 /// jump in speech of 8 phonemes per second.
 constexpr float kGuardSpeed = 12;
 
-/// To be called after hold_guards(): writes to `row` what is left of the free row. `held` is how far lanes
+/// To be called after hold_guards(): writes to `row` what is left of the free row. `held` is how far curves
 /// were taken back in the last step, initially zeros. It moves to `back`, by at most `max_change`, which is
-/// kGuardSpeed times the seconds of the step. A lane never goes beyond its value in the protected row.
-/// Lanes that are not held keep their bits.
+/// kGuardSpeed times the seconds of the step. A curve never goes beyond its value in the protected row.
+/// Curves that are not held keep their bits.
 void ease_guards(const float* free_row, const float* protected_row, const float* back,
                  uint32_t count, float max_change, float* held, float* row);
 

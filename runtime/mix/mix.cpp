@@ -26,24 +26,24 @@ size_t first_beyond(Span<const float> values, float low, float high) {
   return i;
 }
 
-/// Refuses the first lane that does not exist, or is there twice where each has one value.
-Status check_lane_list(const MixDesc& desc, Span<const uint16_t> list, bool once, const char* of,
-                       size_t index, Error& error) {
-  const uint32_t lanes = desc.raw_count + desc.variable_count;
-  uint64_t seen[kMaxLanes / 64] = {};
+/// Refuses the first curve that does not exist, or is there twice where each has one value.
+Status check_curve_list(const MixDesc& desc, Span<const uint16_t> list, bool once, const char* of,
+                        size_t index, Error& error) {
+  const uint32_t curves = desc.raw_count + desc.variable_count;
+  uint64_t seen[kMaxCurves / 64] = {};
   for (size_t i = 0; i < list.count; ++i) {
-    const uint16_t lane = list[i];
-    if (lane >= lanes) {
+    const uint16_t curve = list[i];
+    if (curve >= curves) {
       return fail(error, Status::kInvalidArgument, kNoOffset,
-                  "%s %zu: .lanes[%zu] is %u; lanes are below %u", of, index, i, lane, lanes);
+                  "%s %zu: .curves[%zu] is %u; curves are below %u", of, index, i, curve, curves);
     }
-    uint64_t& word = seen[lane / 64];
-    const uint64_t bit = uint64_t{1} << lane % 64;
+    uint64_t& word = seen[curve / 64];
+    const uint64_t bit = uint64_t{1} << curve % 64;
     if (once && (word & bit) != 0) {
-      const bool named = lane < desc.names.count();
-      const Span<const char> name = named ? desc.names[lane] : Span<char>{};
+      const bool named = curve < desc.names.count();
+      const Span<const char> name = named ? desc.names[curve] : Span<char>{};
       return fail(error, Status::kInvalidArgument, kNoOffset,
-                  "%s %zu: .lanes[%zu] is %u%s%.*s, which it lists twice", of, index, i, lane,
+                  "%s %zu: .curves[%zu] is %u%s%.*s, which it lists twice", of, index, i, curve,
                   named ? ", " : "", static_cast<int>(name.count), name.data ? name.data : "");
     }
     word |= bit;
@@ -65,7 +65,7 @@ bool is_protected(LayerGroup group) {
 
 constexpr char kTimeRange[] = "times are 0 ... 2^40 ticks (26 minutes)";
 
-Status check_layers(const MixDesc& desc, uint32_t lanes, Error& error) {
+Status check_layers(const MixDesc& desc, uint32_t curves, Error& error) {
   if (desc.layers.count > kMaxLayers) {
     return fail(error, Status::kInvalidArgument, kNoOffset, "%zu layers; a mix has at most %u",
                 desc.layers.count, kMaxLayers);
@@ -91,9 +91,9 @@ Status check_layers(const MixDesc& desc, uint32_t lanes, Error& error) {
       return wrong(error, "layer %zu: .weight is %g; it must be within %g ... 1", i,
                    double{layer.weight}, double{lowest});
     }
-    if (layer.mask.count > lanes) {
-      return wrong(error, "layer %zu: .mask has %zu lanes; the mix has %u", i, layer.mask.count,
-                   lanes);
+    if (layer.mask.count > curves) {
+      return wrong(error, "layer %zu: .mask has %zu curves; the mix has %u", i, layer.mask.count,
+                   curves);
     }
     const size_t beyond = first_beyond(layer.mask, 0.0f, 1.0f);
     if (beyond != layer.mask.count) {
@@ -107,10 +107,10 @@ Status check_layers(const MixDesc& desc, uint32_t lanes, Error& error) {
     }
     clips += layer.source == LayerSource::kClip;
     if (layer.source != LayerSource::kStream && layer.source != LayerSource::kGenerator) continue;
-    if (layer.lanes.count > lanes) {
-      return wrong(error, "layer %zu: %zu lanes; the mix has %u", i, layer.lanes.count, lanes);
+    if (layer.curves.count > curves) {
+      return wrong(error, "layer %zu: %zu curves; the mix has %u", i, layer.curves.count, curves);
     }
-    const Status status = check_lane_list(desc, layer.lanes, false, "layer", i, error);
+    const Status status = check_curve_list(desc, layer.curves, false, "layer", i, error);
     if (status != Status::kOk) return status;
     if (layer.source == LayerSource::kGenerator) {
       if (static_cast<uint32_t>(layer.generator) >= kGenerators || layer.period < 1 ||
@@ -122,16 +122,16 @@ Status check_layers(const MixDesc& desc, uint32_t lanes, Error& error) {
             i, static_cast<uint32_t>(layer.generator), static_cast<long long>(layer.period),
             kGenerators);
       }
-      if (layer.amounts.count != layer.lanes.count ||
+      if (layer.amounts.count != layer.curves.count ||
           first_beyond(layer.amounts, -kLargestFloat, kLargestFloat) != layer.amounts.count) {
-        return wrong(error, "layer %zu: %zu finite .amounts are needed, one for each of .lanes", i,
-                     layer.lanes.count);
+        return wrong(error, "layer %zu: %zu finite .amounts are needed, one for each of .curves", i,
+                     layer.curves.count);
       }
-      const size_t count = layer.lanes.count;
+      const size_t count = layer.curves.count;
       if (is_gaze(layer) && (!desc.gaze || (count != 3 && count != 5) || ++gazes > 1)) {
         return wrong(
             error,
-            "layer %zu: a gaze takes 3 or 5 lanes, not %zu, and the gaze of the mix; there is "
+            "layer %zu: a gaze takes 3 or 5 curves, not %zu, and the gaze of the mix; there is "
             "one such layer at most",
             i, count);
       }
@@ -194,16 +194,18 @@ Status check_reactions(const MixDesc& desc, Error& error) {
 
 Status check_guard(const MixDesc& desc, size_t i, Error& error) {
   const Guard& guard = desc.guards[i];
-  if (guard.count > kMaxGuardLanes || guard.pair_count > kMaxGuardPairs) {
-    return wrong(error, "guard %zu: %u lanes and %u pairs; it has at most %u and %u", i,
-                 guard.count, guard.pair_count, kMaxGuardLanes, kMaxGuardPairs);
+  if (guard.count > kMaxGuardCurves || guard.pair_count > kMaxGuardPairs) {
+    return wrong(error, "guard %zu: %u curves and %u pairs; it has at most %u and %u", i,
+                 guard.count, guard.pair_count, kMaxGuardCurves, kMaxGuardPairs);
   }
-  const Status status = check_lane_list(desc, {guard.lanes, guard.count}, true, "guard", i, error);
+  const Status status =
+      check_curve_list(desc, {guard.curves, guard.count}, true, "guard", i, error);
   if (status != Status::kOk) return status;
   if (guard.together >> guard.count != 0 || (guard.together & (guard.together << 1 | 1)) != 0) {
     return wrong(
-        error, "guard %zu: .together %u; a lane goes with the one before, in pairs of the %u lanes",
-        i, guard.together, guard.count);
+        error,
+        "guard %zu: .together %u; a curve goes with the one before, in pairs of the %u curves", i,
+        guard.together, guard.count);
   }
   bool finite =
       first_beyond({guard.gains, guard.count}, -kLargestFloat, kLargestFloat) == guard.count;
@@ -213,7 +215,7 @@ Status check_guard(const MixDesc& desc, size_t i, Error& error) {
     if (pair.first < guard.count && pair.second < guard.count && pair.first != pair.second)
       continue;
     return wrong(error,
-                 "guard %zu: pair %u is of its lanes %u and %u; it has %u, and a pair has two", i,
+                 "guard %zu: pair %u is of its curves %u and %u; it has %u, and a pair has two", i,
                  k, pair.first, pair.second, guard.count);
   }
   if (finite && std::isfinite(guard.rest) && within(guard.tolerance, 0.0f, kLargestFloat) &&
@@ -227,7 +229,7 @@ Status check_guard(const MixDesc& desc, size_t i, Error& error) {
       i, double{guard.tolerance}, double{guard.f_on});
 }
 
-Status check_lanes(const MixDesc& desc, uint32_t lanes, Error& error) {
+Status check_curves(const MixDesc& desc, uint32_t curves, Error& error) {
   if (desc.poses.count > kMaxPoses || desc.guards.count > kMaxGuards) {
     return fail(error, Status::kInvalidArgument, kNoOffset,
                 "%zu poses and %zu guards; a mix has at most %u and %u", desc.poses.count,
@@ -236,11 +238,11 @@ Status check_lanes(const MixDesc& desc, uint32_t lanes, Error& error) {
   Status status = Status::kOk;
   for (size_t i = 0; i < desc.poses.count; ++i) {
     const PoseDesc& pose = desc.poses[i];
-    if (pose.lanes.count != pose.values.count || pose.lanes.count > lanes) {
-      return wrong(error, "pose %zu: %zu lanes, %zu values; both must be as many, at most %u", i,
-                   pose.lanes.count, pose.values.count, lanes);
+    if (pose.curves.count != pose.values.count || pose.curves.count > curves) {
+      return wrong(error, "pose %zu: %zu curves, %zu values; both must be as many, at most %u", i,
+                   pose.curves.count, pose.values.count, curves);
     }
-    status = check_lane_list(desc, pose.lanes, true, "pose", i, error);
+    status = check_curve_list(desc, pose.curves, true, "pose", i, error);
     if (status != Status::kOk) return status;
     const size_t beyond = first_beyond(pose.values, -kLargestFloat, kLargestFloat);
     if (beyond != pose.values.count) {
@@ -254,9 +256,9 @@ Status check_lanes(const MixDesc& desc, uint32_t lanes, Error& error) {
   if (status != Status::kOk) return status;
   for (size_t i = 0; i < desc.antagonists.count; ++i) {
     const AntagonistPair& pair = desc.antagonists[i];
-    if (pair.a >= lanes || pair.b >= lanes || pair.a == pair.b) {
-      return wrong(error, "antagonists %zu: lanes %u and %u; they must be two of %u", i, pair.a,
-                   pair.b, lanes);
+    if (pair.a >= curves || pair.b >= curves || pair.a == pair.b) {
+      return wrong(error, "antagonists %zu: curves %u and %u; they must be two of %u", i, pair.a,
+                   pair.b, curves);
     }
     if (!within(pair.stiffness, 0.0f, 1.0f)) {
       return wrong(error, "antagonists %zu: .stiffness is %g; it must be within 0 ... 1", i,
@@ -265,32 +267,32 @@ Status check_lanes(const MixDesc& desc, uint32_t lanes, Error& error) {
   }
   if (desc.gaze) {
     for (const GazeEye& eye : desc.gaze->eyes) {
-      for (uint16_t lane : eye.lanes) {
-        if (lane >= desc.raw_count) {
-          return wrong(error, "gaze: control %zu of %u", lane, desc.raw_count);
+      for (uint16_t curve : eye.curves) {
+        if (curve >= desc.raw_count) {
+          return wrong(error, "gaze: control %zu of %u", curve, desc.raw_count);
         }
       }
     }
   }
-  if (!desc.mirror.empty() && desc.mirror.count != lanes) {
-    return fail(error, Status::kInvalidArgument, kNoOffset, "the mirror map has %zu of %u lanes",
-                desc.mirror.count, lanes);
+  if (!desc.mirror.empty() && desc.mirror.count != curves) {
+    return fail(error, Status::kInvalidArgument, kNoOffset, "the mirror map has %zu of %u curves",
+                desc.mirror.count, curves);
   }
   for (size_t i = 0; i < desc.mirror.count; ++i) {
-    if (desc.mirror[i] >= lanes || desc.mirror[desc.mirror[i]] != i) {
-      return wrong(error,
-                   "mirror map: lane %zu becomes %u, which does not become it; give lanes in pairs",
-                   i, desc.mirror[i]);
+    if (desc.mirror[i] >= curves || desc.mirror[desc.mirror[i]] != i) {
+      return wrong(
+          error, "mirror map: curve %zu becomes %u, which does not become it; give curves in pairs",
+          i, desc.mirror[i]);
     }
   }
-  if (desc.lower.count != desc.upper.count || (!desc.lower.empty() && desc.lower.count != lanes)) {
-    return fail(error, Status::kInvalidArgument, kNoOffset, "limits of %zu and %zu of %u lanes",
-                desc.lower.count, desc.upper.count, lanes);
+  if (desc.lower.count != desc.upper.count || (!desc.lower.empty() && desc.lower.count != curves)) {
+    return fail(error, Status::kInvalidArgument, kNoOffset, "limits of %zu and %zu of %u curves",
+                desc.lower.count, desc.upper.count, curves);
   }
   for (size_t i = 0; i < desc.lower.count; ++i) {
     if (!(desc.lower[i] <= desc.upper[i]) || !std::isfinite(desc.lower[i]) ||
         !std::isfinite(desc.upper[i])) {
-      return wrong(error, "limits of lane %zu: %g ... %g; they must be finite and in order", i,
+      return wrong(error, "limits of curve %zu: %g ... %g; they must be finite and in order", i,
                    double{desc.lower[i]}, double{desc.upper[i]});
     }
   }
@@ -309,20 +311,20 @@ void keep(Placer& placer, Span<const T>& list, KeepParts keep_parts) {
   if (!placer.measuring()) list = copy;
 }
 
-/// The mask where the source of a layer can have values; other lanes stay 0.
+/// The mask where the source of a layer can have values; other curves stay 0.
 void fill_mask(const Mix& mix, const LayerDesc& layer, Span<float> row) {
-  const auto fill = [&](size_t lane) {
-    row[lane] = layer.mask.empty() ? 1.0f : lane < layer.mask.count ? layer.mask[lane] : 0.0f;
+  const auto fill = [&](size_t curve) {
+    row[curve] = layer.mask.empty() ? 1.0f : curve < layer.mask.count ? layer.mask[curve] : 0.0f;
   };
   if (layer.source == LayerSource::kClip) {
     for (uint32_t l = 0; l < mix.raw_count; ++l) fill(l);
   } else if (layer.source == LayerSource::kPoses) {
     for (const PoseDesc& pose : mix.poses.slice(layer.first_pose, layer.pose_count)) {
-      for (uint16_t lane : pose.lanes) fill(lane);
+      for (uint16_t curve : pose.curves) fill(curve);
     }
   } else {
-    const Span<const uint16_t> lanes = is_gaze(layer) ? mix.gaze_lanes : layer.lanes;
-    for (uint16_t lane : lanes) fill(lane);
+    const Span<const uint16_t> curves = is_gaze(layer) ? mix.gaze_curves : layer.curves;
+    for (uint16_t curve : curves) fill(curve);
   }
 }
 
@@ -332,12 +334,12 @@ void place_gaze(Placer& placer, Mix& mix) {
   for (const LayerDesc& layer : mix.layers) {
     if (!is_gaze(layer)) continue;
     const Span<GazeTable> copy = placer.array<GazeTable>(1);
-    mix.gaze_lanes = placer.array<uint16_t>(8 + layer.lanes.count - 3);
+    mix.gaze_curves = placer.array<uint16_t>(8 + layer.curves.count - 3);
     if (placer.measuring()) return;
     copy[0] = *table;
     mix.gaze = copy.data;
-    for (uint32_t i = 0; i < 8; ++i) mix.gaze_lanes[i] = table->eyes[i / 4].lanes[i % 4];
-    for (size_t i = 3; i < layer.lanes.count; ++i) mix.gaze_lanes[5 + i] = layer.lanes[i];
+    for (uint32_t i = 0; i < 8; ++i) mix.gaze_curves[i] = table->eyes[i / 4].curves[i % 4];
+    for (size_t i = 3; i < layer.curves.count; ++i) mix.gaze_curves[5 + i] = layer.curves[i];
   }
 }
 
@@ -346,13 +348,13 @@ void place_layers(Placer& placer, Mix& mix) {
   mix.first_fades = placer.array<uint32_t>(mix.layers.count);
   uint32_t i = 0;
   keep(placer, mix.layers, [&](LayerDesc& layer) {
-    placer.keep(layer.lanes);
+    placer.keep(layer.curves);
     placer.keep(layer.amounts);
     if (layer.source != LayerSource::kPoses) layer.pose_count = 0;
-    const Span<float> mask = placer.array<float>(mix.lane_count, kBlockAlignment);
+    const Span<float> mask = placer.array<float>(mix.curve_count, kBlockAlignment);
     if (!placer.measuring()) {
       fill_mask(mix, layer, mask);
-      if (!layer.mask.empty()) layer.mask = mask.first(mix.used_lanes());
+      if (!layer.mask.empty()) layer.mask = mask.first(mix.used_curves());
       mix.mask_rows[i] = mask;
       mix.first_fades[i] = mix.fade_count;
     }
@@ -367,13 +369,13 @@ void place_poses(Placer& placer, Mix& mix) {
   mix.pose_rows = placer.array<Span<float>>(mix.poses.count);
   uint32_t i = 0;
   keep(placer, mix.poses, [&](PoseDesc& pose) {
-    placer.keep(pose.lanes);
+    placer.keep(pose.curves);
     placer.keep(pose.values);
     const uint32_t number = i++;
-    if (pose.lanes.count * 2 < mix.lane_count) return;
-    const Span<float> row = placer.array<float>(mix.lane_count, kBlockAlignment);
+    if (pose.curves.count * 2 < mix.curve_count) return;
+    const Span<float> row = placer.array<float>(mix.curve_count, kBlockAlignment);
     if (placer.measuring()) return;
-    for (size_t k = 0; k < pose.lanes.count; ++k) row[pose.lanes[k]] = pose.values[k];
+    for (size_t k = 0; k < pose.curves.count; ++k) row[pose.curves[k]] = pose.values[k];
     mix.pose_rows[number] = row;
   });
 }
@@ -389,22 +391,22 @@ void place_reactions(Placer& placer, Mix& mix) {
 }
 
 void place_limits(Placer& placer, Mix& mix) {
-  mix.lower_row = placer.array<float>(mix.lane_count, kBlockAlignment);
-  mix.upper_row = placer.array<float>(mix.lane_count, kBlockAlignment);
+  mix.lower_row = placer.array<float>(mix.curve_count, kBlockAlignment);
+  mix.upper_row = placer.array<float>(mix.curve_count, kBlockAlignment);
   if (placer.measuring()) return;
   const bool limited = !mix.lower.empty();
-  for (uint32_t l = 0; l < mix.used_lanes(); ++l) {
+  for (uint32_t l = 0; l < mix.used_curves(); ++l) {
     mix.lower_row[l] = limited ? mix.lower[l] : -kLargestFloat;
     mix.upper_row[l] = limited ? mix.upper[l] : kLargestFloat;
   }
   if (!limited) return;
-  mix.lower = mix.lower_row.first(mix.used_lanes());
-  mix.upper = mix.upper_row.first(mix.used_lanes());
+  mix.lower = mix.lower_row.first(mix.used_curves());
+  mix.upper = mix.upper_row.first(mix.used_curves());
 }
 
 void place_mix(Placer& placer, const MixDesc& desc, Mix& mix) {
   static_cast<MixDesc&>(mix) = desc;
-  mix.lane_count = static_cast<uint32_t>(align_up(mix.used_lanes(), kLaneStep));
+  mix.curve_count = static_cast<uint32_t>(align_up(mix.used_curves(), kRowStep));
   place_gaze(placer, mix);
   place_poses(placer, mix);
   place_layers(placer, mix);  // their masks depend on gaze and poses
@@ -431,7 +433,7 @@ uint64_t hash_numbers(uint64_t hash, std::initializer_list<uint64_t> numbers) {
 uint64_t fingerprint(const Mix& mix) {
   uint64_t hash = hash_numbers(
       0xCBF29CE484222325u, {mix.raw_count, mix.variable_count, mix.player_count, mix.guards.count,
-                            mix.guard_table.lanes.count, mix.layers.count, mix.reactions.count,
+                            mix.guard_table.curves.count, mix.layers.count, mix.reactions.count,
                             mix.stroke_count, mix.gaze != nullptr});
   for (const LayerDesc& layer : mix.layers) {
     hash = hash_numbers(hash, {static_cast<uint64_t>(layer.mode),
@@ -444,10 +446,10 @@ uint64_t fingerprint(const Mix& mix) {
 
 Status create_mix(const MixDesc& desc, const Allocator& allocator, Mix*& out, Error& error) {
   out = nullptr;
-  if (desc.raw_count > kMaxLanes || desc.variable_count > kMaxLanes - desc.raw_count) {
+  if (desc.raw_count > kMaxCurves || desc.variable_count > kMaxCurves - desc.raw_count) {
     return fail(error, Status::kInvalidArgument, kNoOffset,
-                "%u raw controls and %u pose variables; a row has at most %u lanes", desc.raw_count,
-                desc.variable_count, kMaxLanes);
+                "%u raw controls and %u pose variables; a row has at most %u curves",
+                desc.raw_count, desc.variable_count, kMaxCurves);
   }
   if (desc.max_channels > kMaxClipChannels || desc.max_changing_channels > kMaxChangingChannels ||
       desc.max_bound_gui > kMaxClipChannels || desc.max_events > kMaxClipChannels) {
@@ -458,9 +460,9 @@ Status create_mix(const MixDesc& desc, const Allocator& allocator, Mix*& out, Er
                 desc.max_channels, desc.max_changing_channels, desc.max_bound_gui, desc.max_events,
                 kMaxClipChannels, kMaxChangingChannels, kMaxClipChannels, kMaxClipChannels);
   }
-  const uint32_t lanes = desc.raw_count + desc.variable_count;
-  Status status = check_lanes(desc, lanes, error);
-  if (status == Status::kOk) status = check_layers(desc, lanes, error);
+  const uint32_t curves = desc.raw_count + desc.variable_count;
+  Status status = check_curves(desc, curves, error);
+  if (status == Status::kOk) status = check_layers(desc, curves, error);
   if (status == Status::kOk) status = check_reactions(desc, error);
   if (status != Status::kOk) return status;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What is mixed for one rig, and how. Immutable, shared by any number of characters.
 //
-// A row holds a value for each lane:
+// A row holds a value for each curve:
 //
 //     | raw controls | pose variables | zeros up to a multiple of 16 |
 //
@@ -12,7 +12,7 @@
 //     reactions                 after the last layer that is not of the group life
 //     guards                    hold back what opens a distance that the protected row closes
 //     layers and reactions that act after the guards
-//     antagonists               two opposite lanes cancel out
+//     antagonists               two opposite curves cancel out
 //     limits
 #pragma once
 
@@ -28,8 +28,8 @@
 
 namespace mien {
 
-constexpr uint32_t kLaneStep = 16;
-constexpr uint32_t kMaxLanes = 4096;
+constexpr uint32_t kRowStep = 16;
+constexpr uint32_t kMaxCurves = 4096;
 constexpr uint32_t kMaxLayers = 16;
 constexpr uint32_t kMaxPoses = 1024;
 
@@ -41,7 +41,7 @@ constexpr uint32_t kMaxPoses = 1024;
 enum class LayerGroup : uint8_t { kBase, kSpeech, kEmotion, kReaction, kLife };
 constexpr uint32_t kLayerGroups = 5;
 
-/// BlendMode: simd/kernels.h. A layer does not change lanes for which its source has no value.
+/// BlendMode: simd/kernels.h. A layer does not change curves for which its source has no value.
 constexpr uint32_t kBlendModes = 5;
 
 /// Where the values of a layer come from.
@@ -66,20 +66,20 @@ struct LayerDesc {
   LayerSource source = LayerSource::kClip;
   uint32_t flags = 0;
   float weight = 1;         // the initial one; 0 ... 1, with kAdd -1 ... 1
-  Span<const float> mask;   // [lane] 0 ... 1; 0 for lanes beyond its end; empty: all 1
+  Span<const float> mask;   // [curve] 0 ... 1; 0 for curves beyond its end; empty: all 1
   uint32_t first_pose = 0;  // of kPoses
   uint32_t pose_count = 0;
-  Span<const uint16_t> lanes;  // of the channels of kStream; or that kGenerator moves
-  Span<const float> amounts;   // of kGenerator: a factor for each of its lanes
+  Span<const uint16_t> curves;  // of the channels of kStream; or that kGenerator moves
+  Span<const float> amounts;    // of kGenerator: a factor for each of its curves
   Generator generator = Generator::kBlink;
   int64_t period = 0;           // ticks; of kGenerator (generator.h)
   int64_t delay = 0;            // ticks; kStream is played this much later than its times
   uint32_t stream_frames = 64;  // capacity of the queue of kStream
 };
 
-/// The lanes of a pose that are not 0.
+/// The curves of a pose that are not 0.
 struct PoseDesc {
-  Span<const uint16_t> lanes;
+  Span<const uint16_t> curves;
   Span<const float> values;
 };
 
@@ -90,7 +90,7 @@ constexpr uint32_t kMaxReactions = 16;
 constexpr uint32_t kMaxStrokes = 8;  // of a reaction
 constexpr int64_t kUntilReleased = INT64_MAX;
 
-/// Moves the lanes of a pose to its values and back to 0. Times are in ticks.
+/// Moves the curves of a pose to its values and back to 0. Times are in ticks.
 struct Stroke {
   uint32_t pose;
   BlendMode mode;
@@ -124,7 +124,7 @@ struct ReactionDesc {
 // Antagonists
 // ------------------------------------------------------------------------------------------------
 
-/// Two lanes that move the face in opposite directions. If both are above 0, the smaller one times
+/// Two curves that move the face in opposite directions. If both are above 0, the smaller one times
 /// stiffness is subtracted from both.
 struct AntagonistPair {
   uint16_t a, b;
@@ -153,10 +153,10 @@ struct MixDesc {
   const GazeTable* gaze =
       nullptr;  // of the layer with Generator::kGaze, of which there is one at most
   Span<const AntagonistPair> antagonists;
-  /// [lane] The counterpart in the other half of the face, or the lane itself. Empty: clips cannot be
+  /// [curve] The counterpart in the other half of the face, or the curve itself. Empty: clips cannot be
   /// played mirrored.
   Span<const uint16_t> mirror;
-  /// [lane] Limits. Empty: none.
+  /// [curve] Limits. Empty: none.
   Span<const float> lower, upper;
   /// How many clips can play at the same time, including those that fade out, and how large they may be.
   uint32_t player_count = 0;
@@ -175,9 +175,9 @@ struct MixTag {
 };
 
 /// Immutable, in one block of memory: a copy of the desc, and what steps need besides. Masks of the copy
-/// are 0 for lanes that the layer cannot change; there is no gaze if no layer generates it.
+/// are 0 for curves that the layer cannot change; there is no gaze if no layer generates it.
 struct Mix : MixTag, MixDesc {
-  uint32_t lane_count = 0;             // with padding
+  uint32_t curve_count = 0;            // with padding
   uint32_t fade_count = 0;             // weights of poses in all layers
   uint32_t stroke_count = 0;           // of all reactions
   uint32_t first_unprotected = 0;      // layer after the last one of base or speech
@@ -187,15 +187,15 @@ struct Mix : MixTag, MixDesc {
   size_t block_size = 0;
   mutable std::atomic<uint32_t> owners{1};  // the creator and every mixer
 
-  Span<Span<float>> mask_rows;   // [layer][lane] the mask, 0 in the padding
+  Span<Span<float>> mask_rows;   // [layer][curve] the mask, 0 in the padding
   Span<uint32_t> first_fades;    // [layer] of the weights of its poses, in Mixer::pose_weights
-  Span<Span<float>> pose_rows;   // [pose][lane], or empty if the pose has few lanes
+  Span<Span<float>> pose_rows;   // [pose][curve], or empty if the pose has few curves
   Span<uint32_t> first_strokes;  // [reaction] in Mixer::strokes
   GuardTable guard_table;
-  Span<uint16_t> gaze_lanes;         // of the left and of the right eye, then those of the head
-  Span<float> lower_row, upper_row;  // [lane] limits, or none: the largest numbers
+  Span<uint16_t> gaze_curves;        // of the left and of the right eye, then those of the head
+  Span<float> lower_row, upper_row;  // [curve] limits, or none: the largest numbers
 
-  uint32_t used_lanes() const { return raw_count + variable_count; }
+  uint32_t used_curves() const { return raw_count + variable_count; }
 };
 
 /// On success, release `out` with release_mix(). kInvalidArgument, kIndex or kMemory; the message names

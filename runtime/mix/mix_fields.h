@@ -20,11 +20,11 @@ constexpr const char* kRetriggers[] = {"extend", "restart", "ignore"};
 // Fields ------------------------------------------------------------------------------------------
 
 /// Visits the fields of a mix in the order of the file. A walker has these functions:
-///     value   a number; uint16_t is a lane
+///     value   a number; uint16_t is a curve
 ///     choice  an enum, with the names of its values
-///     pairs   lanes with a float each
-///     lanes   a list of lanes
-///     row     a number for each lane, or none; and a function for the lanes that the file does not have
+///     pairs   curves with a float each
+///     curves   a list of curves
+///     row     a number for each curve, or none; and a function for the curves that the file does not have
 ///     list    elements, each of which is walked
 template <class Walker>
 void walk(Walker& w, MixDesc& mix) {
@@ -48,15 +48,15 @@ void walk(Walker& w, MixDesc& mix) {
     } else if (layer.source == LayerSource::kStream) {
       w.value("delay", layer.delay);
       w.value("stream_frames", layer.stream_frames);
-      w.lanes("lane", layer.lanes);
+      w.curves("curve", layer.curves);
     } else if (layer.source == LayerSource::kGenerator) {
       w.choice("generator", layer.generator, kGeneratorNames);
       w.value("period", layer.period);
-      w.pairs("amount", layer.lanes, layer.amounts);
+      w.pairs("amount", layer.curves, layer.amounts);
     }
   });
   w.list("poses", mix.poses, kMaxPoses,
-         [&w](PoseDesc& pose) { w.pairs("value", pose.lanes, pose.values); });
+         [&w](PoseDesc& pose) { w.pairs("value", pose.curves, pose.values); });
   w.list("reactions", mix.reactions, kMaxReactions, [&w](ReactionDesc& reaction) {
     w.choice("retrigger", reaction.retrigger, kRetriggers);
     w.value("after_guards", reaction.after_guards);
@@ -85,8 +85,8 @@ void walk(Walker& w, MixDesc& mix) {
     w.value("f_on", guard.f_on);
     w.value("tolerance", guard.tolerance);
     w.value("fit_error", guard.fit_error);
-    w.count("lanes", guard.count, kMaxGuardLanes);
-    for (uint32_t i = 0; i < guard.count; ++i) w.pair("gain", guard.lanes[i], guard.gains[i]);
+    w.count("curves", guard.count, kMaxGuardCurves);
+    for (uint32_t i = 0; i < guard.count; ++i) w.pair("gain", guard.curves[i], guard.gains[i]);
     w.value("together", guard.together);
     w.count("pairs", guard.pair_count, kMaxGuardPairs);
     for (uint32_t i = 0; i < guard.pair_count; ++i) {
@@ -104,28 +104,28 @@ void walk(Walker& w, MixDesc& mix) {
     for (GazeEye& eye : gaze.eyes) {
       for (float& place : eye.center) w.value("gaze.center", place);
       for (uint32_t d = 0; d < 4; ++d) {
-        w.value("gaze.lane", eye.lanes[d]);
+        w.value("gaze.curve", eye.curves[d]);
         for (float& tangent : eye.tangents[d]) w.value("gaze.tangent", tangent);
       }
     }
     w.keep(gaze, mix.gaze);
   }
-  w.list("antagonists", mix.antagonists, kMaxLanes, [&w](AntagonistPair& pair) {
+  w.list("antagonists", mix.antagonists, kMaxCurves, [&w](AntagonistPair& pair) {
     w.value("a", pair.a);
     w.value("b", pair.b);
     w.value("stiffness", pair.stiffness);
   });
-  w.row("mirror", mix.mirror, [](size_t lane) { return static_cast<uint16_t>(lane); });
+  w.row("mirror", mix.mirror, [](size_t curve) { return static_cast<uint16_t>(curve); });
   w.row("lower", mix.lower, [](size_t) { return -kLargestFloat; });
   w.row("upper", mix.upper, [](size_t) { return kLargestFloat; });
 }
 
-// Lanes of the file -------------------------------------------------------------------------------
+// Curves of the file -------------------------------------------------------------------------------
 
-/// Maps the lanes of a mix to those of its file, | controls by name | pose variables |, and back.
-struct LaneMap {
-  Span<uint16_t> lane_of;       // [lane of the file]
-  Span<uint16_t> file_lane_of;  // [lane of the mix]
+/// Maps the curves of a mix to those of its file, | controls by name | pose variables |, and back.
+struct CurveMap {
+  Span<uint16_t> curve_of;       // [curve of the file]
+  Span<uint16_t> file_curve_of;  // [curve of the mix]
   uint32_t name_count = 0;
 };
 constexpr uint16_t kNowhere = 0xFFFF;

@@ -23,7 +23,7 @@ Status write_mix_text(const Mix& mix, Span<char> out, size_t& size, Error& error
 
 /// Creates a mix for a rig from the bytes of a file, which are not needed afterwards. Names match as those
 /// of clips do (control_names.h). If `rig` is null, the controls of the file are the raw controls. Memory
-/// is bounded by the size of the file and the number of lanes. kMixSignature, kMixVersion, kMixTruncated,
+/// is bounded by the size of the file and the number of curves. kMixSignature, kMixVersion, kMixTruncated,
 /// kMixChecksum, kMixStructure; kName if the rig lacks controls, which the message names; kMemory.
 Status open_mix(Span<const uint8_t> bytes, const Rig* rig, const Allocator& allocator, Mix*& out,
                 Error& error);

@@ -23,9 +23,9 @@ struct MixReader {
   Error& error;
   size_t at = kMixHeaderSize;
   Status status = Status::kOk;
-  uint32_t raw_count = 0, lane_count = 0;  // of the mix
-  NameList listed = {};                    // the names of the file
-  LaneMap map = {};
+  uint32_t raw_count = 0, curve_count = 0;  // of the mix
+  NameList listed = {};                     // the names of the file
+  CurveMap map = {};
 
   void refuse(Status why) {
     if (status == Status::kOk) status = why;
@@ -69,10 +69,10 @@ struct MixReader {
     if (flag > 1) refuse(name);
     to = flag == 1;
   }
-  void value(const char* name, uint16_t& lane) {
+  void value(const char* name, uint16_t& curve) {
     const auto place = number<uint16_t>();
-    if (status == Status::kOk && place >= map.lane_of.count) refuse(name);
-    lane = status == Status::kOk ? map.lane_of[place] : uint16_t{0};
+    if (status == Status::kOk && place >= map.curve_of.count) refuse(name);
+    curve = status == Status::kOk ? map.curve_of[place] : uint16_t{0};
   }
   void place(const char*, uint16_t& to) { to = number<uint16_t>(); }
   template <class T, class Names>
@@ -80,17 +80,17 @@ struct MixReader {
     to = static_cast<T>(number<uint8_t>());
   }
   void count(const char*, uint32_t& to, uint32_t most) { to = bounded(most, 1); }
-  void pair(const char* name, uint16_t& lane, float& to) {
-    value(name, lane);
+  void pair(const char* name, uint16_t& curve, float& to) {
+    value(name, curve);
     value(name, to);
   }
-  void lanes(const char* name, Span<const uint16_t>& to) {
-    const Span<uint16_t> list = room<uint16_t>(bounded(kMaxLanes, sizeof(uint16_t)));
-    for (uint16_t& lane : list) value(name, lane);
+  void curves(const char* name, Span<const uint16_t>& to) {
+    const Span<uint16_t> list = room<uint16_t>(bounded(kMaxCurves, sizeof(uint16_t)));
+    for (uint16_t& curve : list) value(name, curve);
     to = list;
   }
   void pairs(const char* name, Span<const uint16_t>& list, Span<const float>& values) {
-    lanes(name, list);
+    curves(name, list);
     const Span<float> numbers = room<float>(list.count);
     for (float& each : numbers) value(name, each);
     values = numbers;
@@ -100,10 +100,10 @@ struct MixReader {
     bool there = false;
     value(name, there);
     if (!there) return;
-    const Span<T> numbers = room<T>(lane_count);
+    const Span<T> numbers = room<T>(curve_count);
     for (size_t l = 0; l < numbers.count; ++l) numbers[l] = otherwise(l);
-    for (size_t i = 0; i < map.lane_of.count && status == Status::kOk; ++i) {
-      value(name, numbers[map.lane_of[i]]);
+    for (size_t i = 0; i < map.curve_of.count && status == Status::kOk; ++i) {
+      value(name, numbers[map.curve_of[i]]);
     }
     to = numbers;
   }
@@ -120,7 +120,7 @@ struct MixReader {
   }
 
   void names(const char* name, uint32_t variable_count) {
-    const uint32_t count = bounded(kMaxLanes, sizeof(uint32_t));
+    const uint32_t count = bounded(kMaxCurves, sizeof(uint32_t));
     listed.first = room<uint32_t>(size_t{count} + 1);
     listed.chars = room<char>(bytes.count - at);  // more than all names
     for (uint32_t i = 0; i < count && status == Status::kOk; ++i) {
@@ -134,18 +134,18 @@ struct MixReader {
       if (i > 0 && compare_names(listed[i - 1], listed[i]) >= 0) return refuse(name);
     }
     raw_count = rig ? rig->raw_count : count;
-    if (raw_count > kMaxLanes || variable_count > kMaxLanes - raw_count) {
-      return refuse("more lanes than a mix can have");
+    if (raw_count > kMaxCurves || variable_count > kMaxCurves - raw_count) {
+      return refuse("more curves than a mix can have");
     }
-    lane_count = raw_count + variable_count;
+    curve_count = raw_count + variable_count;
     map.name_count = count;
-    map.lane_of = room<uint16_t>(size_t{count} + variable_count + 1);
+    map.curve_of = room<uint16_t>(size_t{count} + variable_count + 1);
     if (status != Status::kOk) return;
     listed.chars.count = listed.first[count];
-    map.lane_of.count = size_t{count} + variable_count;
-    for (uint32_t i = 0; i < count; ++i) map.lane_of[i] = static_cast<uint16_t>(i);
+    map.curve_of.count = size_t{count} + variable_count;
+    for (uint32_t i = 0; i < count; ++i) map.curve_of[i] = static_cast<uint16_t>(i);
     for (uint32_t v = 0; v < variable_count; ++v) {
-      map.lane_of[count + v] = static_cast<uint16_t>(raw_count + v);
+      map.curve_of[count + v] = static_cast<uint16_t>(raw_count + v);
     }
     if (rig) find_names();
   }
@@ -159,10 +159,10 @@ struct MixReader {
     char text[160] = "";
     for (uint32_t i = 0; i < listed.count(); ++i) {
       const Span<const char> name = listed[i];
-      const uint32_t lane = index.find(name);
-      if (lane != kNoName && !taken[lane]) {
-        taken[lane] = 1;
-        map.lane_of[i] = static_cast<uint16_t>(lane);
+      const uint32_t curve = index.find(name);
+      if (curve != kNoName && !taken[curve]) {
+        taken[curve] = 1;
+        map.curve_of[i] = static_cast<uint16_t>(curve);
         continue;
       }
       const size_t length = strlen(text);

@@ -6,7 +6,7 @@
 namespace mien {
 namespace {
 
-/// What a mode adds to a lane: the formulas of simd/mix_kernels.inl, with the same bits.
+/// What a mode adds to a curve: the formulas of simd/mix_kernels.inl, with the same bits.
 template <BlendMode kMode>
 float added(float o, float x, float a) {
   switch (kMode) {
@@ -23,11 +23,11 @@ float added(float o, float x, float a) {
 }
 
 template <BlendMode kMode>
-void blend_each(Span<const uint16_t> lanes, const float* values, const float* mask, float weight,
+void blend_each(Span<const uint16_t> curves, const float* values, const float* mask, float weight,
                 float* row) {
-  for (size_t i = 0; i < lanes.count; ++i) {
-    float& o = row[lanes[i]];
-    const float x = values[i], a = mask ? weight * mask[lanes[i]] : weight;
+  for (size_t i = 0; i < curves.count; ++i) {
+    float& o = row[curves[i]];
+    const float x = values[i], a = mask ? weight * mask[curves[i]] : weight;
     const float more = added<kMode>(o, x, a);
     if (kMode == BlendMode::kOverride && a == 1.0f) {
       o = x;
@@ -39,10 +39,10 @@ void blend_each(Span<const uint16_t> lanes, const float* values, const float* ma
 
 }  // namespace
 
-void blend_lanes(BlendMode mode, Span<const uint16_t> lanes, const float* values, const float* mask,
-                 float weight, float* row) {
+void blend_curves(BlendMode mode, Span<const uint16_t> curves, const float* values,
+                  const float* mask, float weight, float* row) {
   if (weight == 0.0f) return;
-  const auto blend = [&](auto each) { each(lanes, values, mask, weight, row); };
+  const auto blend = [&](auto each) { each(curves, values, mask, weight, row); };
   switch (mode) {
     case BlendMode::kOverride: return blend(blend_each<BlendMode::kOverride>);
     case BlendMode::kAdd: return blend(blend_each<BlendMode::kAdd>);

@@ -20,12 +20,12 @@ struct MixOutput {
   void choice(const char* name, T number, const Names&) {
     to().value(name, static_cast<uint8_t>(number));
   }
-  void pair(const char* name, uint16_t lane, float value) {
-    to().value(name, lane);
+  void pair(const char* name, uint16_t curve, float value) {
+    to().value(name, curve);
     to().value(name, value);
   }
-  void lanes(const char* name, Span<const uint16_t> list) {
-    for (uint16_t lane : list) to().value(name, lane);
+  void curves(const char* name, Span<const uint16_t> list) {
+    for (uint16_t curve : list) to().value(name, curve);
   }
   void keep(const GazeTable&, const GazeTable*) {}
   template <class T, class Fields>
@@ -56,10 +56,10 @@ struct Sink {
 
 struct MixBytes : MixOutput<MixBytes> {
   const Mix& mix;
-  const LaneMap& map;
+  const CurveMap& map;
   Sink& sink;
 
-  MixBytes(const Mix& m, const LaneMap& lanes, Sink& to) : mix(m), map(lanes), sink(to) {}
+  MixBytes(const Mix& m, const CurveMap& curves, Sink& to) : mix(m), map(curves), sink(to) {}
 
   void place(const char*, uint16_t number) {
     number = to_little_endian(number);
@@ -71,48 +71,48 @@ struct MixBytes : MixOutput<MixBytes> {
     sink.put(&number, sizeof(number));
   }
   void value(const char*, bool flag) { value("", static_cast<uint8_t>(flag)); }
-  void value(const char*, uint16_t lane) { place("", map.file_lane_of[lane]); }
+  void value(const char*, uint16_t curve) { place("", map.file_curve_of[curve]); }
   void names(const char*, uint32_t) {
     value("", map.name_count);
     for (uint32_t i = 0; i < map.name_count; ++i) {
-      const Span<char> name = mix.names[map.lane_of[i]];
+      const Span<char> name = mix.names[map.curve_of[i]];
       value("", static_cast<uint32_t>(name.count));
       sink.put(name.data, name.count);
     }
   }
-  void lanes(const char*, Span<const uint16_t> list) {
+  void curves(const char*, Span<const uint16_t> list) {
     value("", static_cast<uint32_t>(list.count));
-    MixOutput::lanes("", list);
+    MixOutput::curves("", list);
   }
   void pairs(const char*, Span<const uint16_t> list, Span<const float> values) {
-    lanes("", list);
+    curves("", list);
     for (float number : values) value("", number);
   }
   template <class T, class Otherwise>
   void row(const char*, Span<const T> numbers, Otherwise) {
-    const bool there = !numbers.empty() && map.lane_of.count != 0;  // else it is as if left out
+    const bool there = !numbers.empty() && map.curve_of.count != 0;  // else it is as if left out
     value("", there);
-    for (size_t i = 0; there && i < map.lane_of.count; ++i) value("", numbers[map.lane_of[i]]);
+    for (size_t i = 0; there && i < map.curve_of.count; ++i) value("", numbers[map.curve_of[i]]);
   }
 };
 
 struct MixText : MixOutput<MixText> {
   const Mix& mix;
-  const LaneMap& map;
+  const CurveMap& map;
   Sink& sink;
   char path[64] = "";
 
-  MixText(const Mix& m, const LaneMap& lanes, Sink& to) : mix(m), map(lanes), sink(to) {}
+  MixText(const Mix& m, const CurveMap& curves, Sink& to) : mix(m), map(curves), sink(to) {}
 
   void put(const char* text) { sink.put(text, strlen(text)); }
-  void put_lane(uint16_t lane) {
+  void put_curve(uint16_t curve) {
     char text[16];
-    if (lane >= mix.raw_count) {
-      snprintf(text, sizeof(text), "variable:%u", lane - mix.raw_count);
+    if (curve >= mix.raw_count) {
+      snprintf(text, sizeof(text), "variable:%u", curve - mix.raw_count);
       return put(text);
     }
-    // A name stays in its line, and is no other lane.
-    for (char c : mix.names[lane]) {
+    // A name stays in its line, and is no other curve.
+    for (char c : mix.names[curve]) {
       const bool plain = static_cast<unsigned char>(c) > ' ' && c != '\\' && c != ':' && c != 0x7F;
       snprintf(text, sizeof(text), plain ? "%c" : "\\x%02X",
                plain ? c : static_cast<unsigned char>(c));
@@ -141,7 +141,7 @@ struct MixText : MixOutput<MixText> {
   }
   void put_number(uint32_t number) { put_number(int64_t{number}); }
   void put_number(bool flag) { put(flag ? "true" : "false"); }
-  void put_number(uint16_t lane) { put_lane(lane); }
+  void put_number(uint16_t curve) { put_curve(curve); }
 
   void begin(const char* name) {
     put(path);
@@ -163,12 +163,12 @@ struct MixText : MixOutput<MixText> {
     put("\n");
   }
   void names(const char* name, uint32_t) {
-    for (uint32_t i = 0; i < map.name_count; ++i) value(name, map.lane_of[i]);
+    for (uint32_t i = 0; i < map.name_count; ++i) value(name, map.curve_of[i]);
   }
   template <class T>
-  void pair(const char* name, uint16_t lane, T number) {
+  void pair(const char* name, uint16_t curve, T number) {
     begin(name);
-    put_lane(lane);
+    put_curve(curve);
     put(" ");
     put_number(number);
     put("\n");
@@ -178,8 +178,8 @@ struct MixText : MixOutput<MixText> {
   }
   template <class T, class Otherwise>
   void row(const char* name, Span<const T> numbers, Otherwise) {
-    for (size_t i = 0; i < map.lane_of.count && !numbers.empty(); ++i) {
-      pair(name, map.lane_of[i], numbers[map.lane_of[i]]);
+    for (size_t i = 0; i < map.curve_of.count && !numbers.empty(); ++i) {
+      pair(name, map.curve_of[i], numbers[map.curve_of[i]]);
     }
   }
   template <class Fields>
@@ -191,17 +191,17 @@ struct MixText : MixOutput<MixText> {
   }
 };
 
-/// Finds the lanes that a walk meets.
-struct LaneFinder : MixOutput<LaneFinder> {
-  Span<uint16_t> used;  // [lane of the mix] kNowhere: not yet
+/// Finds the curves that a walk meets.
+struct CurveFinder : MixOutput<CurveFinder> {
+  Span<uint16_t> used;  // [curve of the mix] kNowhere: not yet
 
-  explicit LaneFinder(Span<uint16_t> lanes) : used(lanes) {}
+  explicit CurveFinder(Span<uint16_t> curves) : used(curves) {}
   template <class T>
   void value(const char*, T) {}
-  void value(const char*, uint16_t lane) { used[lane] = 0; }
+  void value(const char*, uint16_t curve) { used[curve] = 0; }
   void place(const char*, uint16_t) {}
   void names(const char*, uint32_t) {}
-  void pairs(const char*, Span<const uint16_t> list, Span<const float>) { lanes("", list); }
+  void pairs(const char*, Span<const uint16_t> list, Span<const float>) { curves("", list); }
   template <class T, class Otherwise>
   void row(const char*, Span<const T> numbers, Otherwise otherwise) {
     for (size_t l = 0; l < numbers.count; ++l) {
@@ -210,44 +210,44 @@ struct LaneFinder : MixOutput<LaneFinder> {
   }
 };
 
-/// The lanes of the file, in an arena.
-Status map_lanes(const Mix& mix, MixDesc& desc, Arena& arena, LaneMap& map, Error& error) {
-  map.lane_of = arena.array<uint16_t>(mix.used_lanes() + 1);
-  map.file_lane_of = arena.array<uint16_t>(mix.used_lanes() + 1);  // never nothing
-  if (!map.lane_of.data || !map.file_lane_of.data) {
+/// The curves of the file, in an arena.
+Status map_curves(const Mix& mix, MixDesc& desc, Arena& arena, CurveMap& map, Error& error) {
+  map.curve_of = arena.array<uint16_t>(mix.used_curves() + 1);
+  map.file_curve_of = arena.array<uint16_t>(mix.used_curves() + 1);  // never nothing
+  if (!map.curve_of.data || !map.file_curve_of.data) {
     return fail(error, Status::kMemory, kNoOffset, "no memory to write a mix");
   }
-  std::fill(map.file_lane_of.begin(), map.file_lane_of.end(), kNowhere);
-  LaneFinder finder(map.file_lane_of);
+  std::fill(map.file_curve_of.begin(), map.file_curve_of.end(), kNowhere);
+  CurveFinder finder(map.file_curve_of);
   walk(finder, desc);
   for (uint16_t l = 0; l < mix.raw_count; ++l) {
-    if (map.file_lane_of[l] != kNowhere) map.lane_of[map.name_count++] = l;
+    if (map.file_curve_of[l] != kNowhere) map.curve_of[map.name_count++] = l;
   }
   if (map.name_count != 0 && mix.names.count() != mix.raw_count) {
     return fail(error, Status::kName, kNoOffset,
                 "the controls of the mix have no names to write them by");
   }
-  uint16_t* const lanes = map.lane_of.data;
-  std::sort(lanes, lanes + map.name_count, [&mix](uint16_t a, uint16_t b) {
+  uint16_t* const curves = map.curve_of.data;
+  std::sort(curves, curves + map.name_count, [&mix](uint16_t a, uint16_t b) {
     return compare_names(mix.names[a], mix.names[b]) < 0;
   });
   for (uint32_t i = 0; i < map.name_count; ++i) {
-    const Span<char> name = mix.names[lanes[i]];
+    const Span<char> name = mix.names[curves[i]];
     if (name.count > kMaxNameLength) {
       return fail(error, Status::kName, kNoOffset, "control %u has a name of %zu bytes; %zu fit",
-                  lanes[i], name.count, kMaxNameLength);
+                  curves[i], name.count, kMaxNameLength);
     }
-    if (i == 0 || compare_names(mix.names[lanes[i - 1]], name) != 0) continue;
+    if (i == 0 || compare_names(mix.names[curves[i - 1]], name) != 0) continue;
     return fail(error, Status::kName, kNoOffset,
                 "two controls that the mix uses are named %.*s: a file could not tell which is "
                 "which",
                 static_cast<int>(name.count), name.data);
   }
-  map.lane_of.count = size_t{map.name_count} + mix.variable_count;
+  map.curve_of.count = size_t{map.name_count} + mix.variable_count;
   for (uint32_t v = 0; v < mix.variable_count; ++v) {
-    lanes[map.name_count + v] = static_cast<uint16_t>(mix.raw_count + v);
+    curves[map.name_count + v] = static_cast<uint16_t>(mix.raw_count + v);
   }
-  for (uint16_t i = 0; i < map.lane_of.count; ++i) map.file_lane_of[lanes[i]] = i;
+  for (uint16_t i = 0; i < map.curve_of.count; ++i) map.file_curve_of[curves[i]] = i;
   return Status::kOk;
 }
 
@@ -255,8 +255,8 @@ template <class Output>
 Status write(const Mix& mix, Sink& sink, Error& error) {
   Arena arena(mix.allocator);
   MixDesc desc = mix;
-  LaneMap map;
-  const Status status = map_lanes(mix, desc, arena, map, error);
+  CurveMap map;
+  const Status status = map_curves(mix, desc, arena, map, error);
   if (status != Status::kOk) return status;
   Output output(mix, map, sink);
   walk(output, desc);

@@ -19,7 +19,7 @@ void place_state(Placer& placer, const Mix& mix, Mixer& mixer) {
   mixer.player_states = placer.array<PlayerState>(mix.player_count);
   mixer.pose_weights = placer.array<Fade>(mix.fade_count);
   mixer.variables = placer.array<float>(mix.variable_count);
-  mixer.held = placer.array<float>(mix.guard_table.lanes.count);
+  mixer.held = placer.array<float>(mix.guard_table.curves.count);
   mixer.generators = placer.array<GeneratorState>(mix.layers.count);
   mixer.gazes = placer.array<GazeState>(mix.gaze ? 1 : 0);
   mixer.reactions = placer.array<ReactionState>(mix.reactions.count);
@@ -32,14 +32,14 @@ void place_state(Placer& placer, const Mix& mix, Mixer& mixer) {
 
 void place_mixer(Placer& placer, const Mix& mix, bool stages, Mixer& mixer) {
   if (stages) {
-    const size_t floats = size_t{stage_count(mix)} * mix.lane_count;
+    const size_t floats = size_t{stage_count(mix)} * mix.curve_count;
     mixer.stages = placer.array<float>(floats, kBlockAlignment).data;
   }
-  mixer.row = placer.array<float>(mix.lane_count, kBlockAlignment);
+  mixer.row = placer.array<float>(mix.curve_count, kBlockAlignment);
   mixer.guarded_rows = placer.array<float>(
-      kGuardedRows * align_up(mix.guard_table.lanes.count, kGuardStep), kBlockAlignment);
+      kGuardedRows * align_up(mix.guard_table.curves.count, kGuardStep), kBlockAlignment);
   mixer.layer_row = placer.array<float>(layer_row_floats(mix), kBlockAlignment);
-  mixer.scratch = placer.array<float>(mix.lane_count, kBlockAlignment);
+  mixer.scratch = placer.array<float>(mix.curve_count, kBlockAlignment);
   mixer.gui = placer.array<float>(mix.max_bound_gui, kBlockAlignment);
   mixer.players = placer.array<Player>(mix.player_count, kBlockAlignment);
   for (uint32_t i = 0; i < mix.player_count; ++i) {
@@ -47,7 +47,7 @@ void place_mixer(Placer& placer, const Mix& mix, bool stages, Mixer& mixer) {
     place_clip_sampler(
         placer, {mix.max_channels, mix.max_changing_channels, mix.plays_backward, mix.kernels},
         player.sampler);
-    player.rows = placer.array<float>(size_t{3} * mix.lane_count, kBlockAlignment);
+    player.rows = placer.array<float>(size_t{3} * mix.curve_count, kBlockAlignment);
     if (!placer.measuring()) mixer.players[i] = player;
   }
   mixer.streams = placer.array<RowStream*>(mix.layers.count);
@@ -55,7 +55,7 @@ void place_mixer(Placer& placer, const Mix& mix, bool stages, Mixer& mixer) {
     const LayerDesc& layer = mix.layers[i];
     if (layer.source != LayerSource::kStream) continue;
     RowStream* stream = nullptr;
-    place_stream(placer, layer.stream_frames, static_cast<uint32_t>(layer.lanes.count), stream);
+    place_stream(placer, layer.stream_frames, static_cast<uint32_t>(layer.curves.count), stream);
     if (!placer.measuring()) mixer.streams[i] = stream;
   }
   mixer.cover_rests = placer.array<uint8_t>(mix.layers.count);
@@ -78,8 +78,8 @@ uint32_t find_free_player(const Mixer& mixer) {
 void set_cover(Mixer& mixer, Player& player) {
   const Mix& mix = *mixer.mix;
   memset(player.rows.data, 0, player.rows.count * sizeof(float));
-  for (uint16_t lane : player.source.binding->controls) {
-    player.rows[mix.lane_count + (player.mirrored ? mix.mirror[lane] : lane)] = 1.0f;
+  for (uint16_t curve : player.source.binding->controls) {
+    player.rows[mix.curve_count + (player.mirrored ? mix.mirror[curve] : curve)] = 1.0f;
   }
 }
 

@@ -36,7 +36,7 @@ struct ClipSource {
 enum class Transition : uint8_t {
   kCut,
   kCrossfade,  // both clips play. Needs a free player, else kInertial
-  kInertial,   // the old clip stops; lanes blend from their last value and velocity
+  kInertial,   // the old clip stops; curves blend from their last value and velocity
 };
 
 struct LayerPlayDesc {
@@ -51,8 +51,8 @@ constexpr uint16_t kNoPlayer = 0xFFFF;
 // The state
 // ------------------------------------------------------------------------------------------------
 
-/// What a layer showed in its last two steps, and the offsets of a transition: the values of all lanes,
-/// then their cover, which is 1 for lanes that the source drives (BlendArgs in simd/kernels.h).
+/// What a layer showed in its last two steps, and the offsets of a transition: the values of all curves,
+/// then their cover, which is 1 for curves that the source drives (BlendArgs in simd/kernels.h).
 enum LayerRow : uint32_t { kShown0, kShown1, kQuintic0, kQuintic1, kQuintic2, kQuinticRate };
 constexpr uint32_t kLayerRows = 6;
 
@@ -92,10 +92,10 @@ struct Player {
   ClipSource source;
   bool used = false, mirrored = false;
   ClipSampler sampler;
-  Span<float> rows;  // values of all lanes, their cover, then the values of another step
+  Span<float> rows;  // values of all curves, their cover, then the values of another step
 };
 
-/// Rows of the lanes of guards: protected, as the layers left them, what guards take off, what is left.
+/// Rows of the curves of guards: protected, as the layers left them, what guards take off, what is left.
 enum GuardedRow : uint32_t { kProtected, kFree, kBack, kGuarded };
 constexpr uint32_t kGuardedRows = 4;
 
@@ -111,10 +111,10 @@ struct Mixer {
   Allocator allocator;
   size_t block_size = 0;
 
-  Span<float> row;           // [lane] the result of the last step
-  Span<float> guarded_rows;  // [GuardedRow][place in GuardTable::lanes], zeros up to kGuardStep
-  Span<float> layer_row;     // values of all lanes, then their cover
-  Span<float> scratch;       // [lane]
+  Span<float> row;           // [curve] the result of the last step
+  Span<float> guarded_rows;  // [GuardedRow][place in GuardTable::curves], zeros up to kGuardStep
+  Span<float> layer_row;     // values of all curves, then their cover
+  Span<float> scratch;       // [curve]
   Span<float> gui;
   Span<Player> players;
   Span<RowStream*> streams;   // [layer] null if it is not a stream
@@ -123,7 +123,7 @@ struct Mixer {
   uint32_t event_count = 0;
   bool lost_events = false;  // the last step passed more events than there is room for
   bool in_batch = false;     // while the arguments of a batch are checked
-  float* stages = nullptr;   // [stage][lane]: the row after each stage of the last step, or null
+  float* stages = nullptr;   // [stage][curve]: the row after each stage of the last step, or null
 
   Span<uint8_t> state;
   // In it:
@@ -132,7 +132,7 @@ struct Mixer {
   Span<PlayerState> player_states;  // written for snapshots
   Span<Fade> pose_weights;          // Mix::first_fades
   Span<float> variables;            // [pose variable] at the start of each step
-  Span<float> held;                 // [place in GuardTable::lanes] how far guards took it back
+  Span<float> held;                 // [place in GuardTable::curves] how far guards took it back
   Span<GeneratorState> generators;  // [layer]
   Span<GazeState> gazes;            // one if there is a gaze layer
   Span<ReactionState> reactions;
@@ -198,9 +198,9 @@ Status set_level(Mixer& mixer, uint32_t reaction, float level, Error& error);
 /// Sets the activation of a guard, 0 ... 1; negative: automatic. kIndex, kInvalidArgument.
 Status set_guard(Mixer& mixer, uint32_t guard, float activation, Error& error);
 
-/// What a guard did in the last step. Distances are f of its lanes, in millimeters.
+/// What a guard did in the last step. Distances are f of its curves, in millimeters.
 struct GuardState {
-  Span<const uint16_t> lanes;  // of its function
+  Span<const uint16_t> curves;  // of its function
   float activation;
   float protected_distance;  // of the protected row
   float wanted;              // of the row just before the guards
@@ -211,9 +211,9 @@ struct GuardState {
 /// kIndex.
 Status guard_state(const Mixer& mixer, uint32_t guard, GuardState& state, Error& error);
 
-/// Advances the time by 0 ... kMaxStepTicks and mixes. The first `count` lanes of the result go to `out`:
-/// the raw controls of an instance, or all lanes. `mixer.row` has the whole row. `active` gets a bit for
-/// each lane that is not 0, in (lane_count + 63) / 64 words; it may be null.
+/// Advances the time by 0 ... kMaxStepTicks and mixes. The first `count` curves of the result go to `out`:
+/// the raw controls of an instance, or all curves. `mixer.row` has the whole row. `active` gets a bit for
+/// each curve that is not 0, in (curve_count + 63) / 64 words; it may be null.
 void step_mixer(Mixer& mixer, int64_t ticks, float* out, size_t count, uint64_t* active);
 
 /// Steps several mixers, of the same mix or not, with the results of single calls. outs[i] belongs to

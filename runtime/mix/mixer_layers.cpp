@@ -19,7 +19,7 @@ size_t layers_with_rows(const Mix& mix, size_t end) {
 
 size_t shown_floats(const Mix& mix, uint32_t layer) {
   if (mix.layers[layer].source == LayerSource::kClip) return layer_row_floats(mix);
-  return (mix.layers[layer].lanes.count + kLaneStep - 1) / kLaneStep * kLaneStep;
+  return (mix.layers[layer].curves.count + kRowStep - 1) / kRowStep * kRowStep;
 }
 
 float* layer_row(Mixer& mixer, uint32_t layer, uint32_t row) {
@@ -40,10 +40,10 @@ void start_offsets(Mixer& mixer, uint32_t index, const float* next, int64_t star
   const bool moves = layer.shown_count == 2 && layer.shown_ticks > 0;
   const float* last = layer_row(mixer, index, kShown0 + layer.newest);
   const float* before = moves ? layer_row(mixer, index, kShown0 + (layer.newest ^ 1)) : last;
-  const size_t floats = shown_floats(*mixer.mix, index), lanes = mixer.mix->lane_count;
-  const size_t cover_bytes = (floats > lanes ? floats - lanes : 0) * sizeof(float);
-  mixer.cover_rests[index] = memcmp(last + lanes, next + lanes, cover_bytes) == 0 &&
-                             memcmp(before + lanes, next + lanes, cover_bytes) == 0;
+  const size_t floats = shown_floats(*mixer.mix, index), curves = mixer.mix->curve_count;
+  const size_t cover_bytes = (floats > curves ? floats - curves : 0) * sizeof(float);
+  mixer.cover_rests[index] = memcmp(last + curves, next + curves, cover_bytes) == 0 &&
+                             memcmp(before + curves, next + curves, cover_bytes) == 0;
   start_quintics(last, before, next, moves ? fraction_of(ticks, layer.shown_ticks) : 0.0f, floats,
                  quintic_rows(mixer, index));
   layer.offset_start = start;
@@ -71,20 +71,20 @@ void sample_player(Mixer& mixer, Player& player, uint32_t row, bool constants) {
     return;
   }
   apply_binding(binding, channels, mixer.gui, mixer.scratch.first(mix.raw_count));
-  for (uint16_t lane : binding.controls) values[mix.mirror[lane]] = mixer.scratch[lane];
+  for (uint16_t curve : binding.controls) values[mix.mirror[curve]] = mixer.scratch[curve];
 }
 
 void keep_shown(Mixer& mixer, uint32_t index) {
   const Mix& mix = *mixer.mix;
   LayerState& layer = mixer.layers[index];
-  const size_t bytes = mix.lane_count * sizeof(float);
+  const size_t bytes = mix.curve_count * sizeof(float);
   for (uint32_t k = 0; k < 2; ++k) {
     if (!layer.in_player[k]) continue;
     layer.in_player[k] = 0;
     const Player& player = mixer.players[layer.current];
     float* const shown = layer_row(mixer, index, kShown0 + k);
     memcpy(shown, player_values(mix, player, k), bytes);
-    memcpy(shown + mix.lane_count, player_cover(mix, player), bytes);
+    memcpy(shown + mix.curve_count, player_cover(mix, player), bytes);
   }
 }
 

@@ -11,9 +11,9 @@ namespace mien {
 bool has_rows(const LayerDesc& layer);
 /// How many of the first `end` layers do.
 size_t layers_with_rows(const Mix& mix, size_t end);
-inline size_t layer_row_floats(const Mix& mix) { return size_t{2} * mix.lane_count; }
-/// Floats of a row that a layer shows: values and cover of all lanes; of a stream only the values of its
-/// channels, because it always covers the same lanes.
+inline size_t layer_row_floats(const Mix& mix) { return size_t{2} * mix.curve_count; }
+/// Floats of a row that a layer shows: values and cover of all curves; of a stream only the values of its
+/// channels, because it always covers the same curves.
 size_t shown_floats(const Mix& mix, uint32_t layer);
 
 /// The weight of a layer, with its fades in and out.
@@ -30,12 +30,12 @@ inline float cross_share(const LayerState& layer, int64_t now) {
   return s < 1.0f ? (s > 0.0f ? s : 0.0f) : 1.0f;
 }
 
-/// One of the two rows of values of a player, and its cover: which lanes it drives.
+/// One of the two rows of values of a player, and its cover: which curves it drives.
 inline float* player_values(const Mix& mix, const Player& player, uint32_t row) {
-  return player.rows.data + (row == 0 ? 0 : 2 * size_t{mix.lane_count});
+  return player.rows.data + (row == 0 ? 0 : 2 * size_t{mix.curve_count});
 }
 inline const float* player_cover(const Mix& mix, const Player& player) {
-  return player.rows.data + mix.lane_count;
+  return player.rows.data + mix.curve_count;
 }
 
 float* layer_row(Mixer& mixer, uint32_t layer, uint32_t row);

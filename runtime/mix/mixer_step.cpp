@@ -54,11 +54,11 @@ bool has_offsets(const Mixer& mixer, const LayerState& layer) {
 /// What a layer shows: a row and the offsets of a transition, if there are some.
 void show_row(Mixer& mixer, uint32_t index, const float* row, float* shown) {
   const LayerState& layer = mixer.layers[index];
-  const size_t floats = shown_floats(*mixer.mix, index), lanes = mixer.mix->lane_count;
+  const size_t floats = shown_floats(*mixer.mix, index), curves = mixer.mix->curve_count;
   size_t added = 0;
   if (has_offsets(mixer, layer)) {
     const int64_t elapsed = mixer.header->now - layer.offset_start;
-    added = floats > lanes && mixer.cover_rests[index] ? lanes : floats;
+    added = floats > curves && mixer.cover_rests[index] ? curves : floats;
     mixer.mix->kernels->add_quintics(quintic_rows(mixer, index),
                                      fraction_of(elapsed, layer.offset_ticks), added, row, shown);
   }
@@ -70,7 +70,7 @@ void blend(Mixer& mixer, uint32_t index, float weight, const float* values, cons
            float scale = 1.0f) {
   const LayerDesc& layer = mixer.mix->layers[index];
   mixer.mix->kernels->blend_row({values, cover, mixer.mix->mask_rows[index].data, mixer.row.data,
-                                 mixer.mix->lane_count, weight, layer.mode, scale});
+                                 mixer.mix->curve_count, weight, layer.mode, scale});
 }
 
 void mix_clip_layer(Mixer& mixer, uint32_t index, int64_t ticks) {
@@ -96,7 +96,7 @@ void mix_clip_layer(Mixer& mixer, uint32_t index, int64_t ticks) {
   if (layer.previous == kNoPlayer && !has_offsets(mixer, layer)) {
     sample_player(mixer, current, layer.newest, false);
     layer.in_player[layer.newest] = 1;
-    // The mask leaves out lanes beyond the raw controls.
+    // The mask leaves out curves beyond the raw controls.
     const bool covers_all = current.source.binding->controls.count == mix.raw_count;
     const float* const values = player_values(mix, current, layer.newest);
     const LayerDesc& of = mix.layers[index];
@@ -117,7 +117,7 @@ void mix_clip_layer(Mixer& mixer, uint32_t index, int64_t ticks) {
   } else {
     show_row(mixer, index, current.rows.data, shown);
   }
-  blend(mixer, index, weight, shown, shown + mix.lane_count);
+  blend(mixer, index, weight, shown, shown + mix.curve_count);
 }
 
 void mix_stream_layer(Mixer& mixer, uint32_t index, int64_t ticks) {
@@ -147,7 +147,7 @@ void mix_stream_layer(Mixer& mixer, uint32_t index, int64_t ticks) {
   }
   float* shown = next_shown_row(mixer, index, ticks);
   show_row(mixer, index, row, shown);
-  blend_lanes(layer.mode, layer.lanes, shown, mix.mask_rows[index].data, weight, mixer.row.data);
+  blend_curves(layer.mode, layer.curves, shown, mix.mask_rows[index].data, weight, mixer.row.data);
 }
 
 void mix_generator(Mixer& mixer, uint32_t index, int64_t ticks) {
@@ -159,15 +159,15 @@ void mix_generator(Mixer& mixer, uint32_t index, int64_t ticks) {
   if (layer.generator == Generator::kGaze) {
     generate_gaze(*mix.gaze, layer, seed, index, now, ticks, mixer.row.data, mixer.gazes[0],
                   mixer.scratch.data, values);
-    // The lanes of the eyes, then those that get what is left for the head.
-    blend_lanes(layer.mode, mix.gaze_lanes, values, mix.mask_rows[index].data,
-                layer_weight(mixer.layers[index], layer.mode, now), mixer.row.data);
+    // The curves of the eyes, then those that get what is left for the head.
+    blend_curves(layer.mode, mix.gaze_curves, values, mix.mask_rows[index].data,
+                 layer_weight(mixer.layers[index], layer.mode, now), mixer.row.data);
     return;
   }
   const int64_t shift = mixer.gazes.empty() ? kNoShift : mixer.gazes[0].large_shift;
   generate(layer, seed, index, now, shift, mixer.row.data, mixer.generators[index], values);
-  blend_lanes(layer.mode, layer.lanes, values, mix.mask_rows[index].data,
-              layer_weight(mixer.layers[index], layer.mode, now), mixer.row.data);
+  blend_curves(layer.mode, layer.curves, values, mix.mask_rows[index].data,
+               layer_weight(mixer.layers[index], layer.mode, now), mixer.row.data);
 }
 
 /// Compilers make vectors of it.
@@ -178,9 +178,9 @@ void add_scaled(const float* __restrict from, float scale, size_t count, float* 
 void add_pose(const Mix& mix, uint32_t pose, float weight, float* row) {
   const Span<float> whole = mix.pose_rows[pose];
   if (!whole.empty()) return add_scaled(whole.data, weight, whole.count, row);
-  const uint16_t* const lanes = mix.poses[pose].lanes.data;
+  const uint16_t* const curves = mix.poses[pose].curves.data;
   const Span<const float> values = mix.poses[pose].values;
-  for (size_t k = 0; k < values.count; ++k) row[lanes[k]] += weight * values[k];
+  for (size_t k = 0; k < values.count; ++k) row[curves[k]] += weight * values[k];
 }
 
 void mix_pose_layer(Mixer& mixer, uint32_t index) {
@@ -205,7 +205,7 @@ void mix_pose_layer(Mixer& mixer, uint32_t index) {
     return blend(mixer, index, weight, whole.data, nullptr, fade_value(fades[last], now) * scale);
   }
   float* row = mixer.layer_row.data;
-  memset(row, 0, mix.lane_count * sizeof(float));
+  memset(row, 0, mix.curve_count * sizeof(float));
   for (uint32_t p = 0; p < layer.pose_count; ++p) {
     const float w = fade_value(fades[p], now) * scale;
     if (w > 0.0f) add_pose(mix, layer.first_pose + p, w, row);
@@ -217,23 +217,23 @@ float* guarded_row(const Mixer& mixer, GuardedRow which) {
   return mixer.guarded_rows.data + which * (mixer.guarded_rows.count / kGuardedRows);
 }
 
-/// Keeps what the row is now in the lanes of guards.
+/// Keeps what the row is now in the curves of guards.
 void gather_guarded(Mixer& mixer, GuardedRow which) {
-  const Span<uint16_t> lanes = mixer.mix->guard_table.lanes;
+  const Span<uint16_t> curves = mixer.mix->guard_table.curves;
   const float* const row = mixer.row.data;
   float* const kept = guarded_row(mixer, which);
   size_t i = 0;
-  for (; i + 4 <= lanes.count; i += 4) {
-    const uint16_t* const at = &lanes[i];
+  for (; i + 4 <= curves.count; i += 4) {
+    const uint16_t* const at = &curves[i];
     store_four(kept + i, row[at[0]], row[at[1]], row[at[2]], row[at[3]]);
   }
-  for (; i < lanes.count; ++i) kept[i] = row[lanes[i]];
+  for (; i < curves.count; ++i) kept[i] = row[curves[i]];
 }
 
 void keep_stage(Mixer& mixer, uint32_t stage) {
   if (!mixer.stages) return;
-  memcpy(mixer.stages + size_t{stage} * mixer.mix->lane_count, mixer.row.data,
-         mixer.mix->lane_count * sizeof(float));
+  memcpy(mixer.stages + size_t{stage} * mixer.mix->curve_count, mixer.row.data,
+         mixer.mix->curve_count * sizeof(float));
 }
 
 /// Layers from `begin` to `end` that come before the guards, or after them.
@@ -256,7 +256,7 @@ void mix_guards(Mixer& mixer, int64_t ticks) {
   const Mix& mix = *mixer.mix;
   if (mix.guards.empty()) return;
   const GuardTable& table = mix.guard_table;
-  const auto count = static_cast<uint32_t>(table.lanes.count);
+  const auto count = static_cast<uint32_t>(table.curves.count);
   gather_guarded(mixer, kFree);
   const float* const before = guarded_row(mixer, kProtected);
   const float* const free_row = guarded_row(mixer, kFree);
@@ -273,10 +273,10 @@ void mix_guards(Mixer& mixer, int64_t ticks) {
   const double seconds = static_cast<double>(ticks) / kTicksPerSecond;
   ease_guards(free_row, before, back, count, static_cast<float>(kGuardSpeed * seconds),
               mixer.held.data, row);
-  float* const all_lanes = mixer.row.data;
-  const uint16_t* const lanes = table.lanes.data;
+  float* const all_curves = mixer.row.data;
+  const uint16_t* const curves = table.curves.data;
   MIEN_UNROLL_FOUR
-  for (size_t i = 0; i < count; ++i) all_lanes[lanes[i]] = row[i];
+  for (size_t i = 0; i < count; ++i) all_curves[curves[i]] = row[i];
 }
 
 void net_antagonists(const Mix& mix, float* row) {
@@ -302,7 +302,7 @@ Status guard_state(const Mixer& mixer, uint32_t guard, GuardState& state, Error&
     guard_distances(mix.guard_table, guarded_row(mixer, row), all);
     return all[guard];
   };
-  state.lanes = {of.lanes, of.count};
+  state.curves = {of.curves, of.count};
   state.protected_distance = distance(kProtected);
   state.wanted = distance(kFree);
   state.distance = distance(kGuarded);
@@ -313,13 +313,13 @@ Status guard_state(const Mixer& mixer, uint32_t guard, GuardState& state, Error&
 
 void step_mixer(Mixer& mixer, int64_t ticks, float* out, size_t count, uint64_t* active) {
   const Mix& mix = *mixer.mix;
-  assert(ticks >= 0 && ticks <= kMaxStepTicks && count <= mix.lane_count);
+  assert(ticks >= 0 && ticks <= kMaxStepTicks && count <= mix.curve_count);
   const auto layer_count = static_cast<uint32_t>(mix.layers.count);
   mixer.header->now += ticks;
   advance_players(mixer, ticks);
 
   float* row = mixer.row.data;
-  memset(row, 0, mix.lane_count * sizeof(float));
+  memset(row, 0, mix.curve_count * sizeof(float));
   memcpy(row + mix.raw_count, mixer.variables.data, mix.variable_count * sizeof(float));
   if (mix.first_unprotected == 0) gather_guarded(mixer, kProtected);
   mix_layers(mixer, 0, mix.first_after_reactions, false, ticks);
@@ -332,11 +332,11 @@ void step_mixer(Mixer& mixer, int64_t ticks, float* out, size_t count, uint64_t*
   mix_reactions(mix, mixer.header->now, true, mixer.reactions, mixer.strokes, row);
   net_antagonists(mix, row);
   keep_stage(mixer, layer_count + kStageAntagonists);
-  mix.kernels->limit_row(mix.lower_row.data, mix.upper_row.data, mix.lane_count, row);
+  mix.kernels->limit_row(mix.lower_row.data, mix.upper_row.data, mix.curve_count, row);
   keep_stage(mixer, layer_count + kStageLimits);
 
   if (out) memcpy(out, row, count * sizeof(float));
-  if (active) mix.kernels->nonzero({row, active, mix.lane_count});
+  if (active) mix.kernels->nonzero({row, active, mix.curve_count});
 }
 
 void step_mixers(Span<Mixer* const> mixers, int64_t ticks, float* const* outs, size_t count,

@@ -88,7 +88,7 @@ void aim_level(const ReactionDesc& reaction, int64_t now, float target, Reaction
 
 void blend_pose(const Mix& mix, const Stroke& stroke, float weight, float* row) {
   const PoseDesc& pose = mix.poses[stroke.pose];
-  blend_lanes(stroke.mode, pose.lanes, pose.values.data, nullptr, weight, row);
+  blend_curves(stroke.mode, pose.curves, pose.values.data, nullptr, weight, row);
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Reactions: what a face does in response to a stimulus, as data.
 //
-// A reaction is a list of strokes. Each moves some lanes to a pose and back to 0:
+// A reaction is a list of strokes. Each moves some curves to a pose and back to 0:
 //
 //     trigger --delay--> attack (to strength * gain) --> hold --> release (to 0)
 //

@@ -155,7 +155,7 @@ Status check_state(const Mixer& mixer, const SavedState& saved, const ClipFinder
   for (uint32_t i = 0; i < mixer.generators.count; ++i) {
     const LayerDesc& layer = mixer.mix->layers[i];
     const bool blinks = layer.source == LayerSource::kGenerator &&
-                        layer.generator == Generator::kBlink && !layer.lanes.empty();
+                        layer.generator == Generator::kBlink && !layer.curves.empty();
     const int64_t next = saved.read(mixer.generators[i]).next;
     // A step goes through all blinks since then.
     if (next < 0 || !is_time(next) || (blinks && now - next > kMaxFadeTicks)) {

@@ -190,10 +190,10 @@ uint32_t find_antagonists(const Rig& rig, Span<AntagonistPair> out) {
   const ControlTable& table = rig.gui_to_raw;
   // [raw control] the first row that drives it, if all its rows are of one half of one GUI control.
   constexpr uint32_t kNoRow = ~uint32_t{0}, kMixed = kNoRow - 1;
-  uint32_t first_rows[kMaxLanes];
-  std::fill(first_rows, first_rows + kMaxLanes, kNoRow);
+  uint32_t first_rows[kMaxCurves];
+  std::fill(first_rows, first_rows + kMaxCurves, kNoRow);
   for (uint32_t r = 0; r < table.inputs.count; ++r) {
-    if (table.outputs[r] >= kMaxLanes) continue;
+    if (table.outputs[r] >= kMaxCurves) continue;
     uint32_t& first = first_rows[table.outputs[r]];
     if (first == kNoRow) {
       first = r;
@@ -203,9 +203,9 @@ uint32_t find_antagonists(const Rig& rig, Span<AntagonistPair> out) {
     }
   }
   // Those of lower halves, by their GUI controls.
-  uint16_t lower[kMaxLanes];
+  uint16_t lower[kMaxCurves];
   uint32_t lower_count = 0;
-  for (uint16_t c = 0; c < kMaxLanes; ++c) {
+  for (uint16_t c = 0; c < kMaxCurves; ++c) {
     if (first_rows[c] < kMixed && driven_half(table, first_rows[c]) == -1) lower[lower_count++] = c;
   }
   const auto gui_of = [&](uint16_t control) { return table.inputs[first_rows[control]]; };
@@ -215,7 +215,7 @@ uint32_t find_antagonists(const Rig& rig, Span<AntagonistPair> out) {
   uint32_t count = 0;
   for (uint32_t r = 0; r < table.inputs.count; ++r) {
     const uint16_t a = table.outputs[r];
-    if (a >= kMaxLanes || first_rows[a] != r || driven_half(table, r) != 1) continue;
+    if (a >= kMaxCurves || first_rows[a] != r || driven_half(table, r) != 1) continue;
     const uint16_t* b = std::lower_bound(lower, lower + lower_count, table.inputs[r],
                                          [&](uint16_t x, uint16_t gui) { return gui_of(x) < gui; });
     for (; b != lower + lower_count && gui_of(*b) == table.inputs[r]; ++b) {

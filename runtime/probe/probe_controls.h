@@ -9,7 +9,7 @@
 namespace mien {
 
 /// Finds pairs of raw controls that only the two halves of one GUI control drive. Writes as many as fit,
-/// with stiffness 1, and returns the total number. Leaves out raw controls from kMaxLanes on, which no mix
+/// with stiffness 1, and returns the total number. Leaves out raw controls from kMaxCurves on, which no mix
 /// has.
 uint32_t find_antagonists(const Rig& rig, Span<AntagonistPair> out);
 

@@ -47,7 +47,7 @@ double part_of(Vec3 d, uint32_t direction, double& aside) {
 /// The error in degrees between where the eye looks and where the table says, with two controls at a value.
 double miss(RigProbe& probe, const Eye& eye, const GazeEye& table, uint32_t horizontal,
             uint32_t vertical, uint32_t step, bool yaw_first) {
-  pose(probe, {table.lanes[horizontal], table.lanes[vertical]},
+  pose(probe, {table.curves[horizontal], table.curves[vertical]},
        static_cast<float>(step + 1) / kGazeSteps);
   double across, above;
   tangents_of(direction_of(probe, eye), yaw_first, across, above);
@@ -89,14 +89,14 @@ Status probe_gaze(const Deformer& deformer, const uint32_t (&eyes)[2], const All
         if (tangent < kLeastTangent || aside > kMaxAcross * tangent || tangent <= best[way])
           continue;
         best[way] = tangent;
-        table.lanes[way] = c;
+        table.curves[way] = c;
       }
     }
     for (uint32_t way = 0; way < 4; ++way) {
       static constexpr const char* kNames[] = {"left", "right", "up", "down"};
       float before = 0;
       for (uint32_t i = 0; i < kGazeSteps && best[way] > 0; ++i) {
-        pose(probe, {table.lanes[way]}, static_cast<float>(i + 1) / kGazeSteps);
+        pose(probe, {table.curves[way]}, static_cast<float>(i + 1) / kGazeSteps);
         double aside = 0;
         const float tangent = static_cast<float>(part_of(direction_of(probe, eye), way, aside));
         if (!(tangent > before)) best[way] = 0;

@@ -9,7 +9,7 @@
 namespace mien {
 namespace {
 
-constexpr float kLeastGain = 0.05f;       // millimeters: what is less is not worth a lane
+constexpr float kLeastGain = 0.05f;       // millimeters: what is less is not worth a curve
 constexpr float kGainStep = 1 / 1024.0f;  // millimeters
 constexpr float kProbeValue = 0.5f;       // of the controls that are tried
 constexpr double kLeastOfHalves = 0.5;    // of the gain of a control, that its counterpart has
@@ -63,21 +63,21 @@ struct Measured {
 };
 
 /// Puts controls whose counterparts in the other half of the face do about the same beside those.
-void join_halves(const Measured& measured, Span<const uint16_t> mirror, uint16_t* lanes,
+void join_halves(const Measured& measured, Span<const uint16_t> mirror, uint16_t* curves,
                  Guard& out) {
   for (uint32_t i = 0; i + 1 < out.count; ++i) {
-    uint16_t* const other = std::find(lanes + i + 1, lanes + out.count, mirror[lanes[i]]);
-    if (other == lanes + out.count) continue;
-    const double gain = measured.gains[lanes[i]], its = measured.gains[*other];
+    uint16_t* const other = std::find(curves + i + 1, curves + out.count, mirror[curves[i]]);
+    if (other == curves + out.count) continue;
+    const double gain = measured.gains[curves[i]], its = measured.gains[*other];
     if (gain * its < 0 || std::fabs(its) < kLeastOfHalves * std::fabs(gain)) continue;
-    std::rotate(lanes + i + 1, other, other + 1);
+    std::rotate(curves + i + 1, other, other + 1);
     out.together |= 1u << ++i;
   }
 }
 
-/// The lanes that matter most, alone or in a pair, by falling gain; then their pairs.
-void choose_lanes(const Measured& measured, Span<const PairOfControls> pairs,
-                  Span<const uint16_t> mirror, Span<uint16_t> order, Guard& out) {
+/// The curves that matter most, alone or in a pair, by falling gain; then their pairs.
+void choose_curves(const Measured& measured, Span<const PairOfControls> pairs,
+                   Span<const uint16_t> mirror, Span<uint16_t> order, Guard& out) {
   for (size_t c = 0; c < order.count; ++c) {
     order[c] = static_cast<uint16_t>(c);
     measured.scores[c] = std::fabs(measured.gains[c]);
@@ -94,23 +94,23 @@ void choose_lanes(const Measured& measured, Span<const PairOfControls> pairs,
     };
   };
   std::sort(order.begin(), order.end(), by(measured.scores));
-  while (out.count < kMaxGuardLanes && out.count < order.count &&
+  while (out.count < kMaxGuardCurves && out.count < order.count &&
          measured.scores[order[out.count]] >= kLeastGain) {
     ++out.count;
   }
   std::sort(order.begin(), order.begin() + out.count, by(measured.gains));
   join_halves(measured, mirror, order.data, out);
   for (uint32_t i = 0; i < out.count; ++i) {
-    out.lanes[i] = order[i];
+    out.curves[i] = order[i];
     out.gains[i] = rounded(measured.gains[order[i]]);
   }
   for (size_t p = 0; p < pairs.count; ++p) {
     const float gain = rounded(measured.pair_gains[p]);
-    const auto lane_of = [&out](uint16_t control) {
-      return static_cast<uint16_t>(std::find(out.lanes, out.lanes + out.count, control) -
-                                   out.lanes);
+    const auto curve_of = [&out](uint16_t control) {
+      return static_cast<uint16_t>(std::find(out.curves, out.curves + out.count, control) -
+                                   out.curves);
     };
-    const GuardPair pair = {lane_of(pairs[p].first), lane_of(pairs[p].second), gain};
+    const GuardPair pair = {curve_of(pairs[p].first), curve_of(pairs[p].second), gain};
     if (std::fabs(gain) < kLeastGain || pair.first == out.count || pair.second == out.count)
       continue;
     // The smallest one makes room.
@@ -241,7 +241,7 @@ Status probe_guards(const Deformer& deformer, Span<const GuardDesc> descs,
     out[g].kind = descs[g].kind;
     out[g].needs_speech = descs[g].needs_speech;
     out[g].rest = rounded(m.rest - m.contact);
-    choose_lanes(m, pairs, mirror, order, out[g]);
+    choose_curves(m, pairs, mirror, order, out[g]);
   }
 
   // Rows like those of faces: a few controls, in all strengths. The multiples of irrational numbers

@@ -118,7 +118,7 @@ void solve_aim(const SolverArgs& args) {
     const bool has_target = p.target_joint != kNoSolverJoint || pose.row;
     if (!has_target || !(p.weight > 0)) continue;
     const Vec3 target = p.target_joint != kNoSolverJoint ? origin_of(model(pose, p.target_joint))
-                                                         : vector(pose.row + p.target_lane);
+                                                         : vector(pose.row + p.target_curve);
     const float* now = model(pose, p.joint);
     Vec3 wanted = normalized(target - origin_of(now));
     if (is_zero(wanted)) continue;
@@ -160,7 +160,7 @@ void solve_space(const SolverArgs& args) {
   for (uint32_t i = 0; i < args.count; ++i) {
     const SolverPose& pose = args.poses[i];
     SpaceState& state = *static_cast<SpaceState*>(pose.state);
-    float value = pose.row ? pose.row[p.lane] : 0;
+    float value = pose.row ? pose.row[p.curve] : 0;
     value = value > 0 ? std::fmin(value + 0.5f, static_cast<float>(p.space_count) - 0.5f) : 0;
     const uint32_t chosen = static_cast<uint32_t>(value);
     // The parent, moved as the space is from the neutral pose.

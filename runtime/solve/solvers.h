@@ -15,8 +15,8 @@ constexpr uint32_t kMaxSolverJoints = 8;
 /// so that `up_axis` comes as near to `up` as possible. Beyond the cone it points at the cone's edge.
 struct AimSolver {
   uint16_t joint = 0;
-  uint16_t target_joint = kNoSolverJoint;  // else the target is at three lanes of the row
-  uint32_t target_lane = 0;
+  uint16_t target_joint = kNoSolverJoint;  // else the target is at three curves of the row
+  uint32_t target_curve = 0;
   float axis[3] = {0, 0, 1};     // of the joint, unit
   float up_axis[3] = {0, 0, 0};  // of the joint, unit; zero: no turn about the axis
   float up[3] = {0, 1, 0};       // in model space, unit
@@ -28,14 +28,14 @@ struct AimSolver {
 };
 SolverDesc describe(const Skeleton& skeleton, AimSolver& solver);
 
-/// Moves a joint as if its parent were attached to another joint. The lane's value, rounded, selects one of
+/// Moves a joint as if its parent were attached to another joint. The curve's value, rounded, selects one of
 /// the spaces. When it changes, the joint stays where it is, and the difference to the new space eases out
 /// by a quintic.
 struct SpaceSolver {
   uint16_t joint = 0;
   uint16_t spaces[kMaxSolverJoints] = {};  // kNoSolverJoint: model space
   uint32_t space_count = 0;
-  uint32_t lane = 0;
+  uint32_t curve = 0;
   int64_t ease_ticks = 0;
   uint16_t reads[kMaxSolverJoints + 1] = {};  // set by describe()
 };

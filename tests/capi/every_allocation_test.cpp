@@ -101,7 +101,7 @@ struct World {
     auto wanted = desc<MienSolverStackDesc>();
     wanted.solvers = &solver;
     wanted.solver_count = 1;
-    wanted.lane_count = 6;
+    wanted.curve_count = 6;
     wanted.check_writes = 1;
     return wanted;
   }
@@ -362,8 +362,8 @@ std::vector<Call> calls_of_mixes(const World& w) {
        }},
       {"mien_mix_mirror",
        [&w](MienError* error) {
-         std::vector<uint16_t> lanes(w.raw_count);
-         return mien_mix_mirror(w.deformer.object, lanes.data(), lanes.size(), error);
+         std::vector<uint16_t> curves(w.raw_count);
+         return mien_mix_mirror(w.deformer.object, curves.data(), curves.size(), error);
        }},
       {"mien_mix_mask",
        [&w](MienError* error) {

@@ -35,7 +35,7 @@ struct Scene {
   MienMixReaction reaction = {};
   MienMixAntagonists antagonists = {4, 5, 1.0f};
   std::vector<float> lower = std::vector<float>(7, 0.0f), upper = std::vector<float>(7, 1.0f);
-  const uint16_t pose_lanes[2] = {2, 6};
+  const uint16_t pose_curves[2] = {2, 6};
   const float pose_values[2] = {0.5f, 1.0f};
   const uint16_t lid[1] = {3};
   const float one[1] = {1};
@@ -64,23 +64,23 @@ struct Scene {
     EXPECT_EQ(mien_clip_binding_create(made, rig.get(), nullptr, &bound, nullptr), MIEN_OK);
     binding.reset(bound);
 
-    poses.push_back({pose_lanes, pose_values, 2});
+    poses.push_back({pose_curves, pose_values, 2});
     layers[0].group = MIEN_LAYER_GROUP_SPEECH;
     layers[1].group = MIEN_LAYER_GROUP_EMOTION;
     layers[1].mode = MIEN_BLEND_MODE_SCREEN;
     layers[1].source = MIEN_LAYER_SOURCE_POSES;
     layers[1].pose_count = 1;
     layers[2].source = MIEN_LAYER_SOURCE_STREAM;
-    layers[2].lanes = lid;
-    layers[2].lane_count = 1;
+    layers[2].curves = lid;
+    layers[2].curve_count = 1;
     layers[3].group = MIEN_LAYER_GROUP_LIFE;
     layers[3].mode = MIEN_BLEND_MODE_ADD;
     layers[3].source = MIEN_LAYER_SOURCE_GENERATOR;
     layers[3].generator = MIEN_GENERATOR_NOISE;
     layers[3].period = MIEN_TICKS_PER_SECOND;
-    layers[3].lanes = lid;
+    layers[3].curves = lid;
     layers[3].amounts = one;
-    layers[3].lane_count = 1;
+    layers[3].curve_count = 1;
     for (MienMixLayer& layer : layers) layer.weight = 1;
     stroke.attack = stroke.release = 6 * kStep;
     stroke.is_held = 1;
@@ -161,7 +161,7 @@ TEST(Mixer, WritesItsRowIntoTheControlsOfAnInstance) {
   MienMixInfo mix_info = sized<MienMixInfo>();
   ASSERT_EQ(mien_mix_info(mix.get(), &mix_info), MIEN_OK);
   EXPECT_EQ(mix_info.raw_control_count, 6u);
-  EXPECT_EQ(mix_info.lane_count, 7u);
+  EXPECT_EQ(mix_info.curve_count, 7u);
   EXPECT_EQ(mix_info.layer_count, 4u);
   EXPECT_EQ(mix_info.guard_count, 0u);
   MienFloatView first, last;
@@ -355,7 +355,7 @@ TEST(Mix, RefusesWhatIsWrong) {
   refused(null, [](Scene&, MienMixDesc& d) { d.antagonists = nullptr; });
   refused(null, [](Scene&, MienMixDesc& d) { d.lower = nullptr; });
   refused(null, [](Scene&, MienMixDesc& d) { d.guards = MIEN_GUARD_LIPS; });
-  refused(null, [](Scene& s, MienMixDesc&) { s.layers[2].lanes = nullptr; });
+  refused(null, [](Scene& s, MienMixDesc&) { s.layers[2].curves = nullptr; });
   refused(null, [](Scene& s, MienMixDesc&) { s.poses[0].values = nullptr; });
   refused(null, [](Scene& s, MienMixDesc&) { s.reaction.strokes = nullptr; });
   refused(invalid, [](Scene& s, MienMixDesc&) { s.layers[3].amounts = nullptr; });
@@ -377,7 +377,7 @@ TEST(Mix, RefusesWhatIsWrong) {
   refused(invalid, [](Scene& s, MienMixDesc&) { s.stroke.mode = 256; });
   refused(invalid, [](Scene& s, MienMixDesc&) {
     static const uint16_t twice[] = {2, 2};
-    s.poses[0].lanes = twice;
+    s.poses[0].curves = twice;
   });
   refused(invalid, [](Scene& s, MienMixDesc&) { s.antagonists.second = 7; });
   refused(invalid, [](Scene&, MienMixDesc& d) { d.variable_count = 5000; });

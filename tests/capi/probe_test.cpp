@@ -53,14 +53,15 @@ TEST(MixProbes, AntagonistsAreCountedAndWrittenAsFarAsThereIsRoom) {
 }
 
 TEST(MixProbes, MirrorKeepsVariables) {
-  std::vector<uint16_t> lanes(head().controls.size() + 2);
-  ASSERT_EQ(mien_mix_mirror(head().deformer.get(), lanes.data(), lanes.size(), nullptr), MIEN_OK);
-  EXPECT_EQ(lanes[head().control("mouthSmileLeft")], head().control("mouthSmileRight"));
-  EXPECT_EQ(lanes[head().control("jawOpen")], head().control("jawOpen"));
-  EXPECT_EQ(lanes[53], 53);
-  EXPECT_EQ(mien_mix_mirror(head().deformer.get(), lanes.data(), 51, nullptr), MIEN_ERROR_MISMATCH);
+  std::vector<uint16_t> curves(head().controls.size() + 2);
+  ASSERT_EQ(mien_mix_mirror(head().deformer.get(), curves.data(), curves.size(), nullptr), MIEN_OK);
+  EXPECT_EQ(curves[head().control("mouthSmileLeft")], head().control("mouthSmileRight"));
+  EXPECT_EQ(curves[head().control("jawOpen")], head().control("jawOpen"));
+  EXPECT_EQ(curves[53], 53);
+  EXPECT_EQ(mien_mix_mirror(head().deformer.get(), curves.data(), 51, nullptr),
+            MIEN_ERROR_MISMATCH);
   EXPECT_EQ(mien_mix_mirror(head().deformer.get(), nullptr, 52, nullptr), MIEN_ERROR_NULL_ARGUMENT);
-  EXPECT_EQ(mien_mix_mirror(nullptr, lanes.data(), 52, nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_mix_mirror(nullptr, curves.data(), 52, nullptr), MIEN_ERROR_NULL_ARGUMENT);
 }
 
 TEST(MixProbes, MasksOfAllGroupsAreOne) {
@@ -172,9 +173,9 @@ TEST(MixProbes, EveryFailedAllocationIsReportedAndNothingLeaks) {
     ASSERT_EQ(mien_deformer_create(dna.get(), rig.get(), &deformer_desc, &made_deformer, nullptr),
               MIEN_OK);
     const DeformerHandle deformer(made_deformer);
-    const size_t lane_count = names_of(rig, MIEN_KIND_RAW_CONTROL).size();
-    std::vector<uint16_t> lanes(lane_count);
-    std::vector<float> mask(lane_count);
+    const size_t curve_count = names_of(rig, MIEN_KIND_RAW_CONTROL).size();
+    std::vector<uint16_t> curves(curve_count);
+    std::vector<float> mask(curve_count);
     const uint32_t group = 0;
     MienMixDesc mix_desc = sized<MienMixDesc>();
     mix_desc.allocator = &allocator;
@@ -182,10 +183,10 @@ TEST(MixProbes, EveryFailedAllocationIsReportedAndNothingLeaks) {
     mix_desc.guards = MIEN_GUARD_ALL;
     const std::function<MienStatus(MienError*)> calls[] = {
         [&](MienError* error) {
-          return mien_mix_mirror(deformer.get(), lanes.data(), lane_count, error);
+          return mien_mix_mirror(deformer.get(), curves.data(), curve_count, error);
         },
         [&](MienError* error) {
-          return mien_mix_mask(rig.get(), &group, 1, 0, mask.data(), lane_count, error);
+          return mien_mix_mask(rig.get(), &group, 1, 0, mask.data(), curve_count, error);
         },
         [&](MienError* error) {
           MienMix* mix = nullptr;
@@ -261,9 +262,9 @@ struct TeethGuard {
 
 /// Nothing protected, and an emotion that opens the jaw.
 MixHandle guarded_mix(MienMixDesc desc, MienStatus expected = MIEN_OK) {
-  static const uint16_t lanes[1] = {head().control("jawOpen")};
+  static const uint16_t curves[1] = {head().control("jawOpen")};
   static const float open[1] = {0.5f};
-  const MienMixPose pose = {lanes, open, 1};
+  const MienMixPose pose = {curves, open, 1};
   MienMixLayer layer = {};
   layer.group = MIEN_LAYER_GROUP_EMOTION;
   layer.source = MIEN_LAYER_SOURCE_POSES;
@@ -300,11 +301,11 @@ TEST(MixGuards, OfTheCallerAreMeasuredLikeTheOthers) {
   ASSERT_EQ(guards.size(), 4u);
   EXPECT_EQ(guards[0].needs_speech, 1u);
   EXPECT_EQ(guards[3].needs_speech, 0u);
-  ASSERT_EQ(guards[0].lanes.count, guards[3].lanes.count);
-  ASSERT_GT(guards[0].lanes.count, 0u);
-  EXPECT_EQ(guards[0].lanes.data[0], head().control("jawOpen"));
-  for (size_t i = 0; i < guards[0].lanes.count; ++i) {
-    EXPECT_EQ(guards[0].lanes.data[i], guards[3].lanes.data[i]);
+  ASSERT_EQ(guards[0].curves.count, guards[3].curves.count);
+  ASSERT_GT(guards[0].curves.count, 0u);
+  EXPECT_EQ(guards[0].curves.data[0], head().control("jawOpen"));
+  for (size_t i = 0; i < guards[0].curves.count; ++i) {
+    EXPECT_EQ(guards[0].curves.data[i], guards[3].curves.data[i]);
     EXPECT_EQ(guards[0].gains.data[i], guards[3].gains.data[i]);
   }
   EXPECT_EQ(guards[0].fit_error, guards[3].fit_error);
@@ -336,7 +337,7 @@ TEST(MixGuards, OfTheCallerHoldWhatTheyMeasure) {
   EXPECT_NEAR(state.distance, state.limit, 1e-3);
   MienFloatView row = {};
   ASSERT_EQ(mien_mixer_row(made, &row), MIEN_OK);
-  EXPECT_LT(row.data[info.lanes.data[0]], 0.1f);
+  EXPECT_LT(row.data[info.curves.data[0]], 0.1f);
 }
 
 TEST(MixGuards, RefuseWrongLandmarks) {
@@ -380,17 +381,17 @@ TEST(GazeLayer, TurnsTheEyesToAPoseVariable) {
   MienGaze* gaze = nullptr;
   ASSERT_EQ(mien_gaze_create(head().deformer.get(), nullptr, &gaze, nullptr), MIEN_OK);
   const auto first = static_cast<uint16_t>(head().controls.size());
-  const uint16_t lanes[3] = {first, static_cast<uint16_t>(first + 1),
-                             static_cast<uint16_t>(first + 2)};
+  const uint16_t curves[3] = {first, static_cast<uint16_t>(first + 1),
+                              static_cast<uint16_t>(first + 2)};
   const float amounts[3] = {};
   MienMixLayer layer = {};
   layer.group = MIEN_LAYER_GROUP_LIFE;
   layer.source = MIEN_LAYER_SOURCE_GENERATOR;
   layer.generator = MIEN_GENERATOR_GAZE;
   layer.period = MIEN_TICKS_PER_SECOND;
-  layer.lanes = lanes;
+  layer.curves = curves;
   layer.amounts = amounts;
-  layer.lane_count = 3;
+  layer.curve_count = 3;
   layer.weight = 1;
   MienMixDesc desc = sized<MienMixDesc>();
   desc.layers = &layer;

@@ -68,7 +68,7 @@ struct Solvers {
   MienCopySolver copy = {};
   MienUserSolver custom = {};
   std::vector<MienSolver> list;
-  uint32_t lane_count = 6;
+  uint32_t curve_count = 6;
 
   uint16_t find_root() const {
     uint16_t joint = 0;
@@ -79,14 +79,14 @@ struct Solvers {
     seen.root = root[0];
     aim.joint = leaf;
     aim.target_joint = MIEN_NO_JOINT;
-    aim.target_lane = 2;
+    aim.target_curve = 2;
     aim.axis[2] = 3;
     aim.cone_degrees = 40;
     aim.weight = 1;
     space.joint = child;
     space.spaces = spaces;
     space.space_count = 2;
-    space.lane = 5;
+    space.curve = 5;
     space.ease_ticks = 10 * kStep;
     spring.joint = leaf;
     spring.frequency = 2;
@@ -118,7 +118,7 @@ struct Solvers {
     MienSolverStackDesc desc = sized<MienSolverStackDesc>();
     desc.solvers = list.data();
     desc.solver_count = list.size();
-    desc.lane_count = lane_count;
+    desc.curve_count = curve_count;
     desc.check_writes = check_writes;
     desc.allocator = allocator;
     MienSolverStack* made = nullptr;
@@ -166,7 +166,7 @@ TEST(SolverStack, EachKindIsTheSolverOfTheRuntime) {
     made.add().aim = &made.aim;
     AimSolver solver;
     solver.joint = made.leaf;
-    solver.target_lane = 2;
+    solver.target_curve = 2;
     solver.cone_cosine = std::cos(40 * 3.14159265f / 180);
     expect_same(made, solver);
   }
@@ -178,7 +178,7 @@ TEST(SolverStack, EachKindIsTheSolverOfTheRuntime) {
     solver.spaces[0] = kNoSolverJoint;
     solver.spaces[1] = made.middle;
     solver.space_count = 2;
-    solver.lane = 1;  // far above 1: the last space, as lane 5 says
+    solver.curve = 1;  // far above 1: the last space, as curve 5 says
     solver.ease_ticks = 10 * kStep;
     expect_same(made, solver);
   }
@@ -226,7 +226,7 @@ TEST(SolverStack, CallsTheSolversOfTheCaller) {
   ASSERT_EQ(mien_solver_stack_info(stack.get(), &info), MIEN_OK);
   EXPECT_EQ(info.solver_count, 2u);
   EXPECT_EQ(info.output_count, 2u);
-  EXPECT_EQ(info.lane_count, 6u);
+  EXPECT_EQ(info.curve_count, 6u);
   EXPECT_EQ(info.joint_count, 12u);
 
   made.rig.pose(1, 0);
@@ -379,8 +379,8 @@ TEST(SolverStack, RefusesWhatIsWrong) {
   };
   of_aim(index, [](Solvers&, MienAimSolver& a) { a.joint = 12; });
   of_aim(index, [](Solvers&, MienAimSolver& a) { a.target_joint = 12; });
-  of_aim(index, [](Solvers&, MienAimSolver& a) { a.target_lane = 4; });
-  of_aim(index, [](Solvers& m, MienAimSolver&) { m.lane_count = 0; });
+  of_aim(index, [](Solvers&, MienAimSolver& a) { a.target_curve = 4; });
+  of_aim(index, [](Solvers& m, MienAimSolver&) { m.curve_count = 0; });
   of_aim(invalid, [](Solvers&, MienAimSolver& a) { a.axis[2] = 0; });
   of_aim(invalid, [](Solvers&, MienAimSolver& a) { a.up[1] = NAN; });
   of_aim(invalid, [](Solvers&, MienAimSolver& a) { a.cone_degrees = 181; });
@@ -392,7 +392,7 @@ TEST(SolverStack, RefusesWhatIsWrong) {
     });
   };
   of_space(index, [](MienSpaceSolver& s) { s.joint = MIEN_NO_JOINT; });
-  of_space(index, [](MienSpaceSolver& s) { s.lane = 6; });
+  of_space(index, [](MienSpaceSolver& s) { s.curve = 6; });
   of_space(invalid, [](MienSpaceSolver& s) { s.spaces = nullptr; });
   of_space(invalid, [](MienSpaceSolver& s) { s.space_count = 9; });
   of_space(invalid, [](MienSpaceSolver& s) { s.ease_ticks = -1; });
@@ -509,7 +509,7 @@ TEST(SolverStack, EveryFailedAllocationIsReportedAndNothingLeaks) {
     MienSolverStackDesc desc = sized<MienSolverStackDesc>();
     desc.solvers = made.list.data();
     desc.solver_count = made.list.size();
-    desc.lane_count = 6;
+    desc.curve_count = 6;
     desc.allocator = &allocator;
     MienSolverStack* stack = nullptr;
     const MienStatus created =

@@ -326,7 +326,7 @@ TEST(CapiThreads, MixersOfOneMixDoNotDisturbEachOther) {
     for (int step = 0; step < kSteps; ++step) {
       actor.disturb(random);
       hashes[static_cast<size_t>(t)] = hash_floats(hashes[static_cast<size_t>(t)],
-                                                   actor.step(kSceneStep), scene.mix->lane_count);
+                                                   actor.step(kSceneStep), scene.mix->curve_count);
     }
   };
   for (int t = 0; t < kThreads; ++t) play(t, expected);

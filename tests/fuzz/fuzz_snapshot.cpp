@@ -39,7 +39,7 @@ void use(SceneActor& actor, uint64_t seed) {
   for (int step = 0; step < 8; ++step) {
     actor.disturb(random);
     const float* row = actor.step(step == 0 ? 0 : kSceneStep);
-    for (uint32_t l = 0; l < actor.scene.mix->lane_count; ++l) {
+    for (uint32_t l = 0; l < actor.scene.mix->curve_count; ++l) {
       if (!std::isfinite(row[l])) abort();
     }
   }

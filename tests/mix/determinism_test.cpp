@@ -22,7 +22,7 @@ uint64_t minute_of(const MixScene& scene, uint64_t seed) {
   uint64_t hash = kHashStart;
   for (int step = 0; step < 3600; ++step) {
     actor.disturb(random);
-    hash = hash_floats(hash, actor.step(kSceneStep), scene.mix->lane_count);
+    hash = hash_floats(hash, actor.step(kSceneStep), scene.mix->curve_count);
   }
   return hash;
 }
@@ -52,7 +52,7 @@ TEST(Determinism, OfAnyNumberOfThreads) {  // F1
           actor.begin();
           for (uint32_t step = 0; step < kSteps; ++step) {
             actor.disturb(random);
-            hashes[a] = hash_floats(hashes[a], actor.step(kSceneStep), scene.mix->lane_count);
+            hashes[a] = hash_floats(hashes[a], actor.step(kSceneStep), scene.mix->curve_count);
           }
         }
       });
@@ -70,7 +70,7 @@ TEST(Determinism, OfABatchOf64AndOfEachAlone) {  // F1
   std::deque<SceneActor> together, alone;
   std::vector<Random> randoms;
   std::vector<Mixer*> mixers;
-  std::vector<std::vector<float>> rows(kActors, std::vector<float>(scene.mix->lane_count));
+  std::vector<std::vector<float>> rows(kActors, std::vector<float>(scene.mix->curve_count));
   std::vector<float*> outs;
   for (uint32_t a = 0; a < kActors; ++a) {
     for (std::deque<SceneActor>* actors : {&together, &alone}) {
@@ -87,7 +87,7 @@ TEST(Determinism, OfABatchOf64AndOfEachAlone) {  // F1
       together[a].disturb(copy);
       alone[a].disturb(randoms[a]);
     }
-    step_mixers({mixers.data(), kActors}, kSceneStep, outs.data(), scene.mix->lane_count, nullptr,
+    step_mixers({mixers.data(), kActors}, kSceneStep, outs.data(), scene.mix->curve_count, nullptr,
                 0);
     for (uint32_t a = 0; a < kActors; ++a) {
       const float* row = alone[a].step(kSceneStep);
@@ -96,14 +96,14 @@ TEST(Determinism, OfABatchOf64AndOfEachAlone) {  // F1
   }
 }
 
-TEST(Determinism, DifferentSeedsChangeTheLanesOfLifeOnly) {  // F4
+TEST(Determinism, DifferentSeedsChangeTheCurvesOfLifeOnly) {  // F4
   const MixScene scene(kRaws);
   SceneActor one(scene, 1), two(scene, 2);
-  // Lanes that generators have, and what guards and antagonists couple with them.
-  std::vector<bool> life(scene.mix->lane_count);
+  // Curves that generators have, and what guards and antagonists couple with them.
+  std::vector<bool> life(scene.mix->curve_count);
   for (const LayerDesc& layer : scene.mix->layers) {
     if (layer.source != LayerSource::kGenerator) continue;
-    for (uint16_t lane : layer.lanes) life[lane] = true;
+    for (uint16_t curve : layer.curves) life[curve] = true;
   }
   for (const AntagonistPair& pair : scene.mix->antagonists) {
     if (life[pair.a] || life[pair.b]) life[pair.a] = life[pair.b] = true;
@@ -122,7 +122,7 @@ TEST(Determinism, DifferentSeedsChangeTheLanesOfLifeOnly) {  // F4
     one.push(copy);
     two.push(random);
     const float *a = one.step(kSceneStep), *b = two.step(kSceneStep);
-    for (uint32_t l = 0; l < scene.mix->lane_count; ++l) {
+    for (uint32_t l = 0; l < scene.mix->curve_count; ++l) {
       if (life[l]) {
         differ += a[l] != b[l];
       } else {

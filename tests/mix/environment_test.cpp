@@ -18,7 +18,7 @@ TEST(HostEnvironment, LeavesMixingNearAndWithinItsLimits) {
     if (!kernels) continue;
     SCOPED_TRACE(kernels->name);
     const MixScene scene(24, kernels);
-    const uint32_t lanes = scene.mix->used_lanes();
+    const uint32_t curves = scene.mix->used_curves();
     for (const Environment& host : kHosts) {
       SceneActor usual(scene, 5), other(scene, 5);
       usual.begin();
@@ -33,10 +33,10 @@ TEST(HostEnvironment, LeavesMixingNearAndWithinItsLimits) {
           const Host turned(host);
           return other.step(kSceneStep);
         }();
-        for (uint32_t l = 0; l < lanes; ++l) {
-          ASSERT_TRUE(std::isfinite(found[l])) << told(host) << ", lane " << l;
-          ASSERT_GE(found[l], scene.mix->lower[l]) << told(host) << ", lane " << l;
-          ASSERT_LE(found[l], scene.mix->upper[l]) << told(host) << ", lane " << l;
+        for (uint32_t l = 0; l < curves; ++l) {
+          ASSERT_TRUE(std::isfinite(found[l])) << told(host) << ", curve " << l;
+          ASSERT_GE(found[l], scene.mix->lower[l]) << told(host) << ", curve " << l;
+          ASSERT_LE(found[l], scene.mix->upper[l]) << told(host) << ", curve " << l;
           largest = std::max(largest, std::fabs(double{found[l]} - double{expected[l]}));
           moved = std::max(moved, std::fabs(double{expected[l]}));
         }

@@ -20,7 +20,7 @@ GazeTable table() {
   for (uint16_t e = 0; e < 2; ++e) {
     made.eyes[e].center[0] = e == 0 ? 30.0f : -30.0f;
     for (uint16_t d = 0; d < 4; ++d) {
-      made.eyes[e].lanes[d] = static_cast<uint16_t>(e * 4 + d);
+      made.eyes[e].curves[d] = static_cast<uint16_t>(e * 4 + d);
       for (uint32_t i = 0; i < kGazeSteps; ++i) {
         made.eyes[e].tangents[d][i] = static_cast<float>(i + 1) / kGazeSteps;
       }
@@ -39,13 +39,13 @@ struct Gazing {
     static const float ones[2] = {1, 1};
     LayerDesc& layer = input.add(BlendMode::kOverride, LayerSource::kGenerator, LayerGroup::kLife);
     layer.generator = Generator::kGaze;
-    layer.lanes = {kTarget, 5};
+    layer.curves = {kTarget, 5};
     layer.amounts = {amounts, 5};
     layer.period = kTicksPerSecond / 4;
     if (blinks) {
       LayerDesc& blink = input.add(BlendMode::kMax, LayerSource::kGenerator, LayerGroup::kLife);
       blink.generator = Generator::kBlink;
-      blink.lanes = {lids, 2};
+      blink.curves = {lids, 2};
       blink.amounts = {ones, 2};
       blink.period = 1000 * kTicksPerSecond;
     }
@@ -226,7 +226,7 @@ TEST(Gazes, AreRefusedIfTheyAreWrong) {
     GazeTable gaze = table();
     LayerDesc& layer = input.add(BlendMode::kOverride, LayerSource::kGenerator, LayerGroup::kLife);
     layer.generator = Generator::kGaze;
-    layer.lanes = {kTarget, 5};
+    layer.curves = {kTarget, 5};
     layer.amounts = {kAmounts, 5};
     layer.period = 1;
     input.desc.gaze = &gaze;
@@ -241,13 +241,13 @@ TEST(Gazes, AreRefusedIfTheyAreWrong) {
   EXPECT_EQ(created([](MixInput& i, GazeTable&) { i.desc.gaze = nullptr; }),
             Status::kInvalidArgument);
   EXPECT_EQ(created([](MixInput& i, GazeTable&) {
-              i.layers[0].lanes = {kTarget, 4};
+              i.layers[0].curves = {kTarget, 4};
               i.layers[0].amounts = {kAmounts, 4};
             }),
             Status::kInvalidArgument);
   EXPECT_EQ(created([](MixInput& i, GazeTable&) { i.layers.push_back(i.layers[0]); }),
             Status::kInvalidArgument);
-  EXPECT_EQ(created([](MixInput&, GazeTable& g) { g.eyes[1].lanes[2] = kControls; }),
+  EXPECT_EQ(created([](MixInput&, GazeTable& g) { g.eyes[1].curves[2] = kControls; }),
             Status::kInvalidArgument);
 }
 

@@ -17,16 +17,16 @@ namespace {
 
 constexpr float kAtOnce = std::numeric_limits<float>::infinity();
 
-/// Lanes 2, 0, 1 of a row of four open by 20, 5 and 1 mm; lane 3 closes by 4 mm; the jaw does nothing
-/// while lane 1 is 1.
+/// Curves 2, 0, 1 of a row of four open by 20, 5 and 1 mm; curve 3 closes by 4 mm; the jaw does nothing
+/// while curve 1 is 1.
 Guard some_guard() {
   Guard guard = {};
   guard.f_on = 10;
   guard.tolerance = 0.5f;
   guard.count = 4;
-  const uint16_t lanes[] = {2, 0, 3, 1};
+  const uint16_t curves[] = {2, 0, 3, 1};
   const float gains[] = {20, 5, -4, 1};
-  std::copy(lanes, lanes + 4, guard.lanes);
+  std::copy(curves, curves + 4, guard.curves);
   std::copy(gains, gains + 4, guard.gains);
   guard.pair_count = 1;
   guard.pairs[0] = {0, 3, -20};
@@ -50,7 +50,7 @@ void hold(const Guard& guard, const Row& protected_row, float activation, Row& r
   hold(std::vector<Guard>{guard}, protected_row, activation, row);
 }
 
-TEST(Guard, DistanceIsASumOfLanesAndOfProductsOfPairs) {
+TEST(Guard, DistanceIsASumOfCurvesAndOfProductsOfPairs) {
   Guard guard = some_guard();
   guard.rest = 0.25f;
   const Row row = {0.5f, 0.5f, 0.25f, 1};
@@ -63,7 +63,7 @@ TEST(Guard, DistanceIsASumOfLanesAndOfProductsOfPairs) {
 TEST(Guard, ActivationFallsFromContactToTheRangesEnd) {
   const Guard guard = some_guard();
   float before = 2;
-  for (float open : {-0.5f, 0.0f, 0.1f, 0.25f, 0.4f, 0.5f}) {  // lane 2: 20 mm
+  for (float open : {-0.5f, 0.0f, 0.1f, 0.25f, 0.4f, 0.5f}) {  // curve 2: 20 mm
     const Row row = {0, 0, open, 0};
     const float activation = guard_activation(guard, guard_distance(guard, row.data()));
     if (open <= 0) {
@@ -105,7 +105,7 @@ TEST(Guard, TakesTheLargestGainsFirstAndNoMoreThanIsNeeded) {
   EXPECT_FLOAT_EQ(row[0], 0.1f);
   Row less = {0.05f, 0, 0.5f, 0};
   hold(guard, closed, 1, less);
-  EXPECT_EQ(less[0], 0.05f) << "stays, because lane 2 can make the room";
+  EXPECT_EQ(less[0], 0.05f) << "stays, because curve 2 can make the room";
   EXPECT_NEAR(guard_distance(guard, less.data()), 0.5, 1e-5);
 }
 
@@ -114,12 +114,12 @@ TEST(Guard, KeepsWhatHelpsAndWhatAPairHasMadeHarmless) {
   const Row sealed = {0, 1, 0, 0};
   Row row = {1, 1, 0.7f, 0.5f};
   hold(guard, sealed, 1, row);
-  EXPECT_EQ(row[2], 0.7f) << "the jaw opens nothing while lane 1 seals";
+  EXPECT_EQ(row[2], 0.7f) << "the jaw opens nothing while curve 1 seals";
   EXPECT_EQ(row[3], 0.5f);
   EXPECT_LT(row[0], 1);
 }
 
-TEST(Guard, MovesLanesBackThatWereLowered) {
+TEST(Guard, MovesCurvesBackThatWereLowered) {
   const Guard guard = some_guard();
   const Row closed = {0.3f, 0, 0, 0.5f};
   Row row = {0.3f, 0, 0, 0};  // what closed is gone: 1.5 mm, of which 0.5 mm are tolerated
@@ -148,7 +148,7 @@ TEST(Guard, TakesTheShareThatActivationSays) {
 }
 
 /// Of the left, the middle and the right of a mouth with four controls per half and one in the middle;
-/// lane 8 - l is lane l on the other side. Halves are even only by about a tenth, as those of faces.
+/// curve 8 - l is curve l on the other side. Halves are even only by about a tenth, as those of faces.
 std::vector<Guard> mouth_guards(float uneven) {
   std::vector<Guard> guards(3);
   const float left[] = {6, 4, 2.5f, -1}, across[] = {0.2f, 0.1f, -0.3f, 0};
@@ -169,7 +169,7 @@ std::vector<Guard> mouth_guards(float uneven) {
     guard.tolerance = 0.3f;
     guard.count = 9;
     for (uint32_t i = 0; i < 9; ++i) {
-      guard.lanes[i] = order[i];
+      guard.curves[i] = order[i];
       guard.gains[i] = gains[order[i]];
       const bool mirrored = i > 0 && order[i] == 8 - order[i - 1];
       if (mirrored && g == 1) guard.together |= 1u << i;
@@ -226,13 +226,13 @@ TEST(Guard, HalvesOfAnUnevenFaceGoBackByAboutTheSame) {
   }
 }
 
-TEST(Guard, CountsPairsAmongLanesThatGoTogetherInFull) {
+TEST(Guard, CountsPairsAmongCurvesThatGoTogetherInFull) {
   for (float gain : {6.0f, -6.0f}) {
     Guard guard = {};
     guard.f_on = 10;
     guard.count = 2;
     for (uint16_t i = 0; i < 2; ++i) {
-      guard.lanes[i] = i;
+      guard.curves[i] = i;
       guard.gains[i] = 10;
     }
     guard.pair_count = 1;
@@ -344,9 +344,9 @@ TEST(GuardOfAMixer, TellsWhatItDid) {
   GuardState state = {};
   Error error;
   ASSERT_EQ(guard_state(own.mixer, 0, state, error), Status::kOk);
-  ASSERT_EQ(state.lanes.count, made.guard.count);
-  for (uint32_t i = 0; i < made.guard.count; ++i) EXPECT_EQ(state.lanes[i], made.guard.lanes[i]);
-  // Lanes 0 and 2 as the emotion screens them over speech, which leaves both at 0.
+  ASSERT_EQ(state.curves.count, made.guard.count);
+  for (uint32_t i = 0; i < made.guard.count; ++i) EXPECT_EQ(state.curves[i], made.guard.curves[i]);
+  // Curves 0 and 2 as the emotion screens them over speech, which leaves both at 0.
   Row wanted = row;
   wanted[0] = 0.25f;
   wanted[2] = 0.6f;

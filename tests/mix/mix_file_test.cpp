@@ -87,7 +87,7 @@ struct GazeMix {
 
   GazeMix() {
     for (uint32_t i = 0; i < 8; ++i) {
-      gaze.eyes[i / 4].lanes[i % 4] = static_cast<uint16_t>(i);
+      gaze.eyes[i / 4].curves[i % 4] = static_cast<uint16_t>(i);
       for (uint32_t s = 0; s < kGazeSteps; ++s) {
         gaze.eyes[i / 4].tangents[i % 4][s] = 0.1f * static_cast<float>(s + 1);
       }
@@ -97,7 +97,7 @@ struct GazeMix {
     LayerDesc& layer = input.add(BlendMode::kOverride, LayerSource::kGenerator, LayerGroup::kLife);
     layer.generator = Generator::kGaze;
     layer.period = kTicksPerSecond;
-    layer.lanes = {place, 5};
+    layer.curves = {place, 5};
     layer.amounts = {amounts, 5};
     input.desc.gaze = &gaze;
     input.desc.names = named.list();
@@ -135,7 +135,7 @@ TEST(MixFile, MixesLikeTheOriginal) {
   for (int i = 0; i < 600; ++i) {
     one.disturb(mine);
     two.disturb(its);
-    const size_t bytes = scene.mix->lane_count * sizeof(float);
+    const size_t bytes = scene.mix->curve_count * sizeof(float);
     ASSERT_EQ(memcmp(one.step(kSceneStep), two.step(kSceneStep), bytes), 0) << i;
   }
 }
@@ -231,8 +231,8 @@ TEST(MixFile, EveryFieldIsInTheBytesAndInTheText) {
   const auto both = [](auto&& change) {
     GazeMix scene;
     const float mask[] = {1, 0.5f};
-    const uint16_t lanes[] = {4, 5};
-    scene.input.add(BlendMode::kMax, LayerSource::kStream).lanes = {lanes, 2};
+    const uint16_t curves[] = {4, 5};
+    scene.input.add(BlendMode::kMax, LayerSource::kStream).curves = {curves, 2};
     scene.input.layers.back().mask = {mask, 2};
     scene.input.add(BlendMode::kAdd, LayerSource::kPoses).pose_count = 2;
     scene.input.add_pose({1, 2}, {0.5f, 0.25f});
@@ -293,7 +293,7 @@ TEST(MixFile, EveryFieldIsInTheBytesAndInTheText) {
         m.gaze.eyes[1].tangents[3][7] = 2;
       },
       [](GazeMix& m, Stroke&, ReactionDesc&, Guard&, AntagonistPair&) {
-        m.gaze.eyes[1].lanes[3] = 11;
+        m.gaze.eyes[1].curves[3] = 11;
       },
       [](GazeMix& m, Stroke&, ReactionDesc&, Guard&, AntagonistPair&) {
         static const uint16_t mirror[] = {1, 0, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14};
@@ -328,7 +328,7 @@ TEST(MixFile, EveryFieldIsInTheBytesAndInTheText) {
       [](GazeMix&, Stroke&, ReactionDesc&, Guard& g, AntagonistPair&) { g.tolerance = 9; },
       [](GazeMix&, Stroke&, ReactionDesc&, Guard& g, AntagonistPair&) { g.fit_error = 9; },
       [](GazeMix&, Stroke&, ReactionDesc&, Guard& g, AntagonistPair&) { g.gains[1] = 9; },
-      [](GazeMix&, Stroke&, ReactionDesc&, Guard& g, AntagonistPair&) { g.lanes[1] = 9; },
+      [](GazeMix&, Stroke&, ReactionDesc&, Guard& g, AntagonistPair&) { g.curves[1] = 9; },
       [](GazeMix&, Stroke&, ReactionDesc&, Guard& g, AntagonistPair&) { g.together = 4; },
       [](GazeMix&, Stroke&, ReactionDesc&, Guard& g, AntagonistPair&) { g.pairs[1].gain = 9; },
       [](GazeMix&, Stroke&, ReactionDesc&, Guard& g, AntagonistPair&) { g.pair_count = 2; },

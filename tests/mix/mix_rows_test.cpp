@@ -12,11 +12,11 @@
 namespace mien {
 namespace {
 
-constexpr size_t kLanes = 48;
+constexpr size_t kCurves = 48;
 
 /// With the zeros, ones and equal values at which formulas have ends.
 struct alignas(64) SomeRow {
-  float of[kLanes];
+  float of[kCurves];
   SomeRow(Random& random, float low, float high) {
     for (float& v : of) {
       const uint32_t end = random.below(6);
@@ -28,10 +28,10 @@ struct alignas(64) SomeRow {
   }
 };
 
-TEST(BlendLanes, HasTheBitsOfWholeRows) {
+TEST(BlendCurves, HasTheBitsOfWholeRows) {
   Random random = Random::from_seed(8, 0);
-  std::vector<uint16_t> lanes(kLanes);
-  std::iota(lanes.begin(), lanes.end(), uint16_t{0});
+  std::vector<uint16_t> curves(kCurves);
+  std::iota(curves.begin(), curves.end(), uint16_t{0});
   const KernelTable& kernels = *kernels_for(Isa::kBest);
   for (uint32_t mode = 0; mode < kBlendModes; ++mode) {
     for (int round = 0; round < 200; ++round) {
@@ -39,22 +39,22 @@ TEST(BlendLanes, HasTheBitsOfWholeRows) {
       const float weight = round % 3 == 0 ? 1.0f : static_cast<float>(random.real());
       SomeRow whole = before, listed = before;
       kernels.blend_row(
-          {x.of, nullptr, mask.of, whole.of, kLanes, weight, static_cast<BlendMode>(mode)});
-      blend_lanes(static_cast<BlendMode>(mode), {lanes.data(), kLanes}, x.of, mask.of, weight,
-                  listed.of);
+          {x.of, nullptr, mask.of, whole.of, kCurves, weight, static_cast<BlendMode>(mode)});
+      blend_curves(static_cast<BlendMode>(mode), {curves.data(), kCurves}, x.of, mask.of, weight,
+                   listed.of);
       EXPECT_EQ(memcmp(whole.of, listed.of, sizeof(whole.of)), 0) << "mode " << mode;
     }
   }
 }
 
-TEST(BlendLanes, LeavesOtherLanesAloneAndNeedsNoMask) {
+TEST(BlendCurves, LeavesOtherCurvesAloneAndNeedsNoMask) {
   float row[4] = {0.25f, 0.5f, 0.75f, 1};
-  const uint16_t lanes[] = {3, 1};
+  const uint16_t curves[] = {3, 1};
   const float values[] = {0, 1};
-  blend_lanes(BlendMode::kOverride, {lanes, 2}, values, nullptr, 0.5f, row);
+  blend_curves(BlendMode::kOverride, {curves, 2}, values, nullptr, 0.5f, row);
   const float expected[4] = {0.25f, 0.75f, 0.75f, 0.5f};
   EXPECT_EQ(memcmp(row, expected, sizeof(row)), 0);
-  blend_lanes(BlendMode::kOverride, {lanes, 2}, values, nullptr, 0, row);
+  blend_curves(BlendMode::kOverride, {curves, 2}, values, nullptr, 0, row);
   EXPECT_EQ(memcmp(row, expected, sizeof(row)), 0);
 }
 

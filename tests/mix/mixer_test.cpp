@@ -14,14 +14,14 @@
 namespace mien {
 namespace {
 
-constexpr uint32_t kLanes = 37;  // not a multiple of anything
+constexpr uint32_t kCurves = 37;  // not a multiple of anything
 constexpr int64_t kStep = kTicksPerSecond / 60;
 constexpr BlendMode kModes[] = {BlendMode::kOverride, BlendMode::kAdd, BlendMode::kScreen,
                                 BlendMode::kMax, BlendMode::kScale};
 
 ClipInput random_input(uint64_t seed, uint32_t frames = 100, float low = -1, float high = 2) {
   Random random = Random::from_seed(seed, 1);
-  Curves curves(kLanes, frames);
+  Curves curves(kCurves, frames);
   for (float& value : curves.values) {
     value = random.chance(0.1) ? (random.chance(0.5) ? 0.0f : -0.0f)
                                : static_cast<float>(random.between(low, high));
@@ -31,7 +31,7 @@ ClipInput random_input(uint64_t seed, uint32_t frames = 100, float low = -1, flo
 
 /// A base layer that overrides, and one of each mode.
 MixInput two_layers(BlendMode mode, Row mask = {}) {
-  MixInput input(kLanes);
+  MixInput input(kCurves);
   input.add(BlendMode::kOverride);
   input.add(mode, LayerSource::kClip, LayerGroup::kEmotion);
   if (!mask.empty()) input.layers[1].mask = input.keep(std::move(mask));
@@ -41,10 +41,10 @@ MixInput two_layers(BlendMode mode, Row mask = {}) {
 // Modes ----------------------------------------------------------------------------------------------
 
 TEST(Layers, WithoutWeightKeepEveryBitInEveryMode) {  // B1
-  const BoundClip base(random_input(1), kLanes), other(random_input(2), kLanes);
+  const BoundClip base(random_input(1), kCurves), other(random_input(2), kCurves);
   for (BlendMode mode : kModes) {
-    MixInput unmasked = two_layers(mode), masked = two_layers(mode, Row(kLanes, 0.0f));
-    MixInput single(kLanes);
+    MixInput unmasked = two_layers(mode), masked = two_layers(mode, Row(kCurves, 0.0f));
+    MixInput single(kCurves);
     single.add(BlendMode::kOverride);
     const MixHandle mixes[] = {make_mix(single), make_mix(unmasked), make_mix(masked)};
     OwnMixer expected(mixes[0]), weightless(mixes[1]), maskless(mixes[2]);
@@ -70,8 +70,8 @@ TEST(Layers, AnEmptyMixGivesZerosAndVariables) {  // B1
 }
 
 TEST(Layers, OverrideWithFullWeightGivesTheBitsOfTheSource) {  // B2
-  const BoundClip below(random_input(3), kLanes), source(random_input(4), kLanes);
-  MixInput input = two_layers(BlendMode::kOverride, Row(kLanes, 1.0f));
+  const BoundClip below(random_input(3), kCurves), source(random_input(4), kCurves);
+  MixInput input = two_layers(BlendMode::kOverride, Row(kCurves, 1.0f));
   const MixHandle mix = make_mix(input);
   OwnMixer own(mix);
   own.play(0, below);
@@ -90,8 +90,8 @@ TEST(Layers, DeltaOnItsReferenceGivesTheOriginal) {  // B3
   for (size_t i = 0; i < delta.curves.values.size(); ++i) {
     delta.curves.values[i] = original.curves.values[i] - reference.curves.values[i];
   }
-  const BoundClip base(reference, kLanes), plus(delta, kLanes);
-  MixInput input(kLanes);
+  const BoundClip base(reference, kCurves), plus(delta, kCurves);
+  MixInput input(kCurves);
   input.add(BlendMode::kOverride);
   input.add(BlendMode::kAdd);
   input.add(BlendMode::kAdd);
@@ -105,7 +105,7 @@ TEST(Layers, DeltaOnItsReferenceGivesTheOriginal) {  // B3
   taken_off.weight(2, -1.0f);
   for (uint32_t f = 1; f < 100; ++f) {
     const Row with = added.step(kStep), without = taken_off.step(kStep);
-    for (uint32_t l = 0; l < kLanes; ++l) {
+    for (uint32_t l = 0; l < kCurves; ++l) {
       ASSERT_NEAR(with[l], original.curves.at(f, l), 1.2e-7);
       ASSERT_NEAR(without[l], reference.curves.at(f, l), 2.4e-7);
     }
@@ -113,9 +113,9 @@ TEST(Layers, DeltaOnItsReferenceGivesTheOriginal) {  // B3
 }
 
 TEST(Layers, ScreenStaysWithinLimitsAndCommutes) {  // B4
-  const BoundClip base(random_input(7, 100, 0, 1), kLanes);
-  const BoundClip a(random_input(8, 100, 0, 1), kLanes), b(random_input(9, 100, 0, 1), kLanes);
-  MixInput input(kLanes);
+  const BoundClip base(random_input(7, 100, 0, 1), kCurves);
+  const BoundClip a(random_input(8, 100, 0, 1), kCurves), b(random_input(9, 100, 0, 1), kCurves);
+  MixInput input(kCurves);
   input.add(BlendMode::kOverride);
   input.add(BlendMode::kScreen).weight = 0.7f;
   input.add(BlendMode::kScreen).weight = 0.7f;
@@ -129,7 +129,7 @@ TEST(Layers, ScreenStaysWithinLimitsAndCommutes) {  // B4
   second.play(2, a);
   for (int i = 0; i < 100; ++i) {
     const Row x = first.step(kStep), y = second.step(kStep);
-    for (uint32_t l = 0; l < kLanes; ++l) {
+    for (uint32_t l = 0; l < kCurves; ++l) {
       ASSERT_GE(x[l], 0.0f);
       ASSERT_LE(x[l], 1.0f);
       ASSERT_NEAR(x[l], y[l], 1.2e-7);
@@ -138,13 +138,13 @@ TEST(Layers, ScreenStaysWithinLimitsAndCommutes) {  // B4
 }
 
 TEST(Layers, SumsOfDisjointMasksDoNotDependOnTheirOrder) {  // B4
-  const BoundClip base(random_input(10), kLanes), a(random_input(11), kLanes),
-      b(random_input(12), kLanes);
-  Row left(kLanes), right(kLanes);
-  for (uint32_t l = 0; l < kLanes; ++l) (l % 3 == 0 ? left : right)[l] = 0.5f + l / 100.0f;
+  const BoundClip base(random_input(10), kCurves), a(random_input(11), kCurves),
+      b(random_input(12), kCurves);
+  Row left(kCurves), right(kCurves);
+  for (uint32_t l = 0; l < kCurves; ++l) (l % 3 == 0 ? left : right)[l] = 0.5f + l / 100.0f;
   Row results[2];
   for (int order = 0; order < 2; ++order) {
-    MixInput input(kLanes);
+    MixInput input(kCurves);
     input.add(BlendMode::kOverride);
     input.add(BlendMode::kAdd).mask = input.keep(order == 0 ? left : right);
     input.add(BlendMode::kAdd).mask = input.keep(order == 0 ? right : left);
@@ -158,15 +158,15 @@ TEST(Layers, SumsOfDisjointMasksDoNotDependOnTheirOrder) {  // B4
   EXPECT_TRUE(same_bits(results[0], results[1]));
 }
 
-TEST(Layers, NeverTouchLanesThatTheirMaskLeavesOut) {  // B5
-  const BoundClip base(random_input(13), kLanes);
+TEST(Layers, NeverTouchCurvesThatTheirMaskLeavesOut) {  // B5
+  const BoundClip base(random_input(13), kCurves);
   std::deque<BoundClip> clips;
-  for (int i = 0; i < 3; ++i) clips.emplace_back(random_input(20 + i), kLanes);
+  for (int i = 0; i < 3; ++i) clips.emplace_back(random_input(20 + i), kCurves);
   for (BlendMode mode : kModes) {
     Random random = Random::from_seed(14, 0);
-    Row mask(kLanes, 1.0f);
-    for (uint32_t l = 0; l < kLanes; l += 2) mask[l] = 0.0f;
-    MixInput input = two_layers(mode, mask), single(kLanes);
+    Row mask(kCurves, 1.0f);
+    for (uint32_t l = 0; l < kCurves; l += 2) mask[l] = 0.0f;
+    MixInput input = two_layers(mode, mask), single(kCurves);
     single.add(BlendMode::kOverride);
     const MixHandle mix = make_mix(input), reference = make_mix(single);
     OwnMixer own(mix), expected(reference);
@@ -182,18 +182,18 @@ TEST(Layers, NeverTouchLanesThatTheirMaskLeavesOut) {  // B5
       }
       const int64_t ticks = random.below(30) * kMillisecond;
       const Row a = own.step(ticks), b = expected.step(ticks);
-      for (uint32_t l = 0; l < kLanes; l += 2) ASSERT_EQ(bits_of(a[l]), bits_of(b[l]));
+      for (uint32_t l = 0; l < kCurves; l += 2) ASSERT_EQ(bits_of(a[l]), bits_of(b[l]));
     }
   }
 }
 
-TEST(Layers, LanesOfZerosStayZeroAndInactive) {  // B6
+TEST(Layers, CurvesOfZerosStayZeroAndInactive) {  // B6
   constexpr uint32_t kActive = 9;
   std::deque<BoundClip> clips;
   for (int i = 0; i < 3; ++i) {
-    clips.emplace_back(ClipInput(smooth_curves(30 + i, kActive, 200)), kLanes);
+    clips.emplace_back(ClipInput(smooth_curves(30 + i, kActive, 200)), kCurves);
   }
-  MixInput input(kLanes);
+  MixInput input(kCurves);
   for (BlendMode mode : kModes) input.add(mode);
   const MixHandle mix = make_mix(input);
   OwnMixer own(mix);
@@ -204,9 +204,9 @@ TEST(Layers, LanesOfZerosStayZeroAndInactive) {  // B6
                random.below(400) * kMillisecond);
     }
     uint64_t active = ~uint64_t{0};
-    Row row(mix->lane_count);
+    Row row(mix->curve_count);
     step_mixer(own.mixer, kStep, row.data(), row.size(), &active);
-    for (uint32_t l = 0; l < mix->lane_count; ++l) {
+    for (uint32_t l = 0; l < mix->curve_count; ++l) {
       if (l >= kActive) {
         ASSERT_EQ(bits_of(row[l]), 0u) << l;
       }
@@ -223,12 +223,12 @@ TEST(Layers, LanesOfZerosStayZeroAndInactive) {  // B6
 }
 
 TEST(Layers, LeaveAloneWhatTheirClipHasNoChannelFor) {
-  const BoundClip base(random_input(16), kLanes);
+  const BoundClip base(random_input(16), kCurves);
   ClipInput few(Curves(2, 50));
   std::fill(few.curves.values.begin(), few.curves.values.end(), 0.25f);
-  const BoundClip partial(few, kLanes, {5, 11});
+  const BoundClip partial(few, kCurves, {5, 11});
   for (BlendMode mode : {BlendMode::kOverride, BlendMode::kScale, BlendMode::kMax}) {
-    MixInput input = two_layers(mode), single(kLanes);
+    MixInput input = two_layers(mode), single(kCurves);
     single.add(BlendMode::kOverride);
     const MixHandle mix = make_mix(input), reference = make_mix(single);
     OwnMixer own(mix), expected(reference);
@@ -236,7 +236,7 @@ TEST(Layers, LeaveAloneWhatTheirClipHasNoChannelFor) {
     own.play(1, partial);
     expected.play(0, base);
     const Row a = own.step(kStep), b = expected.step(kStep);
-    for (uint32_t l = 0; l < kLanes; ++l) {
+    for (uint32_t l = 0; l < kCurves; ++l) {
       if (l != 5 && l != 11) {
         EXPECT_EQ(a[l], b[l]) << l;
         continue;
@@ -250,8 +250,8 @@ TEST(Layers, LeaveAloneWhatTheirClipHasNoChannelFor) {
 }
 
 TEST(Layers, ReturnToALayerWithoutWeightIsExact) {
-  const BoundClip clip(random_input(17), kLanes);
-  MixInput input(kLanes);
+  const BoundClip clip(random_input(17), kCurves);
+  MixInput input(kCurves);
   input.add(BlendMode::kOverride);
   const MixHandle mix = make_mix(input);
   OwnMixer own(mix), expected(mix);
@@ -301,17 +301,17 @@ TEST(Poses, AddUpAndAreLimitedToASumOfOne) {
   EXPECT_TRUE(same_bits(own.step(kStep), {0.5f, 0, 0.75f, 0.5f, 0, 0}));
 }
 
-TEST(Poses, GiveTheSameInAnyOrderOfTheirLanes) {
-  std::vector<uint16_t> lanes;  // one after the other
+TEST(Poses, GiveTheSameInAnyOrderOfTheirCurves) {
+  std::vector<uint16_t> curves;  // one after the other
   std::vector<float> values;
-  for (uint16_t l = 2; l < kLanes - 1; ++l) {
-    lanes.push_back(l);
+  for (uint16_t l = 2; l < kCurves - 1; ++l) {
+    curves.push_back(l);
     values.push_back(static_cast<float>(l * 7 % 11) / 11);
   }
   const auto row_of = [&] {
-    MixInput input(kLanes);
+    MixInput input(kCurves);
     input.add(BlendMode::kOverride, LayerSource::kPoses).pose_count = 2;
-    input.add_pose(lanes, values);
+    input.add_pose(curves, values);
     input.add_pose({1, 4}, {0.3f, 0.7f});
     const MixHandle mix = make_mix(input);
     OwnMixer own(mix);
@@ -322,14 +322,14 @@ TEST(Poses, GiveTheSameInAnyOrderOfTheirLanes) {
   const Row ascending = row_of();
   EXPECT_EQ(ascending[0], 0);
   EXPECT_GT(ascending[4], 0.4f);
-  std::reverse(lanes.begin(), lanes.end());
+  std::reverse(curves.begin(), curves.end());
   std::reverse(values.begin(), values.end());
   EXPECT_TRUE(same_bits(row_of(), ascending));
 }
 
-TEST(Poses, LeaveAloneLanesThatNoneOfThemHas) {
-  const BoundClip base(random_input(18), kLanes);
-  MixInput input(kLanes);
+TEST(Poses, LeaveAloneCurvesThatNoneOfThemHas) {
+  const BoundClip base(random_input(18), kCurves);
+  MixInput input(kCurves);
   input.add(BlendMode::kOverride);
   input.add(BlendMode::kOverride, LayerSource::kPoses).pose_count = 1;
   input.add_pose({3}, {0.75f});
@@ -347,10 +347,10 @@ TEST(Poses, LeaveAloneLanesThatNoneOfThemHas) {
 // Stages ---------------------------------------------------------------------------------------------
 
 TEST(Antagonists, AreNeverBothAboveZero) {  // F5
-  const BoundClip clip(random_input(19), kLanes), other(random_input(20), kLanes);
+  const BoundClip clip(random_input(19), kCurves), other(random_input(20), kCurves);
   MixInput input = two_layers(BlendMode::kAdd);
   std::vector<AntagonistPair> pairs;
-  for (uint16_t l = 0; l < kLanes - 1; l = static_cast<uint16_t>(l + 2)) {
+  for (uint16_t l = 0; l < kCurves - 1; l = static_cast<uint16_t>(l + 2)) {
     pairs.push_back({l, static_cast<uint16_t>(l + 1), 1.0f});
   }
   input.desc.antagonists = {pairs.data(), pairs.size()};
@@ -392,9 +392,9 @@ TEST(Antagonists, WithStiffnessOfHalfLoseHalf) {
 }
 
 TEST(Limits, HoldWhateverTheLayersAddUpTo) {
-  const BoundClip clip(random_input(21, 100, -3e38f, 3e38f), kLanes);
-  const Row lower(kLanes, -0.5f), upper(kLanes, 1.25f);
-  MixInput input(kLanes);
+  const BoundClip clip(random_input(21, 100, -3e38f, 3e38f), kCurves);
+  const Row lower(kCurves, -0.5f), upper(kCurves, 1.25f);
+  MixInput input(kCurves);
   for (int i = 0; i < 4; ++i) input.add(i % 2 == 0 ? BlendMode::kAdd : BlendMode::kScale);
   input.desc.lower = {lower.data(), lower.size()};
   input.desc.upper = {upper.data(), upper.size()};
@@ -427,7 +427,7 @@ TEST(Stages, AreSeenOneByOne) {
   own.pose(0, 0, 1.0f);
   own.pose(1, 0, 1.0f);
   own.step(kStep);
-  const auto at = [&](uint32_t stage) { return own.mixer.stages[stage * mix->lane_count]; };
+  const auto at = [&](uint32_t stage) { return own.mixer.stages[stage * mix->curve_count]; };
   EXPECT_EQ(at(0), 0.5f);
   EXPECT_EQ(at(2 + kStageReactions), 0.5f);
   EXPECT_EQ(at(2 + kStageGuards), 0.5f);
@@ -439,7 +439,7 @@ TEST(Stages, AreSeenOneByOne) {
 TEST(Events, ComeFromTheClipOfTheirLayerOnce) {
   ClipInput input = random_input(23, 61);
   input.events = {{0, "begin", 1.0f}, {10 * kStep, "ten", 2.0f}, {20 * kStep, "twenty", 3.0f}};
-  const BoundClip clip(input, kLanes);
+  const BoundClip clip(input, kCurves);
   MixInput mix_input = two_layers(BlendMode::kAdd);
   mix_input.desc.max_events = 2;
   const MixHandle mix = make_mix(mix_input);
@@ -464,12 +464,12 @@ TEST(Events, ComeFromTheClipOfTheirLayerOnce) {
 }
 
 TEST(Batch, OfManyIsTheSameAsEachAlone) {
-  const BoundClip base(random_input(24), kLanes);
+  const BoundClip base(random_input(24), kCurves);
   MixInput input = two_layers(BlendMode::kScreen);
   const MixHandle mix = make_mix(input);
   std::deque<OwnMixer> together, alone;
   std::vector<Mixer*> mixers;
-  std::vector<Row> rows(64, Row(kLanes));
+  std::vector<Row> rows(64, Row(kCurves));
   std::vector<float*> outs;
   for (int i = 0; i < 64; ++i) {
     for (std::deque<OwnMixer>* all : {&together, &alone}) {
@@ -484,7 +484,7 @@ TEST(Batch, OfManyIsTheSameAsEachAlone) {
   }
   std::vector<uint64_t> active(64);
   for (int s = 0; s < 20; ++s) {
-    step_mixers({mixers.data(), 64}, kStep, outs.data(), kLanes, active.data(), 1);
+    step_mixers({mixers.data(), 64}, kStep, outs.data(), kCurves, active.data(), 1);
     for (int i = 0; i < 64; ++i) ASSERT_TRUE(same_bits(alone[i].step(kStep), rows[i]));
   }
 }
@@ -533,7 +533,7 @@ TEST(MixRefuses, WhatIsOutOfRange) {
   EXPECT_TRUE(refused([&](MixInput& i) { i.add_pose({1}, {nan}); }));
   EXPECT_TRUE(refused([&](MixInput& i) { i.desc.player_count = 0; }));
   EXPECT_TRUE(refused([&](MixInput& i) { i.desc.player_count = 1000; }));
-  EXPECT_TRUE(refused([&](MixInput& i) { i.desc.raw_count = kMaxLanes; }));
+  EXPECT_TRUE(refused([&](MixInput& i) { i.desc.raw_count = kMaxCurves; }));
   EXPECT_TRUE(refused([&](MixInput& i) { i.desc.variable_count = ~0u; }));
   EXPECT_TRUE(refused([&](MixInput& i) { i.desc.max_changing_channels = 513; }));
   EXPECT_TRUE(refused([&](MixInput& i) { i.desc.lower = {ten.data(), 10}; }));
@@ -548,7 +548,7 @@ TEST(MixRefuses, WhatIsOutOfRange) {
   }));
   EXPECT_TRUE(refused([&](MixInput& i) {
     guard.count = 1;
-    guard.lanes[0] = 10;
+    guard.curves[0] = 10;
     i.desc.guards = {&guard, 1};
   }));
   for (uint32_t together : {1u, 1u << 2, 1u << 24, 6u}) {
@@ -556,7 +556,7 @@ TEST(MixRefuses, WhatIsOutOfRange) {
       guard = Guard();
       guard.f_on = 1;
       guard.count = together == 6 ? 3 : 2;
-      for (uint16_t l = 0; l < 3; ++l) guard.lanes[l] = l;
+      for (uint16_t l = 0; l < 3; ++l) guard.curves[l] = l;
       guard.together = together;
       i.desc.guards = {&guard, 1};
     })) << together;
@@ -564,7 +564,7 @@ TEST(MixRefuses, WhatIsOutOfRange) {
   EXPECT_TRUE(refused([&](MixInput& i) {
     guard.together = 0;
     guard.count = 1;
-    guard.lanes[0] = 1;
+    guard.curves[0] = 1;
     guard.f_on = 0;
     i.desc.guards = {&guard, 1};
   }));
@@ -583,10 +583,10 @@ TEST(MixRefuses, WhatIsOutOfRange) {
 }
 
 TEST(MixerRefuses, AndGoesOnAsBefore) {
-  const BoundClip clip(random_input(25), kLanes), of_other_rig(random_input(26), kLanes + 1);
+  const BoundClip clip(random_input(25), kCurves), of_other_rig(random_input(26), kCurves + 1);
   ClipInput input_of_delta = random_input(27);
   input_of_delta.is_delta = true;
-  const BoundClip delta(input_of_delta, kLanes);
+  const BoundClip delta(input_of_delta, kCurves);
   MixInput input = two_layers(BlendMode::kScreen);
   input.add(BlendMode::kOverride, LayerSource::kPoses).pose_count = 1;
   input.add_pose({0}, {1.0f});
@@ -653,7 +653,7 @@ TEST(Memory, EveryFailedRequestIsReported) {
 }
 
 TEST(Memory, StepsAndPlaysTakeNone) {
-  const BoundClip clip(random_input(28), kLanes), other(random_input(29), kLanes);
+  const BoundClip clip(random_input(28), kCurves), other(random_input(29), kCurves);
   MixInput input = two_layers(BlendMode::kScreen);
   CountingAllocator counting;
   const MienAllocator given = counting.get();

@@ -41,7 +41,7 @@ uint64_t go_on(SceneActor& actor) {
       actor.play(MixScene::kSpeech, static_cast<uint32_t>(step) % MixScene::kClips, desc);
     }
     if (step == 50) scene_requires(trigger(*actor.mixer, 0, 1, kTicksPerSecond / 2, error));
-    hash = hash_floats(hash, actor.step(kSceneStep + step), actor.scene.mix->lane_count);
+    hash = hash_floats(hash, actor.step(kSceneStep + step), actor.scene.mix->curve_count);
   }
   return hash;
 }

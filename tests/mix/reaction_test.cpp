@@ -15,9 +15,9 @@ namespace {
 
 // Raw controls 0, 1: lids. 2, 3: squint. 4, 5: brows. 6 ... 19: mouth. Variables: gaze, pupil, head.
 constexpr uint32_t kRaw = 20;
-enum Lane : uint16_t { kLidLeft, kLidRight, kSquint = 2, kBrow = 4, kMouth = 6 };
+enum Curve : uint16_t { kLidLeft, kLidRight, kSquint = 2, kBrow = 4, kMouth = 6 };
 enum Variable : uint16_t { kGaze = kRaw, kPupil, kHead };
-constexpr uint32_t kLanes = kRaw + 3;
+constexpr uint32_t kCurves = kRaw + 3;
 
 struct FaceMix {
   BoundClip speech;
@@ -77,7 +77,7 @@ void set_to(OwnMixer& own, float level) {
 
 /// Rows at each millisecond, from 1 on.
 struct Recording {
-  std::vector<Row> rows = {Row(kLanes)};
+  std::vector<Row> rows = {Row(kCurves)};
   std::vector<int> events;  // milliseconds
 
   void step(OwnMixer& own) {
@@ -110,10 +110,10 @@ TEST(Glare, ActsWhenAndWhereItShould) {  // D1 to D6
       ASSERT_EQ(bits_of(a[kPupil]), bits_of(b[kPupil])) << ms;  // D3
     }
     for (uint32_t l = kMouth; l < kRaw; ++l) ASSERT_EQ(bits_of(a[l]), bits_of(b[l]));  // D4
-    for (uint32_t l = 0; l < kLanes && ms > 1; ++l) {                                  // D5
+    for (uint32_t l = 0; l < kCurves && ms > 1; ++l) {                                 // D5
       const float faster =
           std::fabs((b[l] - with.rows[ms - 1][l]) - (a[l] - without.rows[ms - 1][l]));
-      ASSERT_LE(faster * 1000, l < 2 ? 30.0f : 12.0f) << ms << ", lane " << l;
+      ASSERT_LE(faster * 1000, l < 2 ? 30.0f : 12.0f) << ms << ", curve " << l;
     }
   }
   for (int lid : closed) {  // D2
@@ -141,7 +141,7 @@ TEST(Glare, StrokesStartAndTakeAsLongAsTheyShould) {
     if (ms == 2000) fire(lit);
   }
   const struct {
-    uint16_t lane;
+    uint16_t curve;
     float pose;
     int delay, attack;
   } strokes[] = {{kSquint, 0.9f, 90, 150},
@@ -151,17 +151,17 @@ TEST(Glare, StrokesStartAndTakeAsLongAsTheyShould) {
   for (const auto& stroke : strokes) {
     // What of the pose is on top of the row without the light, in mode screen or add.
     const auto share = [&](int ms) {
-      const float below = without.rows[2000 + ms][stroke.lane];
-      const float room = stroke.lane < kRaw ? 1 - below : 1;
-      return (with.rows[2000 + ms][stroke.lane] - below) / (stroke.pose * room);
+      const float below = without.rows[2000 + ms][stroke.curve];
+      const float room = stroke.curve < kRaw ? 1 - below : 1;
+      return (with.rows[2000 + ms][stroke.curve] - below) / (stroke.pose * room);
     };
     const auto adapted = [](int ms) { return 0.6 + 0.4 * std::exp(-ms / 1500.0); };
     const int middle = stroke.delay + stroke.attack / 2, end = stroke.delay + stroke.attack;
-    EXPECT_EQ(share(stroke.delay), 0) << stroke.lane;
-    EXPECT_GT(share(stroke.delay + 3), 0) << stroke.lane;
-    EXPECT_NEAR(share(middle), 0.5 * adapted(middle), 0.002) << stroke.lane;
-    EXPECT_LT(share(end - 10), 0.9999 * adapted(end - 10)) << stroke.lane;
-    EXPECT_NEAR(share(end), adapted(end), 0.001) << stroke.lane;
+    EXPECT_EQ(share(stroke.delay), 0) << stroke.curve;
+    EXPECT_GT(share(stroke.delay + 3), 0) << stroke.curve;
+    EXPECT_NEAR(share(middle), 0.5 * adapted(middle), 0.002) << stroke.curve;
+    EXPECT_LT(share(end - 10), 0.9999 * adapted(end - 10)) << stroke.curve;
+    EXPECT_NEAR(share(end), adapted(end), 0.001) << stroke.curve;
   }
   for (uint16_t lid : {kLidLeft, kLidRight}) {  // in mode max, for a time of its own
     const auto share = [&](int ms) {
@@ -226,9 +226,9 @@ TEST(Glare, TriggeredAgainOrFlickeringMakesNoJump) {  // D7
       int blinks = 0, last_blink = -1000;
       for (int ms = 2; ms <= 9000; ++ms) {
         const Row &a = without.rows[ms], &b = with.rows[ms];
-        for (uint32_t l = 0; l < kLanes; ++l) {
+        for (uint32_t l = 0; l < kCurves; ++l) {
           const float changed = (b[l] - with.rows[ms - 1][l]) - (a[l] - without.rows[ms - 1][l]);
-          ASSERT_LE(std::fabs(changed) * 1000, l < 2 ? 30.0f : 12.0f) << ms << ", lane " << l;
+          ASSERT_LE(std::fabs(changed) * 1000, l < 2 ? 30.0f : 12.0f) << ms << ", curve " << l;
         }
         if (b[0] >= 0.9f && with.rows[ms - 1][0] < 0.9f) {
           EXPECT_GE(ms - last_blink, 250);
@@ -284,9 +284,9 @@ TEST(Level, ScalesStrokesWithoutAJump) {
   EXPECT_LT(with.rows[1400][kGaze], -0.3f) << "gaze is not scaled";
   for (int ms = 2; ms <= 12000; ++ms) {
     const Row &a = without.rows[ms], &b = with.rows[ms];
-    for (uint32_t l = 0; l < kLanes; ++l) {
+    for (uint32_t l = 0; l < kCurves; ++l) {
       const float changed = (b[l] - with.rows[ms - 1][l]) - (a[l] - without.rows[ms - 1][l]);
-      ASSERT_LE(std::fabs(changed) * 1000, l < 2 ? 30.0f : 12.0f) << ms << ", lane " << l;
+      ASSERT_LE(std::fabs(changed) * 1000, l < 2 ? 30.0f : 12.0f) << ms << ", curve " << l;
     }
   }
   EXPECT_TRUE(same_bits(with.rows[12000], without.rows[12000]));

@@ -9,27 +9,27 @@
 namespace mien {
 namespace {
 
-constexpr uint32_t kLanes = 24;
+constexpr uint32_t kCurves = 24;
 constexpr int64_t kStep = kTicksPerSecond / 60;
 
 /// Everything on.
 struct Everything {
   std::deque<BoundClip> clips;
   std::vector<uint16_t> mirror;
-  std::vector<uint16_t> lanes = {0, 1};
+  std::vector<uint16_t> curves = {0, 1};
   Row amounts = {1, 1};
   MixHandle mix;
   std::vector<ClipSource> sources;
 
   Everything() {
     for (uint32_t i = 0; i < 3; ++i) {
-      ClipInput input(smooth_curves(80 + i, kLanes, 100 + 50 * i));
+      ClipInput input(smooth_curves(80 + i, kCurves, 100 + 50 * i));
       input.wraps = i > 0;
-      clips.emplace_back(std::move(input), kLanes);
+      clips.emplace_back(std::move(input), kCurves);
       sources.push_back(clips.back().source);
     }
-    for (uint16_t l = 0; l < kLanes + 1; ++l) mirror.push_back(l < kLanes ? l ^ 1 : l);
-    MixInput input(kLanes, 1);
+    for (uint16_t l = 0; l < kCurves + 1; ++l) mirror.push_back(l < kCurves ? l ^ 1 : l);
+    MixInput input(kCurves, 1);
     input.desc.mirror = {mirror.data(), mirror.size()};
     input.add(BlendMode::kOverride, LayerSource::kClip, LayerGroup::kSpeech);
     input.add(BlendMode::kScreen);
@@ -38,7 +38,7 @@ struct Everything {
       LayerDesc& layer = input.add(BlendMode::kAdd, LayerSource::kGenerator, LayerGroup::kLife);
       layer.generator = kind;
       layer.period = kTicksPerSecond;
-      layer.lanes = {lanes.data(), 2};
+      layer.curves = {curves.data(), 2};
       layer.amounts = {amounts.data(), 2};
     }
     for (uint16_t p = 0; p < 5; ++p) {
@@ -55,7 +55,7 @@ struct Everything {
     guard.tolerance = 0.1f;
     guard.count = 4;
     for (uint16_t i = 0; i < 4; ++i) {
-      guard.lanes[i] = static_cast<uint16_t>(5 + i);
+      guard.curves[i] = static_cast<uint16_t>(5 + i);
       guard.gains[i] = 8 - static_cast<float>(i);
     }
     input.desc.guards = {&guard, 1};
@@ -160,14 +160,14 @@ TEST(Snapshot, RefusesOtherMixesMissingClipsAndLittleRoom) {
   const std::vector<uint8_t> untouched = snapshot(other);
   EXPECT_EQ(restore(other, bytes, {all.sources[1], all.sources[2]}), Status::kMismatch);
   std::vector<ClipSource> wrong = all.sources;
-  const BoundClip short_one(ClipInput(smooth_curves(1, kLanes, 1)), kLanes);
+  const BoundClip short_one(ClipInput(smooth_curves(1, kCurves, 1)), kCurves);
   wrong[0].clip = short_one.source.clip;
   EXPECT_EQ(restore(other, bytes, wrong), Status::kMismatch);
   EXPECT_EQ(restore(other, small, all.sources), Status::kInvalidArgument);
   EXPECT_EQ(restore(other, {}, all.sources), Status::kInvalidArgument);
   EXPECT_EQ(snapshot(other), untouched);
 
-  MixInput input(kLanes);
+  MixInput input(kCurves);
   input.add(BlendMode::kOverride);
   const MixHandle small_mix = make_mix(input);
   OwnMixer of_other_mix(small_mix);

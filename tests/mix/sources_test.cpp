@@ -11,16 +11,16 @@
 namespace mien {
 namespace {
 
-constexpr uint32_t kLanes = 8;
+constexpr uint32_t kCurves = 8;
 
 struct StreamMix {
-  std::vector<uint16_t> lanes = {1, 2, 5};
+  std::vector<uint16_t> curves = {1, 2, 5};
   MixHandle mix;
 
   explicit StreamMix(int64_t delay, uint32_t frames = 16) {
-    MixInput input(kLanes);
+    MixInput input(kCurves);
     LayerDesc& layer = input.add(BlendMode::kOverride, LayerSource::kStream);
-    layer.lanes = {lanes.data(), lanes.size()};
+    layer.curves = {curves.data(), curves.size()};
     layer.delay = delay;
     layer.stream_frames = frames;
     mix = make_mix(input);
@@ -73,7 +73,7 @@ TEST(Stream, WithLossJitterAndAGapMakesNoJump) {  // G4
   }
   std::sort(arrivals.begin(), arrivals.end());
   size_t next = 0;
-  Row before(kLanes);
+  Row before(kCurves);
   bool rested = false;
   float largest = 0;
   for (int ms = 1; ms < 9900; ++ms) {
@@ -82,7 +82,7 @@ TEST(Stream, WithLossJitterAndAGapMakesNoJump) {  // G4
       push(own, frame * kTicksPerSecond / 60, face_at(frame / 60.0));
     }
     const Row row = own.step(kMillisecond);
-    for (uint32_t l = 0; l < kLanes; ++l) {
+    for (uint32_t l = 0; l < kCurves; ++l) {
       // The curve's own speed, up to three times where jitter skips frames, and a fade in 250 ms.
       largest = std::max(largest, std::fabs(row[l] - before[l]) * 1000);
     }
@@ -187,12 +187,13 @@ TEST(Stream, TakesRowsFromAnotherThread) {  // G2
 
 // Generators -----------------------------------------------------------------------------------------
 
-MixHandle generator_mix(MixInput& input, Generator kind, int64_t period, Span<const uint16_t> lanes,
-                        Span<const float> amounts, BlendMode mode = BlendMode::kAdd) {
+MixHandle generator_mix(MixInput& input, Generator kind, int64_t period,
+                        Span<const uint16_t> curves, Span<const float> amounts,
+                        BlendMode mode = BlendMode::kAdd) {
   LayerDesc& layer = input.add(mode, LayerSource::kGenerator, LayerGroup::kLife);
   layer.generator = kind;
   layer.period = period;
-  layer.lanes = lanes;
+  layer.curves = curves;
   layer.amounts = amounts;
   return make_mix(input);
 }
@@ -201,7 +202,7 @@ const uint16_t kTwo[2] = {2, 3};
 const float kOnes[2] = {1, 1};
 
 TEST(Blinks, ComeAboutEveryPeriodAndCloseBothLids) {
-  MixInput input(kLanes);
+  MixInput input(kCurves);
   const MixHandle mix = generator_mix(input, Generator::kBlink, 4 * kTicksPerSecond, {kTwo, 2},
                                       {kOnes, 2}, BlendMode::kMax);
   OwnMixer own(mix, 5), same(mix, 5), other(mix, 6);
@@ -229,16 +230,16 @@ TEST(Blinks, ComeAboutEveryPeriodAndCloseBothLids) {
 }
 
 TEST(Blinks, CloseIn75StayFor25AndOpenIn150Milliseconds) {
-  MixInput input(kLanes);
+  MixInput input(kCurves);
   const MixHandle mix = generator_mix(input, Generator::kBlink, 4 * kTicksPerSecond, {kTwo, 2},
                                       {kOnes, 2}, BlendMode::kMax);
   OwnMixer own(mix, 5);
   std::vector<Row> rows;  // a millisecond apart
   while (rows.size() < 10000) rows.push_back(own.step(kMillisecond));
   int begins[2] = {};
-  for (uint32_t lane : kTwo) {
+  for (uint32_t curve : kTwo) {
     const auto first = [&](int from, auto&& is) {
-      while (from < 9999 && !is(rows[static_cast<size_t>(from)][lane])) ++from;
+      while (from < 9999 && !is(rows[static_cast<size_t>(from)][curve])) ++from;
       return from;
     };
     const int begin = first(0, [](float v) { return v > 0; });
@@ -249,15 +250,15 @@ TEST(Blinks, CloseIn75StayFor25AndOpenIn150Milliseconds) {
     EXPECT_NEAR(closed - begin, 75, 1);
     EXPECT_NEAR(opens - begin, 100, 1);
     EXPECT_NEAR(open - begin, 250, 1);
-    EXPECT_NEAR(rows[static_cast<size_t>(begin + 37)][lane], 0.5f, 0.05f);
-    begins[lane - kTwo[0]] = begin;
+    EXPECT_NEAR(rows[static_cast<size_t>(begin + 37)][curve], 0.5f, 0.05f);
+    begins[curve - kTwo[0]] = begin;
   }
   EXPECT_GE(begins[1], begins[0]);
   EXPECT_LE(begins[1], begins[0] + 10);
 }
 
 TEST(Blinks, WaitAfterThoseOfThePerformance) {
-  MixInput input(kLanes);
+  MixInput input(kCurves);
   input.add(BlendMode::kOverride, LayerSource::kPoses).pose_count = 1;
   input.add_pose({2}, {1.0f});
   const MixHandle mix = generator_mix(input, Generator::kBlink, 2 * kTicksPerSecond, {kTwo, 2},
@@ -270,7 +271,7 @@ TEST(Blinks, WaitAfterThoseOfThePerformance) {
 }
 
 TEST(Breath, TakesTwoFifthsInAndRestsAtZero) {
-  MixInput input(kLanes);
+  MixInput input(kCurves);
   const MixHandle mix =
       generator_mix(input, Generator::kBreath, kTicksPerSecond, {kTwo, 2}, {kOnes, 2});
   OwnMixer own(mix);
@@ -280,30 +281,30 @@ TEST(Breath, TakesTwoFifthsInAndRestsAtZero) {
   EXPECT_EQ(own.step(300 * kMillisecond)[2], 0.0f);
 }
 
-TEST(Noise, IsSmoothBoundedAndDiffersByLaneAndSeed) {
-  MixInput input(kLanes);
+TEST(Noise, IsSmoothBoundedAndDiffersByCurveAndSeed) {
+  MixInput input(kCurves);
   const MixHandle mix =
       generator_mix(input, Generator::kNoise, kTicksPerSecond / 5, {kTwo, 2}, {kOnes, 2});
   OwnMixer own(mix, 1), other(mix, 2);
   Row before = own.step(kMillisecond), sum(2);
-  int lanes = 0, seeds = 0;
+  int curves = 0, seeds = 0;
   for (int ms = 2; ms < 20000; ++ms) {
     const Row row = own.step(kMillisecond), otherwise = other.step(kMillisecond);
     ASSERT_LE(std::fabs(row[2]), 1.0f);
     ASSERT_LE(std::fabs(row[2] - before[2]), 2 * 1.875f / 200 + 1e-6f);
     sum[0] += row[2] / 20000;
-    lanes += row[2] != row[3];
+    curves += row[2] != row[3];
     seeds += row[2] != otherwise[2];
     before = row;
   }
   EXPECT_LT(std::fabs(sum[0]), 0.2f);
-  EXPECT_GT(lanes, 19000);
+  EXPECT_GT(curves, 19000);
   EXPECT_GT(seeds, 19000);
 }
 
 TEST(Generators, DoNotDependOnHowTimeIsDivided) {  // F3
   for (Generator kind : {Generator::kBlink, Generator::kBreath, Generator::kNoise}) {
-    MixInput input(kLanes);
+    MixInput input(kCurves);
     const MixHandle mix =
         generator_mix(input, kind, kTicksPerSecond, {kTwo, 2}, {kOnes, 2}, BlendMode::kAdd);
     OwnMixer fine(mix, 3), coarse(mix, 3), rare(mix, 3);
@@ -323,9 +324,9 @@ TEST(Generators, DoNotDependOnHowTimeIsDivided) {  // F3
 
 TEST(Generators, RefuseWhatIsOutOfRange) {
   const auto created = [](auto&& change) {
-    MixInput input(kLanes);
+    MixInput input(kCurves);
     LayerDesc& layer = input.add(BlendMode::kAdd, LayerSource::kGenerator, LayerGroup::kLife);
-    layer.lanes = {kTwo, 2};
+    layer.curves = {kTwo, 2};
     layer.amounts = {kOnes, 2};
     layer.period = 1;
     change(layer);
@@ -335,11 +336,11 @@ TEST(Generators, RefuseWhatIsOutOfRange) {
     release_mix(mix);
     return status;
   };
-  static const uint16_t beyond[2] = {2, kLanes};
+  static const uint16_t beyond[2] = {2, kCurves};
   EXPECT_EQ(created([](LayerDesc&) {}), Status::kOk);
   EXPECT_EQ(created([](LayerDesc& l) { l.period = 0; }), Status::kInvalidArgument);
   EXPECT_EQ(created([](LayerDesc& l) { l.amounts.count = 1; }), Status::kInvalidArgument);
-  EXPECT_EQ(created([](LayerDesc& l) { l.lanes = {beyond, 2}; }), Status::kInvalidArgument);
+  EXPECT_EQ(created([](LayerDesc& l) { l.curves = {beyond, 2}; }), Status::kInvalidArgument);
   EXPECT_EQ(created([](LayerDesc& l) { l.generator = static_cast<Generator>(3); }),
             Status::kInvalidArgument);
   EXPECT_EQ(created([](LayerDesc& l) {

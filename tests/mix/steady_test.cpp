@@ -29,7 +29,7 @@ TEST(Steady, NoMemoryIsTakenAfterTheMixerIsMade) {  // G1
     for (size_t step = 0; step < steps; ++step) {
       actor.disturb(random);
       const float* row = actor.step(random.below(30) * kSceneMillisecond);
-      for (uint32_t l = 0; l < scene.mix->lane_count; ++l) wrong += !std::isfinite(row[l]);
+      for (uint32_t l = 0; l < scene.mix->curve_count; ++l) wrong += !std::isfinite(row[l]);
       if (!random.chance(0.01)) continue;
       ++snapshots;
       const Span<uint8_t> out = {bytes.data(), bytes.size()};
@@ -48,7 +48,7 @@ TEST(Steady, NoMemoryIsTakenAfterTheMixerIsMade) {  // G1
     ASSERT_EQ(end_stimulus(*actor.mixer, 0, error), Status::kOk);
     ASSERT_EQ(set_variable(*actor.mixer, 0, 0, error), Status::kOk);
     for (int step = 0; step < 600; ++step) actor.step(kSceneStep);
-    for (uint32_t l = 0; l < scene.mix->lane_count; ++l) EXPECT_EQ(actor.mixer->row[l], 0) << l;
+    for (uint32_t l = 0; l < scene.mix->curve_count; ++l) EXPECT_EQ(actor.mixer->row[l], 0) << l;
   }
   EXPECT_TRUE(counting.clean()) << counting.first_wrong;
 }

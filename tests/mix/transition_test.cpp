@@ -11,7 +11,7 @@
 namespace mien {
 namespace {
 
-constexpr uint32_t kLanes = 16;
+constexpr uint32_t kCurves = 16;
 constexpr int64_t kStep = kMillisecond;
 constexpr float kDt = 0.001f;
 
@@ -21,11 +21,11 @@ struct TwoClips {
 
   explicit TwoClips(uint32_t clip_count = 2, uint32_t players = 2) {
     for (uint32_t i = 0; i < clip_count; ++i) {
-      ClipInput input(smooth_curves(40 + i, kLanes, 600));
+      ClipInput input(smooth_curves(40 + i, kCurves, 600));
       input.wraps = true;
-      clips.emplace_back(std::move(input), kLanes);
+      clips.emplace_back(std::move(input), kCurves);
     }
-    MixInput input(kLanes);
+    MixInput input(kCurves);
     input.add(BlendMode::kOverride);
     input.desc.player_count = players;
     mix = make_mix(input);
@@ -46,7 +46,7 @@ struct Playing {
     before = row;
     row = own.step(kStep);
   }
-  float change(uint32_t lane) const { return row[lane] - before[lane]; }
+  float change(uint32_t curve) const { return row[curve] - before[curve]; }
 };
 
 TEST(WeightFade, IsTheQuinticAndEndsExactly) {  // C1
@@ -65,7 +65,7 @@ TEST(WeightFade, IsTheQuinticAndEndsExactly) {  // C1
     source.step();
     const double u = std::min(1.0, i / double{kSteps});
     const double s = u * u * u * (10 + u * (6 * u - 15));
-    for (uint32_t l = 0; l < kLanes; ++l) {
+    for (uint32_t l = 0; l < kCurves; ++l) {
       ASSERT_NEAR(faded.row[l], s * source.row[l], 1e-6);
       const float own = std::fabs(source.change(l));
       const float most = 1.875f * std::max(source.row[l], source.before[l]) / seconds * kDt;
@@ -93,14 +93,14 @@ TEST(Crossfade, KeepsTheSpeedOfItsSourcesAtBothEnds) {  // C1
     crossed.step();
     from.step();
     to.step();
-    for (uint32_t l = 0; l < kLanes; ++l) {
+    for (uint32_t l = 0; l < kCurves; ++l) {
       const float apart =
           std::max(std::fabs(from.row[l] - to.row[l]), std::fabs(from.before[l] - to.before[l]));
       const float own = std::max(std::fabs(from.change(l)), std::fabs(to.change(l)));
       const float most = 1.875f * apart / (kSteps * kDt) * kDt;
       const bool at_end = i == 1 || i == kSteps;
       ASSERT_LE(std::fabs(crossed.change(l)), own + (at_end ? 0.01f : 1.0f) * most + 1e-6f)
-          << i << ", lane " << l;
+          << i << ", curve " << l;
       if (i >= kSteps) {
         ASSERT_EQ(bits_of(crossed.row[l]), bits_of(to.row[l]));
       }
@@ -114,8 +114,8 @@ TEST(Inertial, CarriesValueAndSpeedAndEndsExactly) {  // C2
     Playing run(setup, 0);
     for (int i = 0; i < start; ++i) run.step();
     const Row last = run.row;
-    Row velocity(kLanes);
-    for (uint32_t l = 0; l < kLanes; ++l) velocity[l] = run.change(l) / kDt;
+    Row velocity(kCurves);
+    for (uint32_t l = 0; l < kCurves; ++l) velocity[l] = run.change(l) / kDt;
     constexpr int kSteps = 200;
     const float seconds = kSteps * kDt;
     run.own.play(0, setup.clips[1], Transition::kInertial, kSteps * kStep);
@@ -125,7 +125,7 @@ TEST(Inertial, CarriesValueAndSpeedAndEndsExactly) {  // C2
     for (int i = 1; i <= kSteps + 10; ++i) {
       run.step();
       to.step();
-      for (uint32_t l = 0; l < kLanes; ++l) {
+      for (uint32_t l = 0; l < kCurves; ++l) {
         const float d = last[l] - first[l], v = velocity[l];
         const float offset = run.row[l] - to.row[l];
         if (i == 1) {
@@ -183,30 +183,30 @@ TEST(Transitions, WithoutEndsOfOtherOnesAreContinuous) {  // C3
     Random random = Random::from_seed(52, players);
     Playing run(setup, 0);
     int triggers = 0, until = 100, compared = 0;
-    Row velocity(kLanes), first;
+    Row velocity(kCurves), first;
     std::optional<Playing> to;  // the clip of an inertial transition that has just begun
     Row last;
     for (int i = 0; triggers < 100 && i < 60000; ++i) {
       run.step();
       if (i == 0) run.before = run.row;
-      for (uint32_t l = 0; l < kLanes; ++l) {
+      for (uint32_t l = 0; l < kCurves; ++l) {
         // No source is faster than 16 * 0.0963 / (40 / 60 s) * 1.1; a transition of 200 ms adds less
         // than 1.875 / 0.2 s, and what it carries over was within this bound itself.
         const float changed = run.change(l) / kDt, limit = 2.6f + 2 * 1.875f / 0.2f;
-        ASSERT_LE(std::fabs(changed), limit) << i << ", lane " << l;
+        ASSERT_LE(std::fabs(changed), limit) << i << ", curve " << l;
       }
       if (to) to->step();
-      for (uint32_t l = 0; to && l < kLanes; ++l) {
+      for (uint32_t l = 0; to && l < kCurves; ++l) {
         // As of an undisturbed one: the speed that there was, and what the new clip moves.
         const float d = last[l] - first[l], v = velocity[l], seconds = 0.2f;
         if (d * v < 0 && 5 * std::fabs(d) < seconds * std::fabs(v)) continue;  // it lasts shorter
         ++compared;
         const float bound = 10 * std::fabs(d) / (seconds * seconds) + 4 * std::fabs(v) / seconds;
         ASSERT_LE(std::fabs(run.change(l) - to->change(l) - v * kDt), bound * kDt * kDt + 2e-6f)
-            << i << ", lane " << l;
+            << i << ", curve " << l;
       }
       to.reset();
-      for (uint32_t l = 0; l < kLanes; ++l) velocity[l] = run.change(l) / kDt;
+      for (uint32_t l = 0; l < kCurves; ++l) velocity[l] = run.change(l) / kDt;
       if (--until > 0) continue;
       until = static_cast<int>(5 + random.below(250));
       ++triggers;
@@ -221,7 +221,7 @@ TEST(Transitions, WithoutEndsOfOtherOnesAreContinuous) {  // C3
         first = to->row = to->own.step(0);
       }
       const Row now = run.own.step(0);
-      for (uint32_t l = 0; l < kLanes; ++l) ASSERT_NEAR(now[l], last[l], 1e-6f);
+      for (uint32_t l = 0; l < kCurves; ++l) ASSERT_NEAR(now[l], last[l], 1e-6f);
     }
     EXPECT_EQ(triggers, 100);
     EXPECT_GT(compared, 300);
@@ -270,7 +270,7 @@ TEST(Loops, WithWrappingAddNoStep) {  // C4
   run.row = run.own.step(0);
   for (int i = 0; i < 200; ++i) {
     run.step();
-    for (uint32_t l = 0; l < kLanes; ++l) {
+    for (uint32_t l = 0; l < kCurves; ++l) {
       float largest = 0;
       for (uint32_t f : {593u, 594u, 595u, 596u, 597u, 598u, 599u, 0u, 1u, 2u, 3u, 4u, 5u, 6u}) {
         largest = std::max(largest, std::fabs(curves.at((f + 1) % 600, l) - curves.at(f, l)));

@@ -80,7 +80,7 @@ TEST(Antagonists, AreDrivenByNothingElse) {
 TEST(Antagonists, OfLongTablesAreFoundAtOnce) {
   PlainRig plain;
   plain.gui_count = 2;
-  plain.raw_count = kMaxLanes + 2;
+  plain.raw_count = kMaxCurves + 2;
   plain.joint_count = 1;
   constexpr uint16_t kHalf = 1000;
   for (int times = 0; times < 20; ++times) {
@@ -89,9 +89,9 @@ TEST(Antagonists, OfLongTablesAreFoundAtOnce) {
       if (c % 2 == 1) plain.gui_to_raw.push_back({1, c, -1, 0, -1, 0});
     }
   }
-  // No lanes of a mix.
-  plain.gui_to_raw.push_back({0, kMaxLanes, 0, 1, 1, 0});
-  plain.gui_to_raw.push_back({0, kMaxLanes + 1, -1, 0, -1, 0});
+  // No curves of a mix.
+  plain.gui_to_raw.push_back({0, kMaxCurves, 0, 1, 1, 0});
+  plain.gui_to_raw.push_back({0, kMaxCurves + 1, -1, 0, -1, 0});
   const RigHandle rig = make_rig(plain);
   std::vector<AntagonistPair> pairs(size_t{kHalf} * kHalf);
   const double begin = cpu_seconds();
@@ -136,8 +136,8 @@ TEST(Mirror, RefusesMoreMotionsThanItCompares) {
     const DnaHandle dna = open_dna(bytes);
     const RigHandle rig = create_rig(dna.get());
     const DeformerHandle deformer = create_deformer(dna.get(), rig.get());
-    std::vector<uint16_t> lanes(plain.raw_count);
-    EXPECT_EQ(mien_mix_mirror(deformer.get(), lanes.data(), lanes.size(), nullptr),
+    std::vector<uint16_t> curves(plain.raw_count);
+    EXPECT_EQ(mien_mix_mirror(deformer.get(), curves.data(), curves.size(), nullptr),
               joints == 1 ? MIEN_OK : MIEN_ERROR_DNA_LIMIT);
   }
 }

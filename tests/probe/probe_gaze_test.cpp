@@ -50,7 +50,7 @@ GazingHead& head() {
 
 TEST(Gaze, FindsTheControlsOfEachDirection) {
   const auto name = [](uint32_t eye, GazeDirection way) {
-    return head().controls[head().table.eyes[eye].lanes[way]];
+    return head().controls[head().table.eyes[eye].curves[way]];
   };
   EXPECT_EQ(name(0, kGazeLeft), "eyeLookOutLeft");
   EXPECT_EQ(name(0, kGazeRight), "eyeLookInLeft");
@@ -79,8 +79,8 @@ TEST(Gaze, EyesConvergeOnNearTargets) {
   const float near[3] = {0, 0, 250}, far[3] = {0, 0, 100000};
   std::vector<float> row(head().controls.size());
   look_at(head().table, near, row.data(), nullptr);
-  EXPECT_GT(row[head().table.eyes[0].lanes[kGazeRight]], 0.1f);
-  EXPECT_GT(row[head().table.eyes[1].lanes[kGazeLeft]], 0.1f);
+  EXPECT_GT(row[head().table.eyes[0].curves[kGazeRight]], 0.1f);
+  EXPECT_GT(row[head().table.eyes[1].curves[kGazeLeft]], 0.1f);
   for (uint32_t eye : {0u, 1u}) EXPECT_LT(head().miss(eye, row, near), 0.6);
   look_at(head().table, far, row.data(), nullptr);
   for (float value : row) EXPECT_LT(value, 0.01f);
@@ -91,9 +91,9 @@ TEST(Gaze, TellsWhatIsBeyondTheReachOfTheEyes) {
   std::vector<float> row(head().controls.size());
   float beyond[2];
   look_at(head().table, target, row.data(), beyond);
-  EXPECT_EQ(row[head().table.eyes[0].lanes[kGazeLeft]], 1);
-  EXPECT_EQ(row[head().table.eyes[0].lanes[kGazeRight]], 0);
-  EXPECT_EQ(row[head().table.eyes[1].lanes[kGazeDown]], 1);
+  EXPECT_EQ(row[head().table.eyes[0].curves[kGazeLeft]], 1);
+  EXPECT_EQ(row[head().table.eyes[0].curves[kGazeRight]], 0);
+  EXPECT_EQ(row[head().table.eyes[1].curves[kGazeDown]], 1);
   EXPECT_GT(beyond[0], 1);
   EXPECT_LT(beyond[1], 0);
   const float behind[3] = {-50, 0, -900};

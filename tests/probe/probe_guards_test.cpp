@@ -118,7 +118,7 @@ struct Guards {
     for (Kind kind : kinds) guards.push_back(head.guards[head.index(kind)]);
     return guards;
   }
-  /// How far they want lanes back.
+  /// How far they want curves back.
   Pose hold(const Pose& protected_row, const Pose& free_row, bool fully) const {
     return guards.back(protected_row, free_row, fully ? 1.0f : -1.0f);
   }
@@ -260,7 +260,7 @@ TEST(ProbeGuards, FitsTheHeadToATenthOfAMillimeter) {
     for (const Guard& guard : head(seed).guards) {
       EXPECT_GT(guard.fit_error, 0);
       EXPECT_LT(guard.fit_error, 0.15);
-      EXPECT_LE(guard.count, kMaxGuardLanes);
+      EXPECT_LE(guard.count, kMaxGuardCurves);
       EXPECT_GT(guard.count, 3u);
       for (uint32_t i = 1; i < guard.count; ++i) {
         EXPECT_GE(std::abs(guard.gains[i - 1]), std::abs(guard.gains[i]));
@@ -277,7 +277,7 @@ TEST(ProbeGuards, JoinsTheHalvesOfTheFaceInTheMiddleOnly) {
       std::set<std::string> names;
       for (uint32_t i = 1; i < guard.count; ++i) {
         if ((guard.together >> i & 1) == 0) continue;
-        names.insert(h.controls[guard.lanes[i - 1]] + " " + h.controls[guard.lanes[i]]);
+        names.insert(h.controls[guard.curves[i - 1]] + " " + h.controls[guard.curves[i]]);
       }
       return names;
     };
@@ -489,7 +489,7 @@ Pose speech_at(const GuardedHead& h, double seconds) {
   return pose;
 }
 
-TEST(GuardedSpeech, NoLaneIsFasterThanItsSourcesByMoreThanTheGuardsSpeed) {  // E5
+TEST(GuardedSpeech, NoCurveIsFasterThanItsSourcesByMoreThanTheGuardsSpeed) {  // E5
   GuardedHead& h = head(0);
   const Guards guards(h, kLips);
   for (double dt : {0.001, 1 / 60.0}) {
@@ -527,9 +527,9 @@ TEST(GuardedSpeech, NoLaneIsFasterThanItsSourcesByMoreThanTheGuardsSpeed) {  // 
       }
     }
     EXPECT_LE(fastest, fastest_source + 12);
-    EXPECT_LE(fastest_gain, 12.01) << "each lane by itself, within rounding";
+    EXPECT_LE(fastest_gain, 12.01) << "each curve by itself, within rounding";
     EXPECT_GT(fastest_gain, 5);
-    // The guards are in time: lips that close stay closed although lanes are eased.
+    // The guards are in time: lips that close stay closed although curves are eased.
     std::sort(opened.begin(), opened.end());
     std::sort(opened_freely.begin(), opened_freely.end());
     EXPECT_LE(opened[opened.size() * 99 / 100], 0.5);

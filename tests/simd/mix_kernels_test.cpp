@@ -16,14 +16,14 @@
 namespace mien {
 namespace {
 
-constexpr size_t kLanes = 48;
+constexpr size_t kCurves = 48;
 constexpr BlendMode kModes[] = {BlendMode::kOverride, BlendMode::kAdd, BlendMode::kScreen,
                                 BlendMode::kMax, BlendMode::kScale};
 
 struct alignas(64) Row {
-  float of[kLanes] = {};
+  float of[kCurves] = {};
 
-  explicit Row(float value = 0) { std::fill(of, of + kLanes, value); }
+  explicit Row(float value = 0) { std::fill(of, of + kCurves, value); }
   Row(Random& random, double low, double high) {
     for (float& v : of) v = static_cast<float>(random.between(low, high));
   }
@@ -70,7 +70,7 @@ double model(BlendMode mode, double o, double x, double a) {
 Row blended(BlendMode mode, const Row& o, const Row& x, const Row* cover, const Row& mask,
             float weight) {
   return on_all(o, [&](const KernelTable& kernels, Row& row) {
-    kernels.blend_row({x.of, cover ? cover->of : nullptr, mask.of, row.of, kLanes, weight, mode});
+    kernels.blend_row({x.of, cover ? cover->of : nullptr, mask.of, row.of, kCurves, weight, mode});
   });
 }
 
@@ -82,7 +82,7 @@ TEST(BlendRow, FollowsTheFormulaOfEachMode) {
       const auto weight = static_cast<float>(random.real());
       const Row covered = blended(mode, o, x, &cover, mask, weight);
       EXPECT_TRUE(blended(mode, o, x, nullptr, mask, weight).same_bits(covered));
-      for (size_t i = 0; i < kLanes; ++i) {
+      for (size_t i = 0; i < kCurves; ++i) {
         const double a = double{weight} * mask.of[i];
         EXPECT_NEAR(covered.of[i], model(mode, o.of[i], x.of[i], a), 2e-6);
       }
@@ -116,9 +116,9 @@ TEST(CrossRows, GoesStraightAndEndsExactly) {
   const Row from(random, -1, 2), to(random, -1, 2);
   for (float s : {0.0f, 0.3f, 1.0f}) {
     const Row out = on_all(Row(), [&](const KernelTable& kernels, Row& row) {
-      kernels.cross_rows(from.of, to.of, s, kLanes, row.of);
+      kernels.cross_rows(from.of, to.of, s, kCurves, row.of);
     });
-    for (size_t i = 0; i < kLanes; ++i) {
+    for (size_t i = 0; i < kCurves; ++i) {
       EXPECT_NEAR(out.of[i], from.of[i] + double{s} * (double{to.of[i]} - from.of[i]), 1e-6);
     }
     EXPECT_EQ(out.same_bits(to), s == 1);
@@ -130,7 +130,7 @@ TEST(AddQuintics, HasTheBitsOfAFade) {
   for (float u : {0.0f, 0.2f, 0.7f, 0.999f, 1.0f, 3.0f}) {
     Row c0, c1, c2, rate, expected(random, 0, 1);
     const Row row = expected;
-    for (size_t i = 0; i < kLanes; ++i) {
+    for (size_t i = 0; i < kCurves; ++i) {
       const Quintic q = quintic_from(static_cast<float>(random.between(-1, 1)),
                                      static_cast<float>(random.between(-8, 8)));
       c0.of[i] = q.c0, c1.of[i] = q.c1, c2.of[i] = q.c2, rate.of[i] = q.rate;
@@ -138,7 +138,7 @@ TEST(AddQuintics, HasTheBitsOfAFade) {
     }
     const QuinticRows quintics = {c0.of, c1.of, c2.of, rate.of};
     EXPECT_TRUE(on_all(row, [&](const KernelTable& kernels, Row& out) {
-                  kernels.add_quintics(quintics, u, kLanes, row.of, out.of);
+                  kernels.add_quintics(quintics, u, kCurves, row.of, out.of);
                 }).same_bits(expected));
   }
 }
@@ -152,13 +152,13 @@ TEST(LimitRow, HoldsWhateverComesAndKeepsZerosSigns) {
   row.of[3] = -std::numeric_limits<float>::infinity();
   const Row lower(0), upper(1);
   const Row out = on_all(row, [&](const KernelTable& kernels, Row& own) {
-    kernels.limit_row(lower.of, upper.of, kLanes, own.of);
+    kernels.limit_row(lower.of, upper.of, kCurves, own.of);
   });
   EXPECT_TRUE(std::signbit(out.of[0]));
   EXPECT_EQ(out.of[1], 0);
   EXPECT_EQ(out.of[2], 1);
   EXPECT_EQ(out.of[3], 0);
-  for (size_t i = 4; i < kLanes; ++i) {
+  for (size_t i = 4; i < kCurves; ++i) {
     EXPECT_EQ(out.of[i], std::min(1.0f, std::max(0.0f, row.of[i])));
   }
 }
@@ -166,15 +166,15 @@ TEST(LimitRow, HoldsWhateverComesAndKeepsZerosSigns) {
 // Distances of guards ------------------------------------------------------------------------------
 
 TEST(GuardDistances, AreRestPlacesAndProductsOnEveryInstructionSet) {
-  constexpr uint32_t kProducts = 8, kTerms = 1 + kLanes + kProducts;
+  constexpr uint32_t kProducts = 8, kTerms = 1 + kCurves + kProducts;
   Random random = Random::from_seed(6, 0);
   alignas(64) float gains[kTerms * kGuardVector];
   for (float& gain : gains) gain = static_cast<float>(random.between(-8, 8));
   uint16_t products[2 * kProducts];
-  for (uint16_t& place : products) place = static_cast<uint16_t>(random.below(kLanes));
+  for (uint16_t& place : products) place = static_cast<uint16_t>(random.below(kCurves));
   const Row row(random, 0, 1);
   for (uint32_t product_count : {0u, 4u, kProducts}) {
-    for (uint32_t place_count : {0u, 8u, uint32_t{kLanes}}) {
+    for (uint32_t place_count : {0u, 8u, uint32_t{kCurves}}) {
       // Those of products come after those of places.
       const GuardGains guards = {gains, products, place_count, product_count};
       const Row out = on_all(Row(), [&](const KernelTable& kernels, Row& own) {
@@ -194,7 +194,8 @@ TEST(GuardDistances, AreRestPlacesAndProductsOnEveryInstructionSet) {
         EXPECT_NEAR(double{out.of[g]}, sum, 1e-4)
             << g << ": " << place_count << ", " << product_count;
       }
-      for (size_t i = kGuardVector; i < kLanes; ++i) EXPECT_EQ(out.of[i], 0) << "beyond the guards";
+      for (size_t i = kGuardVector; i < kCurves; ++i)
+        EXPECT_EQ(out.of[i], 0) << "beyond the guards";
     }
   }
 }

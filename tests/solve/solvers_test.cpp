@@ -200,7 +200,7 @@ struct SpaceCase {
     stack = make_stack(rig.skeleton, {describe(rig.skeleton, space)});
     state = make_state(*stack);
   }
-  void step(float lane, int64_t ticks) { rig.step(*stack, *state, {lane}, ticks); }
+  void step(float curve, int64_t ticks) { rig.step(*stack, *state, {curve}, ticks); }
   Vec3 at() { return vector(rig.model(space.joint) + 12); }
   Rotation turned() { return rotation_of(rig.model(space.joint)); }
 };
@@ -212,16 +212,16 @@ TEST(SpaceSwitch, HoldsTheJointWhereItIsAndEasesItOver) {  // H2
     c.step(0, 0);
     const Vec3 at = c.at();
     const Rotation turned = c.turned();
-    for (float lane : {1.0f, 2.0f, 0.0f}) {  // again while it eases
+    for (float curve : {1.0f, 2.0f, 0.0f}) {  // again while it eases
       const Vec3 last = c.at();
       const Rotation last_turned = c.turned();
       c.rig.pose(seed, 0);
-      c.step(lane, 0);
+      c.step(curve, 0);
       EXPECT_LE(length(c.at() - last), 1e-6 * std::max(1.0, length(last)));
       EXPECT_LE(angle(inverse(last_turned) * c.turned()), 2e-6);
       for (int step = 0; step < 10; ++step) {
         c.rig.pose(seed, 0);
-        c.step(lane, kSecond / 100);
+        c.step(curve, kSecond / 100);
       }
     }
     for (int step = 0; step < 60; ++step) {
@@ -234,12 +234,12 @@ TEST(SpaceSwitch, HoldsTheJointWhereItIsAndEasesItOver) {  // H2
 }
 
 TEST(SpaceSwitch, FollowsItsSpaceAsIfItsParentHungThere) {
-  for (float lane : {0.0f, 1.0f, 2.0f}) {
+  for (float curve : {0.0f, 1.0f, 2.0f}) {
     SpaceCase c(5, 0);
     c.rig.pose(1, 0);
     std::vector<float> posed(size_t{c.rig.joint_count()} * kLocalTransformFloats);
     write_local_transforms(c.rig.skeleton, c.rig.joints(), posed.data());
-    c.step(lane, 0);
+    c.step(curve, 0);
     // Its place in the parent's bind pose, carried by the skin matrix of the space.
     const auto apply = [](const float* m, Vec3 v) {
       return Vec3{m[0] * v.x + m[4] * v.y + m[8] * v.z + m[12],
@@ -248,13 +248,13 @@ TEST(SpaceSwitch, FollowsItsSpaceAsIfItsParentHungThere) {
     };
     const Skeleton& skeleton = c.rig.skeleton;
     const uint16_t parent = skeleton.parents[c.space.joint];
-    const uint16_t space = c.space.spaces[static_cast<size_t>(lane)];
+    const uint16_t space = c.space.spaces[static_cast<size_t>(curve)];
     Vec3 expected = apply(skeleton.bind.data + size_t{parent} * kMatrixFloats,
                           vector(posed.data() + size_t{c.space.joint} * kLocalTransformFloats));
     if (space != kNoSolverJoint) {
       expected = apply(c.rig.joints().skin.data + size_t{space} * kMatrixFloats, expected);
     }
-    EXPECT_NEAR(length(c.at() - expected), 0, 1e-4) << lane;
+    EXPECT_NEAR(length(c.at() - expected), 0, 1e-4) << curve;
   }
 }
 
@@ -273,13 +273,14 @@ TEST(SpaceSwitch, AResetDoesNotEase) {
   EXPECT_GT(length(eased.at() - fresh.at()), 1e-3);
 }
 
-TEST(SpaceSwitch, LanesBeyondTheListTakeItsEnds) {
-  for (float lane : {-3.0f, 7.5f, NAN, INFINITY}) {
+TEST(SpaceSwitch, CurvesBeyondTheListTakeItsEnds) {
+  for (float curve : {-3.0f, 7.5f, NAN, INFINITY}) {
     SpaceCase c(6, 0), expected(6, 0);
     for (SpaceCase* s : {&c, &expected}) s->rig.pose(3, 0);
-    c.step(lane, 0);
-    expected.step(lane > 1 ? 2.0f : 0.0f, 0);
-    EXPECT_EQ(memcmp(c.rig.model(c.space.joint), expected.rig.model(c.space.joint), 64), 0) << lane;
+    c.step(curve, 0);
+    expected.step(curve > 1 ? 2.0f : 0.0f, 0);
+    EXPECT_EQ(memcmp(c.rig.model(c.space.joint), expected.rig.model(c.space.joint), 64), 0)
+        << curve;
   }
 }
 
@@ -533,7 +534,7 @@ TEST(Solvers, ABatchHasTheBitsOfSingleCharacters) {  // H6
   space.spaces[0] = skeleton.parents[aim.joint];
   space.spaces[1] = kNoSolverJoint;
   space.space_count = 2;
-  space.lane = 3;
+  space.curve = 3;
   space.ease_ticks = kSecond / 4;
   const StackHandle stack = make_stack(
       skeleton, {describe(skeleton, space), describe(skeleton, aim), describe(skeleton, spring)});

@@ -37,19 +37,19 @@ struct Sums {
   }
 };
 
-struct PoseLane {
+struct PoseValue {
   uint32_t channel;
   double value;
 };
-using SparsePose = std::vector<PoseLane>;
+using SparsePose = std::vector<PoseValue>;
 
 /// `count` different controls of first ... first + range - 1.
 SparsePose random_pose(Random& random, uint32_t count, uint32_t first, uint32_t range) {
   SparsePose pose;
   while (pose.size() < count) {
     const uint32_t channel = first + random.below(range);
-    const bool there = std::any_of(pose.begin(), pose.end(),
-                                   [&](const PoseLane& lane) { return lane.channel == channel; });
+    const bool there = std::any_of(
+        pose.begin(), pose.end(), [&](const PoseValue& entry) { return entry.channel == channel; });
     if (!there) pose.push_back({channel, random.between(0.15, 1)});
   }
   return pose;
@@ -83,7 +83,8 @@ void add_pose(Sums& sums, const SparsePose& pose, double weight, double begin, d
   for (uint32_t f = first; f < sums.frames && f <= end + release; ++f) {
     const double rise = smooth_step(begin, begin + attack, f);
     const double fall = 1 - smooth_step(end, end + release, f);
-    for (const PoseLane& lane : pose) sums.at(f, lane.channel) += weight * lane.value * rise * fall;
+    for (const PoseValue& entry : pose)
+      sums.at(f, entry.channel) += weight * entry.value * rise * fall;
   }
 }
 
@@ -103,7 +104,8 @@ void add_speech(Sums& sums, Random& random) {
         const double off = (f - center) / reach;
         if (off < -1 || off > 1) continue;
         const double bump = 0.5 + 0.5 * exact_cosine(kPi * off);
-        for (const PoseLane& lane : viseme) sums.at(f, lane.channel) += weight * lane.value * bump;
+        for (const PoseValue& entry : viseme)
+          sums.at(f, entry.channel) += weight * entry.value * bump;
       }
       time += length;
     }
@@ -143,7 +145,7 @@ Curves authored_keys(uint64_t seed, uint32_t frames) {
     const double length = random.between(8, 24);
     const double hold = random.chance(0.5) ? random.between(6, 60) : 0;
     std::fill(next.begin(), next.end(), 0.0);
-    for (const PoseLane& lane : poses[random.below(12)]) next[lane.channel] = lane.value;
+    for (const PoseValue& entry : poses[random.below(12)]) next[entry.channel] = entry.value;
     for (uint32_t c = 0; c < kFaceControls; ++c) {
       const double shift = random.between(-4, 4);
       const auto first = static_cast<uint32_t>(std::max(0.0, time - 4));

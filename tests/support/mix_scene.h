@@ -30,11 +30,11 @@ inline std::vector<float> scene_curves(uint64_t seed, uint32_t raw_count,
                                        const std::vector<uint16_t>& moved, uint32_t frames) {
   Random random = Random::from_seed(seed, 0);
   std::vector<float> values(size_t{raw_count} * frames);
-  for (uint16_t lane : moved) {
+  for (uint16_t curve : moved) {
     const double period = random.between(40, 100), phase = random.real();
     for (uint32_t f = 0; f < frames; ++f) {
       const double t = f / period + phase, x = t - static_cast<double>(static_cast<int64_t>(t));
-      values[size_t{f} * raw_count + lane] = static_cast<float>(16 * x * x * (1 - x) * (1 - x));
+      values[size_t{f} * raw_count + curve] = static_cast<float>(16 * x * x * (1 - x) * (1 - x));
     }
   }
   return values;
@@ -84,18 +84,18 @@ struct SceneClip {
   std::vector<uint16_t> controls_;
 };
 
-/// A guard over lanes of a list, with gains and pairs as those of lips are: a few
-/// millimeters. (On the generated head they have 6 to 21 lanes and at most 7 pairs.)
+/// A guard over curves of a list, with gains and pairs as those of lips are: a few
+/// millimeters. (On the generated head they have 6 to 21 curves and at most 7 pairs.)
 inline Guard scene_guard(uint64_t seed, const std::vector<uint16_t>& moved) {
   Random random = Random::from_seed(seed, 1);
   Guard guard = {};
   guard.count =
-      static_cast<uint32_t>(moved.size() < kMaxGuardLanes ? moved.size() : kMaxGuardLanes);
+      static_cast<uint32_t>(moved.size() < kMaxGuardCurves ? moved.size() : kMaxGuardCurves);
   const auto first = random.below(static_cast<uint32_t>(moved.size()));
   for (uint32_t i = 0; i < guard.count; ++i) {
-    guard.lanes[i] = moved[(first + i) % moved.size()];
+    guard.curves[i] = moved[(first + i) % moved.size()];
     // Falling in size, of either sign.
-    const float size = 8 * (1 - static_cast<float>(i) / kMaxGuardLanes);
+    const float size = 8 * (1 - static_cast<float>(i) / kMaxGuardCurves);
     guard.gains[i] = random.chance(0.3) ? -size : size;
   }
   guard.pair_count = 8;
@@ -104,7 +104,7 @@ inline Guard scene_guard(uint64_t seed, const std::vector<uint16_t>& moved) {
     guard.pairs[i] = {static_cast<uint16_t>(a), static_cast<uint16_t>(b < a ? b : b + 1),
                       static_cast<float>(random.between(-1, 1))};
   }
-  guard.f_on = 200;  // of sums of so many lanes
+  guard.f_on = 200;  // of sums of so many curves
   guard.tolerance = 0.3f;
   return guard;
 }
@@ -114,16 +114,16 @@ struct SceneParts {
   static constexpr uint32_t kClips = 3, kMoods = 4, kPoses = kMoods + 1 + kGlareStrokes;
 
   struct Pose {
-    std::vector<uint16_t> lanes;
+    std::vector<uint16_t> curves;
     std::vector<float> values;
   };
   uint32_t raw_count = 0;
   std::vector<uint16_t> moved;       // raw controls, all of which something moves
   std::vector<float> clips[kClips];  // [frame][raw control]; the third is played as speech
-  std::vector<float> speech_mask;    // [lane]
+  std::vector<float> speech_mask;    // [curve]
   std::vector<uint16_t> channels;    // of the stream
-  std::vector<uint16_t> blinks;      // lanes of the generator
-  std::vector<uint16_t> small;       // lanes of breath and noise
+  std::vector<uint16_t> blinks;      // curves of the generator
+  std::vector<uint16_t> small;       // curves of breath and noise
   Pose poses[kPoses];                // moods, what scales over the guards, the strokes of the glare
   std::vector<Guard> guards;
 };
@@ -133,7 +133,7 @@ inline SceneParts random_scene(uint32_t raws, std::vector<uint16_t> moved = {}) 
   SceneParts parts;
   parts.raw_count = raws;
   for (uint16_t l = 0; moved.size() < raws && moved.size() == l; ++l) moved.push_back(l);
-  const auto lane = [&moved](size_t i) { return moved[i % moved.size()]; };
+  const auto curve = [&moved](size_t i) { return moved[i % moved.size()]; };
   const std::vector<uint16_t> half(moved.begin(),
                                    moved.begin() + static_cast<long>(moved.size() / 2));
   for (uint32_t i = 0; i < SceneParts::kClips; ++i) {
@@ -142,13 +142,13 @@ inline SceneParts random_scene(uint32_t raws, std::vector<uint16_t> moved = {}) 
   for (uint32_t l = 0; l <= raws; ++l) {
     parts.speech_mask.push_back(l % 4 == 0 ? 0.0f : l % 4 == 1 ? 0.5f : 1.0f);
   }
-  for (uint32_t i = 0; i < 20 && i < moved.size(); ++i) parts.channels.push_back(lane(3 * i));
-  parts.blinks = {lane(0), lane(1)};
-  parts.small = {lane(2), lane(3), lane(4), lane(5)};
+  for (uint32_t i = 0; i < 20 && i < moved.size(); ++i) parts.channels.push_back(curve(3 * i));
+  parts.blinks = {curve(0), curve(1)};
+  parts.small = {curve(2), curve(3), curve(4), curve(5)};
   for (uint32_t p = 0; p < SceneParts::kPoses; ++p) {
     for (uint32_t i = 0; i < 12 && i < moved.size(); ++i) {
       const bool variable = i == 0 && p == SceneParts::kPoses - 1;
-      parts.poses[p].lanes.push_back(variable ? static_cast<uint16_t>(raws) : lane(7 * p + i));
+      parts.poses[p].curves.push_back(variable ? static_cast<uint16_t>(raws) : curve(7 * p + i));
       parts.poses[p].values.push_back(0.1f * static_cast<float>(1 + (p + i) % 9));
     }
   }
@@ -175,17 +175,17 @@ struct MixScene {
       clips.emplace_back(parts.clips[i], raw_count, i > 0);
       sources.push_back({i + 1, &clips[i].clip, &clips[i].binding});
     }
-    const uint32_t lanes = raw_count + 1;
-    std::vector<float> amounts(4, 0.5f), lower(lanes, 0.0f), upper(lanes, 1.0f);
+    const uint32_t curves = raw_count + 1;
+    std::vector<float> amounts(4, 0.5f), lower(curves, 0.0f), upper(curves, 1.0f);
     lower[raw_count] = -10, upper[raw_count] = 10;
     std::vector<uint16_t> mirror;
-    for (uint16_t l = 0; l < lanes; ++l) {
+    for (uint16_t l = 0; l < curves; ++l) {
       mirror.push_back(l < raw_count && (l ^ 1u) < raw_count ? l ^ 1 : l);
     }
     std::vector<PoseDesc> poses;
     for (const SceneParts::Pose& pose : parts.poses) {
       poses.push_back(
-          {{pose.lanes.data(), pose.lanes.size()}, {pose.values.data(), pose.values.size()}});
+          {{pose.curves.data(), pose.curves.size()}, {pose.values.data(), pose.values.size()}});
     }
 
     LayerDesc layers[kLayers];
@@ -202,7 +202,7 @@ struct MixScene {
     set(kBreathing, LayerGroup::kLife, BlendMode::kAdd, LayerSource::kGenerator);
     set(kFidget, LayerGroup::kLife, BlendMode::kAdd, LayerSource::kGenerator);
     set(kOverGuards, LayerGroup::kEmotion, BlendMode::kScale, LayerSource::kPoses);
-    layers[kLive].lanes = {parts.channels.data(), parts.channels.size()};
+    layers[kLive].curves = {parts.channels.data(), parts.channels.size()};
     layers[kLive].delay = 50 * kSceneMillisecond;
     layers[kLive].weight = 0.5f;
     layers[kSpeech].mask = {parts.speech_mask.data(), parts.speech_mask.size()};
@@ -216,7 +216,7 @@ struct MixScene {
       LayerDesc& layer = layers[kBlinks + g];
       layer.generator = static_cast<Generator>(g);
       layer.period = kTicksPerSecond * (2 + g);
-      layer.lanes = {generated[g]->data(), generated[g]->size()};
+      layer.curves = {generated[g]->data(), generated[g]->size()};
       layer.amounts = {amounts.data(), generated[g]->size()};
     }
     Stroke strokes[kGlareStrokes];
@@ -352,7 +352,7 @@ struct SceneActor {
     if (random.chance(0.05)) scene_requires(set_level(*mixer, 0, share(), error));
   }
 
-  /// All lanes.
+  /// All curves.
   const float* step(int64_t ticks) {
     step_mixer(*mixer, ticks, nullptr, 0, nullptr);
     return mixer->row.data;

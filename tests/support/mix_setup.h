@@ -25,8 +25,8 @@ struct BoundClip {
   Binding binding = {};
   ClipSource source;
 
-  explicit BoundClip(ClipInput input, uint32_t raw_count, std::vector<uint16_t> lanes = {})
-      : made(std::move(input)), controls_(std::move(lanes)) {
+  explicit BoundClip(ClipInput input, uint32_t raw_count, std::vector<uint16_t> curves = {})
+      : made(std::move(input)), controls_(std::move(curves)) {
     for (uint16_t c = 0, i = 0; c < made.clip.channel_count; ++c) {
       if (controls_.size() <= c) controls_.push_back(c);
       const bool changes = i < made.clip.changing_count && made.clip.changing(i) == c;
@@ -76,10 +76,10 @@ struct MixInput {
     return {rows_.back().data(), rows_.back().size()};
   }
   /// Number of the pose.
-  uint32_t add_pose(std::vector<uint16_t> lanes, Row values) {
-    pose_lanes_.push_back(std::move(lanes));
+  uint32_t add_pose(std::vector<uint16_t> curves, Row values) {
+    pose_curves_.push_back(std::move(curves));
     const Span<const float> kept = keep(std::move(values));
-    poses_.push_back({{pose_lanes_.back().data(), pose_lanes_.back().size()}, kept});
+    poses_.push_back({{pose_curves_.back().data(), pose_curves_.back().size()}, kept});
     return static_cast<uint32_t>(poses_.size() - 1);
   }
   const MixDesc& finish() {
@@ -90,7 +90,7 @@ struct MixInput {
 
  private:
   std::deque<Row> rows_;
-  std::deque<std::vector<uint16_t>> pose_lanes_;
+  std::deque<std::vector<uint16_t>> pose_curves_;
   std::vector<PoseDesc> poses_;
 };
 
@@ -135,11 +135,11 @@ struct OwnMixer {
     EXPECT_EQ(set_pose_weight(mixer, layer, pose, value, ticks, error), Status::kOk)
         << error.message;
   }
-  /// All lanes.
+  /// All curves.
   Row step(int64_t ticks) {
-    Row row(mixer.mix->lane_count);
+    Row row(mixer.mix->curve_count);
     step_mixer(mixer, ticks, row.data(), row.size(), nullptr);
-    row.resize(mixer.mix->used_lanes());
+    row.resize(mixer.mix->used_curves());
     return row;
   }
 };

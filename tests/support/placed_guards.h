@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Guards for rows of all lanes, as tests have them.
+// Guards for rows of all curves, as tests have them.
 #pragma once
 
 #include <vector>
@@ -30,7 +30,7 @@ struct PlacedGuards {
 
   Row row_of(const Row& row) const {
     Row some(table.width);
-    for (size_t i = 0; i < table.lanes.count; ++i) some[i] = row[table.lanes[i]];
+    for (size_t i = 0; i < table.curves.count; ++i) some[i] = row[table.curves[i]];
     return some;
   }
   Row distances(const Row& row) const {
@@ -39,7 +39,7 @@ struct PlacedGuards {
     return Row(all, all + as_given.size());
   }
 
-  /// How far they want each lane back; with a negative activation as active as they find themselves.
+  /// How far they want each curve back; with a negative activation as active as they find themselves.
   Row back(const Row& protected_row, const Row& free_row, float activation) const {
     const Row before = row_of(protected_row), free = row_of(free_row);
     const Row open = distances(protected_row);
@@ -51,7 +51,7 @@ struct PlacedGuards {
     hold_guards(table, before.data(), open.data(), activations.data(), free.data(), some.data(),
                 left.data());
     Row all(free_row.size());
-    for (size_t i = 0; i < table.lanes.count; ++i) all[table.lanes[i]] = some[i];
+    for (size_t i = 0; i < table.curves.count; ++i) all[table.curves[i]] = some[i];
     return all;
   }
 };

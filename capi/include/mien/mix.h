@@ -14,7 +14,7 @@ extern "C" {
 
 /* ---- Mix ------------------------------------------------------------------------------------- */
 
-/* What is mixed for one rig, and how. A row holds one value per lane. The lanes are the raw controls of
+/* What is mixed for one rig, and how. A row holds one value per curve. The curves are the raw controls of
  * the rig, then pose variables: numbers of the caller that are mixed by the same rules (gaze, head turn,
  * breath). Each step of a MienMixer applies the layers in order, then reactions, guards, layers and
  * reactions that act after the guards, antagonists, and limits. docs/mixing.md explains each stage. One
@@ -30,7 +30,7 @@ enum MienLayerGroup {
     MIEN_LAYER_GROUP_LIFE = 4      /* acts after the reactions if no layer of another group follows */
 };
 
-/* How a layer changes a lane: o is the value so far, x the value of the layer, a = weight * mask. Lanes
+/* How a layer changes a curve: o is the value so far, x the value of the layer, a = weight * mask. Curves
  * for which the layer's source has no value do not change. */
 enum MienBlendMode {
     MIEN_BLEND_MODE_OVERRIDE = 0, /* o + a (x - o) */
@@ -51,14 +51,14 @@ enum MienLayerSource {
 /* What a layer generates from the seed of the mixer and the time. */
 enum MienGenerator {
     MIEN_GENERATOR_BLINK = 0,  /* blinks every `period` on average, at least 0.5 s apart. The wait starts
-                                  over when earlier layers raise the first lane above 0.6 */
+                                  over when earlier layers raise the first curve above 0.6 */
     MIEN_GENERATOR_BREATH = 1, /* rises from 0 to 1 in 40 % of the period, then falls back to 0 */
     MIEN_GENERATOR_NOISE = 2,  /* smooth noise between -1 and 1 with a new random value every period */
-    MIEN_GENERATOR_GAZE = 3    /* turns the eyes to a target with saccades, by MienMixDesc.gaze. `lanes` are
-                                  three lanes with the left, up and front of a MienGazeTarget, read after
-                                  the earlier layers, then optionally two lanes that get the part left for
+    MIEN_GENERATOR_GAZE = 3    /* turns the eyes to a target with saccades, by MienMixDesc.gaze. `curves` are
+                                  three curves with the left, up and front of a MienGazeTarget, read after
+                                  the earlier layers, then optionally two curves that get the part left for
                                   the head (MienGazeRest). `amounts` are fixation jitter sideways and up in
-                                  degrees, 0, and factors for the two head lanes. Shifts of 20 degrees or
+                                  degrees, 0, and factors for the two head curves. Shifts of 20 degrees or
                                   more make the blink layers of the mix blink */
 };
 
@@ -66,11 +66,11 @@ enum MienGenerator {
 typedef struct MienMixLayer {
     int64_t period;         /* of a generator, ticks */
     int64_t delay;          /* of a stream, ticks: rows are played this much later than their times */
-    const float* mask;      /* one per lane, 0 to 1; lanes beyond mask_count have 0. NULL: 1 for all */
-    const uint16_t* lanes;  /* the lane of each channel of a stream, or the lanes of a generator */
-    const float* amounts;   /* one per lane of a generator: a factor for its value */
+    const float* mask;      /* one per curve, 0 to 1; curves beyond mask_count have 0. NULL: 1 for all */
+    const uint16_t* curves; /* the curve of each channel of a stream, or the curves of a generator */
+    const float* amounts;   /* one per curve of a generator: a factor for its value */
     uint32_t mask_count;
-    uint32_t lane_count;
+    uint32_t curve_count;
     uint32_t group;         /* MIEN_LAYER_GROUP_... */
     uint32_t mode;          /* MIEN_BLEND_MODE_... */
     uint32_t source;        /* MIEN_LAYER_SOURCE_... */
@@ -83,14 +83,14 @@ typedef struct MienMixLayer {
     uint32_t reserved;      /* 0 */
 } MienMixLayer;
 
-/* A pose: the lanes that it moves, and their values. */
+/* A pose: the curves that it moves, and their values. */
 typedef struct MienMixPose {
-    const uint16_t* lanes;
+    const uint16_t* curves;
     const float* values;
     size_t count;
 } MienMixPose;
 
-/* A part of a reaction: moves the lanes of a pose to its values and back to 0. Times are in ticks. */
+/* A part of a reaction: moves the curves of a pose to its values and back to 0. Times are in ticks. */
 typedef struct MienMixStroke {
     int64_t delay;    /* after the trigger */
     int64_t attack;   /* time to reach strength * pose */
@@ -128,7 +128,7 @@ typedef struct MienMixReaction {
     uint32_t reserved;            /* 0 */
 } MienMixReaction;
 
-/* Two lanes that move the face in opposite directions. If both are above 0, the smaller one times
+/* Two curves that move the face in opposite directions. If both are above 0, the smaller one times
  * stiffness is subtracted from both. */
 typedef struct MienMixAntagonists {
     uint16_t first;
@@ -184,9 +184,9 @@ typedef struct MienMixDesc {
     size_t reaction_count;
     const MienMixAntagonists* antagonists;
     size_t antagonist_count;
-    const uint16_t* mirror;                /* for each lane its counterpart in the other half of the face,
+    const uint16_t* mirror;                /* for each curve its counterpart in the other half of the face,
                                               or itself. NULL: clips cannot be played mirrored */
-    const float* lower;                    /* limits per lane. NULL: none; both or neither */
+    const float* lower;                    /* limits per curve. NULL: none; both or neither */
     const float* upper;
     const MienMixGuard* custom_guards;     /* numbered after the built-in ones; at most 8 guards in total */
     size_t custom_guard_count;
@@ -194,7 +194,7 @@ typedef struct MienMixDesc {
     const MienDeformer* deformer;          /* to measure guards; may be NULL if there are none */
     uint32_t guards;                       /* MIEN_GUARD_... bits; a guard is left out if the rig lacks its
                                               landmarks */
-    uint32_t variable_count;               /* pose variables; at most 4096 lanes with the raw controls */
+    uint32_t variable_count;               /* pose variables; at most 4096 curves with the raw controls */
     uint32_t player_count;                 /* clips that can play at the same time; a crossfade needs two.
                                               0: two for each clip layer */
     uint32_t max_channels;                 /* of any clip. 0: the number of raw controls */
@@ -274,7 +274,7 @@ typedef struct MienMixInfo {
     size_t struct_size;
     uint32_t raw_control_count;
     uint32_t variable_count;
-    uint32_t lane_count;     /* raw controls and pose variables */
+    uint32_t curve_count;    /* raw controls and pose variables */
     uint32_t layer_count;
     uint32_t stage_count;    /* for mien_mixer_stage() */
     uint32_t guard_count;    /* for mien_mixer_set_guard() */
@@ -286,12 +286,12 @@ MIEN_DEFAULT(MienMixInfo, mien_mix_info_default)
 /* Returns the properties of a mix. */
 MIEN_CHECKED MienStatus mien_mix_info(const MienMix* mix, MienMixInfo* out_info);
 
-/* A guard of a mix, as it was measured: the distance in millimeters is `rest`, plus the sum of gain * lane,
- * plus a sum over pairs of lanes that share a corrective. See docs/mixing.md, 4 "Guards". */
+/* A guard of a mix, as it was measured: the distance in millimeters is `rest`, plus the sum of gain * curve,
+ * plus a sum over pairs of curves that share a corrective. See docs/mixing.md, 4 "Guards". */
 typedef struct MienMixGuardInfo {
     size_t struct_size;
-    MienIndex16View lanes; /* raw controls that change the distance, by descending gain */
-    MienFloatView gains;   /* 1 float per lane: millimeters at value 1 */
+    MienIndex16View curves; /* raw controls that change the distance, by descending gain */
+    MienFloatView gains;    /* 1 float per curve: millimeters at value 1 */
     uint32_t pair_count;
     uint32_t needs_speech; /* boolean: as in MienMixGuard */
     float rest;            /* distance of a row of zeros */
@@ -322,22 +322,22 @@ MIEN_CHECKED MienStatus mien_mix_antagonists(const MienRig* rig, MienMixAntagoni
 
 /* Finds the counterparts of raw controls in the other half of the face, for MienMixDesc.mirror. Controls
  * are counterparts if their names differ only in Left and Right (or L and R) and their motions agree, or
- * else if their motions are mirror images. Other controls, and lanes beyond the raw controls, map to
+ * else if their motions are mirror images. Other controls, and curves beyond the raw controls, map to
  * themselves. Evaluates the rig once for each raw control, and takes memory from its allocator during
  * the call.
- * Fails with MIEN_ERROR_MEMORY if that returns NULL, MIEN_ERROR_MISMATCH if `lane_count` is less than the
+ * Fails with MIEN_ERROR_MEMORY if that returns NULL, MIEN_ERROR_MISMATCH if `curve_count` is less than the
  * raw controls, MIEN_ERROR_DNA_LIMIT if raw controls times joints exceed 2^22. */
-MIEN_CHECKED MienStatus mien_mix_mirror(const MienDeformer* deformer, uint16_t* out_lanes,
-                                        size_t lane_count, MienError* error);
+MIEN_CHECKED MienStatus mien_mix_mirror(const MienDeformer* deformer, uint16_t* out_curves,
+                                        size_t curve_count, MienError* error);
 
 /* Computes a mask that selects joint groups: for each raw control the share of its joint motion, at
  * value 1 and LOD 0, that belongs to these groups. A millimeter counts as much as a degree. Controls
- * that move no joint, and lanes beyond the raw controls, get `otherwise_weight`. Evaluates the rig once
+ * that move no joint, and curves beyond the raw controls, get `otherwise_weight`. Evaluates the rig once
  * for each raw control and group, and takes memory from its allocator during the call.
  * Fails with MIEN_ERROR_MEMORY if that returns NULL, MIEN_ERROR_INDEX if a group does not exist,
- * MIEN_ERROR_MISMATCH if `lane_count` is less than the raw controls. */
+ * MIEN_ERROR_MISMATCH if `curve_count` is less than the raw controls. */
 MIEN_CHECKED MienStatus mien_mix_mask(const MienRig* rig, const uint32_t* groups, size_t group_count,
-                                      float otherwise_weight, float* out_mask, size_t lane_count,
+                                      float otherwise_weight, float* out_mask, size_t curve_count,
                                       MienError* error);
 
 /* How to create a gaze. */
@@ -419,7 +419,7 @@ MIEN_API void mien_mixer_destroy(MienMixer* mixer);
 
 /* How a layer changes to another clip. A layer that plays no clip fades in, except with a cut. */
 enum MienTransition {
-    MIEN_TRANSITION_INERTIAL = 0,  /* the old clip stops; each lane blends from its last value and speed */
+    MIEN_TRANSITION_INERTIAL = 0,  /* the old clip stops; each curve blends from its last value and speed */
     MIEN_TRANSITION_CROSSFADE = 1, /* both clips play; MIEN_TRANSITION_INERTIAL if no player is free */
     MIEN_TRANSITION_CUT = 2        /* immediate; transition_ticks is not used */
 };
@@ -548,11 +548,11 @@ MIEN_CHECKED MienStatus mien_mixer_step_batch(MienMixer* const* mixers,
                                               MienInstance* const* instances, size_t count,
                                               int64_t ticks);
 
-/* Returns the row of the last step, one float per lane: raw controls, then pose variables.
+/* Returns the row of the last step, one float per curve: raw controls, then pose variables.
  * Contents change with mien_mixer_step() and mien_mixer_step_batch(). */
 MIEN_CHECKED MienStatus mien_mixer_row(const MienMixer* mixer, MienFloatView* out_row);
 
-/* Returns the row after a stage of the last step, one float per lane. Stages are numbered: the layers,
+/* Returns the row after a stage of the last step, one float per curve. Stages are numbered: the layers,
  * then reactions, guards, antagonists, limits. Layers that act after the reactions or the guards keep
  * their numbers.
  * Fails with MIEN_ERROR_INDEX if the stage does not exist, MIEN_ERROR_INVALID_ARGUMENT if

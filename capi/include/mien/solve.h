@@ -32,8 +32,8 @@ typedef struct MienSolverStack MienSolverStack;
  * about that axis so that `up_axis` comes as near to `up` as possible. Directions may have any length. */
 typedef struct MienAimSolver {
     uint32_t joint;
-    uint32_t target_joint; /* its position is the target. MIEN_NO_JOINT: three lanes of the row are */
-    uint32_t target_lane;  /* first of these three: x y z in model space */
+    uint32_t target_joint; /* its position is the target. MIEN_NO_JOINT: three curves of the row are */
+    uint32_t target_curve; /* first of these three: x y z in model space */
     float axis[3];         /* aim axis, in the space of the joint; not 0 0 0 */
     float up_axis[3];      /* in the space of the joint; 0 0 0: no rotation about the aim axis */
     float up[3];           /* in model space; 0 0 0: 0 1 0 */
@@ -41,13 +41,13 @@ typedef struct MienAimSolver {
     float weight;          /* 0 to 1 */
 } MienAimSolver;
 
-/* Space switch: moves a joint as if its parent were attached to another joint. A lane selects one of the
+/* Space switch: moves a joint as if its parent were attached to another joint. A curve selects one of the
  * spaces. When it changes, the joint stays where it is, and the difference to the new space eases out. */
 typedef struct MienSpaceSolver {
     int64_t ease_ticks;     /* 0 to 2^40 */
     const uint16_t* spaces; /* indices of joints. MIEN_NO_JOINT: model space */
     uint32_t space_count;   /* 1 to 8 */
-    uint32_t lane;          /* of the row: its value, rounded, is an index in `spaces` */
+    uint32_t curve;         /* of the row: its value, rounded, is an index in `spaces` */
     uint32_t joint;
     uint32_t reserved;      /* 0 */
 } MienSpaceSolver;
@@ -92,7 +92,7 @@ typedef struct MienSolverPose {
     const float* models;   /* 16 floats per joint, as in mien_deformer_instance_joint_matrices(); up to
                               date for joints in `reads` */
     const float* previous; /* 16 floats for each joint in `previous_joints`, as the last step left it */
-    const float* row;      /* MienSolverStackDesc.lane_count floats. NULL: there are none */
+    const float* row;      /* MienSolverStackDesc.curve_count floats. NULL: there are none */
     float* outputs;        /* MienUserSolver.output_count floats for the caller to read */
     void* state;           /* MienUserSolver.state_bytes bytes, aligned to 8; initially zero */
     uint32_t lod;
@@ -142,7 +142,7 @@ typedef struct MienSolverStackDesc {
     size_t struct_size;
     const MienSolver* solvers; /* in the order in which they run; at most 256 */
     size_t solver_count;
-    uint32_t lane_count;       /* the rows passed to steps have this many lanes or more. 0: no row */
+    uint32_t curve_count;      /* the rows passed to steps have this many curves or more. 0: no row */
     uint32_t check_writes;     /* boolean: compare all joints before and after each solver, to find
                                   undeclared writes: mien_solver_state_undeclared() */
     const MienAllocator* allocator;
@@ -151,7 +151,7 @@ MIEN_DEFAULT(MienSolverStackDesc, mien_solver_stack_desc_default)
 
 /* Creates a solver stack. `desc` is required. `deformer` may be destroyed before it. Destroy with
  * mien_solver_stack_destroy().
- * Fails with MIEN_ERROR_INDEX if a joint or lane does not exist, MIEN_ERROR_INVALID_ARGUMENT if a number
+ * Fails with MIEN_ERROR_INDEX if a joint or curve does not exist, MIEN_ERROR_INVALID_ARGUMENT if a number
  * is out of range, or if a solver reads a joint that a later one moves; the message names both. */
 MIEN_CHECKED MienStatus mien_solver_stack_create(const MienDeformer* deformer,
                                                  const MienSolverStackDesc* desc,
@@ -165,7 +165,7 @@ MIEN_API void mien_solver_stack_destroy(MienSolverStack* solver_stack);
 typedef struct MienSolverStackInfo {
     size_t struct_size;
     uint32_t solver_count;
-    uint32_t lane_count;
+    uint32_t curve_count;
     uint32_t output_count; /* of all solvers */
     uint32_t joint_count;
     uint64_t state_bytes;  /* memory of a state */
@@ -199,7 +199,7 @@ MIEN_API void mien_solver_state_destroy(MienSolverState* solver_state);
 /* The input of the solvers of one character. */
 typedef struct MienSolverInput {
     const float* row;   /* such as the one from mien_mixer_row(). NULL: none */
-    size_t row_count;   /* at least MienSolverStackDesc.lane_count */
+    size_t row_count;   /* at least MienSolverStackDesc.curve_count */
     uint32_t lod;       /* 0 to 63 */
     uint32_t is_reset;  /* boolean: the character was teleported, so springs come to rest and space
                            switches do not ease */
@@ -209,7 +209,7 @@ typedef struct MienSolverInput {
  * step. `input` may be NULL: no row, LOD 0. `ticks`, the time since the last step, is 0 to
  * 2^40. Does not allocate or lock.
  * Fails with MIEN_ERROR_MISMATCH if instance and stack have different deformers or the row is
- * shorter than MienSolverStackDesc.lane_count, MIEN_ERROR_INVALID_ARGUMENT if `ticks` or the LOD is out of
+ * shorter than MienSolverStackDesc.curve_count, MIEN_ERROR_INVALID_ARGUMENT if `ticks` or the LOD is out of
  * range. */
 MIEN_CHECKED MienStatus mien_solver_state_step(MienSolverState* solver_state,
                                                MienDeformerInstance* deformer_instance,

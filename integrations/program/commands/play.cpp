@@ -60,9 +60,9 @@ std::vector<std::string> split(const std::string& list) {
   return words;
 }
 
-std::vector<uint16_t> watched_lanes(const std::string& names, RigLanes lanes) {
+std::vector<uint16_t> watched_curves(const std::string& names, RigCurves curves) {
   std::vector<uint16_t> watched;
-  for (const std::string& name : split(names)) watched.push_back(lanes.lane(name, "--stages"));
+  for (const std::string& name : split(names)) watched.push_back(curves.curve(name, "--stages"));
   return watched;
 }
 
@@ -203,12 +203,12 @@ void run(const PlayOptions& options, const Session& session) {
   Recording recording;
   recording.rate = rate;
   recording.captions = find_captions(script);
-  recording.watched = watched_lanes(options.stages, performance.lanes());
+  recording.watched = watched_curves(options.stages, performance.curves());
   const bool all = any_ends_with(outputs, ".svg") && recording.watched.empty();
-  const size_t lane_count = performance.lanes().count();
+  const size_t curve_count = performance.curves().count();
   if (all) {
-    for (size_t lane = 0; lane < lane_count; ++lane) {
-      recording.watched.push_back(static_cast<uint16_t>(lane));
+    for (size_t curve = 0; curve < curve_count; ++curve) {
+      recording.watched.push_back(static_cast<uint16_t>(curve));
     }
   }
   std::function<bool(int64_t)> wait;
@@ -217,11 +217,11 @@ void run(const PlayOptions& options, const Session& session) {
     if (real_time) real_time->send(time, row);
     if (outputs.empty()) return;
     recording.times.push_back(time);
-    recording.rows.insert(recording.rows.end(), row, row + lane_count);
-    recording.heads.push_back(performance.lanes().head(row));
+    recording.rows.insert(recording.rows.end(), row, row + curve_count);
+    recording.heads.push_back(performance.curves().head(row));
     std::vector<float> stages;
-    for (uint16_t lane : recording.watched) {
-      const std::vector<float> values = performance.stage_values(lane);
+    for (uint16_t curve : recording.watched) {
+      const std::vector<float> values = performance.stage_values(curve);
       stages.insert(stages.end(), values.begin(), values.end());
     }
     recording.stages.push_back(std::move(stages));
@@ -267,7 +267,7 @@ Command add_play_command(CLI::App& app, const Session& session) {
   play->add_option("RIG", options->rig, "DNA file or baked rig")->type_name("")->required();
   play->add_option(
           "-o,--output", options->outputs,
-          "Files to write; the ending selects the format: .json, .csv,\n.clip, .svg (lanes over "
+          "Files to write; the ending selects the format: .json, .csv,\n.clip, .svg (curves over "
           "time), .glb (animation), .png (contact\nstrip); may be repeated (default: JSON on "
           "standard output)")
       ->type_name("OUT")
@@ -358,7 +358,7 @@ Command add_play_command(CLI::App& app, const Session& session) {
       "channels "
       "with ARKit names drive the controls in the table of docs/face-capture.md.\n\n"
       "Examples:\n"
-      "  mien play scene.json head.dna -o frames.json -o lanes.svg\n"
+      "  mien play scene.json head.dna -o frames.json -o curves.svg\n"
       "  mien play scene.json head.dna | mien eval head.dna --input -\n"
       "  mien play scene.json head.dna -o scene.glb\n"
       "  mien play scene.json head.dna -o strip.png --every 0.1 --target mouth\n"

@@ -61,7 +61,7 @@ RealTime::RealTime(const RealTimeOptions& options, const MienRig* rig, const Ses
         static_cast<int64_t>(stream_.delay * static_cast<double>(MIEN_TICKS_PER_SECOND));
     input_ = std::make_unique<live::LiveInput>(checked_address("--live", options.live, false),
                                                delay, rig, session);
-    stream_.lanes = input_->lanes();
+    stream_.curves = input_->curves();
   }
   interrupted = 0;
   std::signal(SIGINT, note_interrupt);

@@ -85,9 +85,9 @@ void LiveInput::bind(const MienRig* rig, const cli::Session& session) {
   binding_.reset(binding);
   auto info = cli::sized<MienClipBindingInfo>();
   cli::check(mien_clip_binding_info(binding, &info), nullptr, kCannot, to_text(address_));
-  lanes_.assign(info.controls.data, info.controls.data + info.controls.count);
+  curves_.assign(info.controls.data, info.controls.data + info.controls.count);
   raw_.resize(info.raw_control_count);
-  if (lanes_.empty()) {
+  if (curves_.empty()) {
     cli::fail(cli::kInvalid, kCannot, to_text(address_), "the rig has none of the controls",
               "see docs/face-capture.md for the names");
   }
@@ -156,12 +156,12 @@ void LiveInput::use_row(double seconds, const float* values) {
       mien_clip_binding_apply(binding_.get(), values, channels_.size(), raw_.data(), raw_.size()),
       nullptr, kCannot, to_text(address_));
   std::vector<float> row;
-  for (const uint16_t lane : lanes_) {
-    if (!std::isfinite(raw_[lane])) {
+  for (const uint16_t curve : curves_) {
+    if (!std::isfinite(raw_[curve])) {
       ++damaged_;
       return;
     }
-    row.push_back(raw_[lane]);
+    row.push_back(raw_[curve]);
   }
   switch (play_out_.add(ticks_of(seconds), now(), row.data(), row.size())) {
     case PlayOut::Arrival::kKept: break;

@@ -20,7 +20,7 @@ class LiveInput {
   LiveInput(const Address& address, int64_t delay, const MienRig* rig, const cli::Session& session);
 
   /// Raw controls that the source drives, in the order of the rows.
-  const std::vector<uint16_t>& lanes() const { return lanes_; }
+  const std::vector<uint16_t>& curves() const { return curves_; }
 
   /// Begins to count time: tick 0 is now.
   void start();
@@ -46,7 +46,7 @@ class LiveInput {
   std::unique_ptr<VmcDecoder> vmc_;
   std::unique_ptr<MienClipBinding, cli::Destroy<MienClipBinding, mien_clip_binding_destroy>>
       binding_;
-  std::vector<uint16_t> lanes_;
+  std::vector<uint16_t> curves_;
   std::vector<float> raw_;  // all raw controls
   std::chrono::steady_clock::time_point start_;
 

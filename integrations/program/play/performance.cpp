@@ -49,7 +49,7 @@ void checked(MienStatus status, const MienError& error, const std::string& where
 
 Performance::Performance(const Script& script, const MienRig* rig, const MienDeformer* deformer,
                          const StreamScript& stream, const Session& session)
-    : script_(script), stream_(stream), rig_(rig), session_(session), lanes_(rig) {
+    : script_(script), stream_(stream), rig_(rig), session_(session), curves_(rig) {
   MienFloatView initial{};
   check(mien_rig_initial_raw_controls(rig, &initial), nullptr, kCannot, script.shown);
   initial_.assign(initial.data, initial.data + initial.count);
@@ -65,10 +65,10 @@ Performance::Performance(const Script& script, const MienRig* rig, const MienDef
 
 /// One that neither a layer nor a reaction has may be meant for a solver of the host; or it is misspelled.
 void Performance::add_variable(const std::string& name) {
-  const std::vector<std::string>& used = lanes_.variables();
+  const std::vector<std::string>& used = curves_.variables();
   const bool known = std::find(used.begin(), used.end(), name) != used.end() ||
                      std::find(kVariables.begin(), kVariables.end(), name) != kVariables.end();
-  lanes_.variable(name);
+  curves_.variable(name);
   if (known || name.compare(0, 5, "user.") == 0) return;
   note(session_, "the variable \"" + one_line(name) + "\" moves nothing; " +
                      nearest_question(name, kVariables, "variables of your own begin with user."));
@@ -130,14 +130,15 @@ void Performance::find_eyes(const MienDeformer* deformer) {
   const float middle[] = {(left.left + right.left) / 2, (left.up + right.up) / 2,
                           (left.front + right.front) / 2};
   for (size_t i = 0; i < std::size(middle); ++i) {
-    gaze_places_[lanes_.variable(kGazeVariables[i])] = {1000, middle[i]};
+    gaze_places_[curves_.variable(kGazeVariables[i])] = {1000, middle[i]};
   }
 }
 
 /// Values of a scene that a layer blends by `mode`.
-LaneValues Performance::of_mixer(LaneValues values, uint32_t mode, const std::string& where) const {
-  for (size_t i = 0; i < values.lanes.size(); ++i) {
-    const auto found = gaze_places_.find(values.lanes[i]);
+CurveValues Performance::of_mixer(CurveValues values, uint32_t mode,
+                                  const std::string& where) const {
+  for (size_t i = 0; i < values.curves.size(); ++i) {
+    const auto found = gaze_places_.find(values.curves[i]);
     if (found == gaze_places_.end()) continue;
     const GazePlace& place = found->second;
     if (mode != MIEN_BLEND_MODE_ADD && mode != MIEN_BLEND_MODE_OVERRIDE) {
@@ -150,16 +151,16 @@ LaneValues Performance::of_mixer(LaneValues values, uint32_t mode, const std::st
   return values;
 }
 
-float Performance::of_scene(size_t lane, float value) const {
-  const auto found = gaze_places_.find(lane);
+float Performance::of_scene(size_t curve, float value) const {
+  const auto found = gaze_places_.find(curve);
   if (found == gaze_places_.end()) return value;
   return (value - found->second.offset) / found->second.scale;
 }
 
-uint32_t Performance::add_pose(LaneValues values) {
+uint32_t Performance::add_pose(CurveValues values) {
   pose_values_.push_back(std::move(values));
-  const LaneValues& kept = pose_values_.back();
-  poses_.push_back({kept.lanes.data(), kept.values.data(), kept.lanes.size()});
+  const CurveValues& kept = pose_values_.back();
+  poses_.push_back({kept.curves.data(), kept.values.data(), kept.curves.size()});
   return static_cast<uint32_t>(poses_.size() - 1);
 }
 
@@ -176,7 +177,7 @@ void Performance::add_layers() {
     layer.weight = from.weight;
     layer.after_guards = from.after_guards;
     if (from.mask) {
-      parts.mask = lanes_.mask(*from.mask, from.invert_mask, where + ".mask.controls");
+      parts.mask = curves_.mask(*from.mask, from.invert_mask, where + ".mask.controls");
       layer.mask = parts.mask.data();
       layer.mask_count = static_cast<uint32_t>(parts.mask.size());
     }
@@ -186,27 +187,27 @@ void Performance::add_layers() {
       layer.pose_count = static_cast<uint32_t>(from.poses.size());
       for (const PoseScript& pose : from.poses) {
         const std::string name = where + ".source.poses." + pose.name;
-        add_pose(of_mixer(lanes_.lanes(pose.values, name), from.mode, name));
+        add_pose(of_mixer(curves_.curves(pose.values, name), from.mode, name));
       }
     }
     if (from.source == MIEN_LAYER_SOURCE_STREAM) {
-      layer.lanes = stream_.lanes.data();
-      layer.lane_count = static_cast<uint32_t>(stream_.lanes.size());
+      layer.curves = stream_.curves.data();
+      layer.curve_count = static_cast<uint32_t>(stream_.curves.size());
       layer.delay = ticks_of(stream_.delay);
       layer.stream_frames = 256;
     }
     if (is_gaze(from)) {
       for (const char* name : kGazeVariables)
-        parts.generated.lanes.push_back(lanes_.variable(name));
+        parts.generated.curves.push_back(curves_.variable(name));
       parts.generated.values = {from.jitter, from.jitter, 0, 1, 1};
     } else if (from.source == MIEN_LAYER_SOURCE_GENERATOR) {
       const bool blinks = from.generator == MIEN_GENERATOR_BLINK;
       parts.generated = from.controls.empty()
-                            ? lanes_.present(blinks ? kBlinkControls : kBreathControls)
-                            : lanes_.lanes(from.controls, where + ".source.controls");
-      if (parts.generated.lanes.empty() && !blinks)
-        parts.generated = {{lanes_.variable("breath")}, {1}};
-      if (parts.generated.lanes.empty()) {
+                            ? curves_.present(blinks ? kBlinkControls : kBreathControls)
+                            : curves_.curves(from.controls, where + ".source.controls");
+      if (parts.generated.curves.empty() && !blinks)
+        parts.generated = {{curves_.variable("breath")}, {1}};
+      if (parts.generated.curves.empty()) {
         fail(kInvalid, kCannot, where, "the rig has no controls that blink",
              "name them: \"controls\": {NAME: 1}");
       }
@@ -215,9 +216,9 @@ void Performance::add_layers() {
     if (from.source == MIEN_LAYER_SOURCE_GENERATOR) {
       layer.generator = from.generator;
       layer.period = ticks_of(from.period);
-      layer.lanes = parts.generated.lanes.data();
+      layer.curves = parts.generated.curves.data();
       layer.amounts = parts.generated.values.data();
-      layer.lane_count = static_cast<uint32_t>(parts.generated.lanes.size());
+      layer.curve_count = static_cast<uint32_t>(parts.generated.curves.size());
     }
     layers_.push_back(layer);
   }
@@ -244,15 +245,15 @@ void Performance::order_stages() {
 
 /// Light in the eyes: lids, squint, gaze, pupils, head.
 void Performance::add_glare() {
-  LaneValues pupils = lanes_.present(kPupilControls);
-  if (pupils.lanes.empty()) pupils = {{lanes_.variable("pupil")}, {-1}};
-  const LaneValues poses[] = {
-      lanes_.present(kBlinkControls),
-      lanes_.present(kSquintControls),
-      of_mixer({{lanes_.variable("gaze.y")}, {-0.4f}}, MIEN_BLEND_MODE_ADD, script_.shown),
+  CurveValues pupils = curves_.present(kPupilControls);
+  if (pupils.curves.empty()) pupils = {{curves_.variable("pupil")}, {-1}};
+  const CurveValues poses[] = {
+      curves_.present(kBlinkControls),
+      curves_.present(kSquintControls),
+      of_mixer({{curves_.variable("gaze.y")}, {-0.4f}}, MIEN_BLEND_MODE_ADD, script_.shown),
       pupils,
-      {{lanes_.variable("head.turn")}, {0.3f}}};
-  if (poses[0].lanes.empty() && strokes_.empty()) {
+      {{curves_.variable("head.turn")}, {0.3f}}};
+  if (poses[0].curves.empty() && strokes_.empty()) {
     note(session_, "the rig has no controls that blink: a glare does not close the eyes");
   }
   const uint32_t first = add_pose(poses[0]);
@@ -274,9 +275,9 @@ void Performance::make_mix(const MienDeformer* deformer) {
           script_.shown);
   }
   // Tables of GUI controls end in 0 to 1 for every raw control; parts of rotations reach further.
-  std::vector<float> lower(lanes_.count(), -1e6f), upper(lanes_.count(), 1e6f);
-  for (size_t i = 0; i < lanes_.controls().size(); ++i) {
-    const bool rotation = lanes_.controls()[i].find(".q") != std::string::npos;
+  std::vector<float> lower(curves_.count(), -1e6f), upper(curves_.count(), 1e6f);
+  for (size_t i = 0; i < curves_.controls().size(); ++i) {
+    const bool rotation = curves_.controls()[i].find(".q") != std::string::npos;
     lower[i] = rotation ? -1.0f : 0.0f;
     upper[i] = 1;
   }
@@ -293,7 +294,7 @@ void Performance::make_mix(const MienDeformer* deformer) {
   desc.deformer = script_.guards ? deformer : nullptr;
   desc.guards = script_.guards;
   desc.gaze = gaze_.get();
-  desc.variable_count = static_cast<uint32_t>(lanes_.variables().size());
+  desc.variable_count = static_cast<uint32_t>(curves_.variables().size());
   desc.max_events = 1024;
   desc.reverse = 1;
   for (const auto& [path, bound] : clips_) {
@@ -350,9 +351,9 @@ void Performance::play(uint32_t layer, const ClipScript& what, uint32_t transiti
 }
 
 void Performance::start() {
-  for (const auto& [lane, place] : gaze_places_) {
-    const auto variable = static_cast<uint32_t>(lane - lanes_.controls().size());
-    const float ahead = lane == lanes_.variable("gaze.z") ? 1.0f : 0.0f;
+  for (const auto& [curve, place] : gaze_places_) {
+    const auto variable = static_cast<uint32_t>(curve - curves_.controls().size());
+    const float ahead = curve == curves_.variable("gaze.z") ? 1.0f : 0.0f;
     checked(mien_mixer_set_variable(mixer_.get(), variable, ahead * place.scale + place.offset),
             sized<MienError>(), script_.shown);
   }
@@ -411,11 +412,11 @@ void Performance::apply(const EventScript& event) {
       checked(mien_mixer_set_level(mixer, event.target, event.weight), error, event.where);
       break;
     case EventKind::kVariable: {
-      const uint16_t lane = lanes_.variable(event.variable);
+      const uint16_t curve = curves_.variable(event.variable);
       const float value =
-          of_mixer({{lane}, {event.weight}}, MIEN_BLEND_MODE_OVERRIDE, event.where).values[0];
-      checked(mien_mixer_set_variable(mixer, static_cast<uint32_t>(lane - lanes_.controls().size()),
-                                      value),
+          of_mixer({{curve}, {event.weight}}, MIEN_BLEND_MODE_OVERRIDE, event.where).values[0];
+      checked(mien_mixer_set_variable(
+                  mixer, static_cast<uint32_t>(curve - curves_.controls().size()), value),
               error, event.where);
       break;
     }
@@ -448,7 +449,7 @@ void Performance::run(double rate, double seconds, const std::function<bool(int6
                       const std::function<void(size_t, double, const float*)>& use) {
   start();
   const auto frames = static_cast<size_t>(std::floor(seconds * rate + 1e-6)) + 1;
-  std::vector<float> row(lanes_.count());
+  std::vector<float> row(curves_.count());
   size_t next = 0;
   Progress progress(session_, wait ? "playing" : "frame", wait ? 0 : frames);
   for (size_t f = 0; f < frames; ++f) {
@@ -476,12 +477,12 @@ void Performance::run(double rate, double seconds, const std::function<bool(int6
   }
 }
 
-std::vector<float> Performance::stage_values(uint16_t lane) const {
+std::vector<float> Performance::stage_values(uint16_t curve) const {
   std::vector<float> values;
   for (const uint32_t number : stage_numbers_) {
     MienFloatView view{};
     check(mien_mixer_stage(mixer_.get(), number, &view), nullptr, kCannot, script_.shown);
-    values.push_back(of_scene(lane, view.data[lane]));
+    values.push_back(of_scene(curve, view.data[curve]));
   }
   return values;
 }

@@ -10,7 +10,7 @@
 
 #include "integrations/program/io/clip_file.h"
 #include "integrations/program/io/terminal.h"
-#include "integrations/program/play/rig_lanes.h"
+#include "integrations/program/play/rig_curves.h"
 #include "integrations/program/play/script.h"
 
 namespace mien::cli {
@@ -29,7 +29,7 @@ struct FiredEvent {
 
 /// Rows that arrive while a scene plays.
 struct StreamScript {
-  std::vector<uint16_t> lanes;
+  std::vector<uint16_t> curves;
   double delay = 0;  // seconds
 };
 
@@ -53,12 +53,12 @@ class Performance {
   Performance(const Script& script, const MienRig* rig, const MienDeformer* deformer,
               const StreamScript& stream, const Session& session);
 
-  const RigLanes& lanes() const { return lanes_; }
+  const RigCurves& curves() const { return curves_; }
   /// "talk", ..., "reactions", "guards", "antagonists", "limits"
   const std::vector<std::string>& stages() const { return stages_; }
   const std::vector<FiredEvent>& events() const { return events_; }
 
-  /// Calls `use` with each frame: its number, its time and its row, a value per lane. `wait` may be empty;
+  /// Calls `use` with each frame: its number, its time and its row, a value per curve. `wait` may be empty;
   /// it is called with the tick of each frame before anything else is done for it, and ends the run with
   /// false.
   void run(double rate, double seconds, const std::function<bool(int64_t tick)>& wait,
@@ -67,8 +67,8 @@ class Performance {
   /// A row for the live layer.
   void push(int64_t tick, const std::vector<float>& row);
 
-  /// A lane after each stage, while run() calls.
-  std::vector<float> stage_values(uint16_t lane) const;
+  /// A curve after each stage, while run() calls.
+  std::vector<float> stage_values(uint16_t curve) const;
   const std::vector<GuardFacts>& guards() const { return guards_; }
   /// Of each guard, while run() calls.
   std::vector<GuardFrame> guard_frames() const;
@@ -80,7 +80,7 @@ class Performance {
   };
   struct LayerParts {
     std::vector<float> mask;
-    LaneValues generated;
+    CurveValues generated;
   };
   /// Scenes give places in meters from the middle of the eyes, mixers have millimeters of the model.
   struct GazePlace {
@@ -88,9 +88,9 @@ class Performance {
   };
 
   const BoundClip& clip(const std::string& path, const std::string& where);
-  uint32_t add_pose(LaneValues values);
-  LaneValues of_mixer(LaneValues values, uint32_t mode, const std::string& where) const;
-  float of_scene(size_t lane, float value) const;
+  uint32_t add_pose(CurveValues values);
+  CurveValues of_mixer(CurveValues values, uint32_t mode, const std::string& where) const;
+  float of_scene(size_t curve, float value) const;
   void add_variable(const std::string& name);
   void find_eyes(const MienDeformer* deformer);
   void add_layers();
@@ -107,15 +107,15 @@ class Performance {
   const StreamScript& stream_;
   const MienRig* rig_;
   const Session& session_;
-  RigLanes lanes_;
+  RigCurves curves_;
   std::map<std::string, BoundClip> clips_;
-  std::deque<LaneValues> pose_values_;  // where poses point to
+  std::deque<CurveValues> pose_values_;  // where poses point to
   std::deque<LayerParts> parts_;
   std::deque<std::vector<MienMixStroke>> strokes_;
   std::vector<MienMixPose> poses_;
   std::vector<MienMixLayer> layers_;
   std::vector<MienMixReaction> reactions_;
-  std::map<size_t, GazePlace> gaze_places_;  // of lanes; empty: nothing turns the eyes
+  std::map<size_t, GazePlace> gaze_places_;  // of curves; empty: nothing turns the eyes
   std::vector<float> initial_;               // raw controls that are not 0 at the beginning
   std::vector<std::string> stages_;
   std::vector<uint32_t> stage_numbers_;  // of each, for mien_mixer_stage()

@@ -9,17 +9,17 @@
 #include "integrations/program/io/frame_rate.h"
 #include "integrations/program/io/json_writer.h"
 #include "integrations/program/io/text.h"
-#include "integrations/program/play/lanes_svg.h"
+#include "integrations/program/play/curves_svg.h"
 
 namespace mien::cli {
 
 namespace {
 
-bool knows(const GuardFacts& guard, uint16_t lane) {
-  return std::find(guard.controls.begin(), guard.controls.end(), lane) != guard.controls.end();
+bool knows(const GuardFacts& guard, uint16_t curve) {
+  return std::find(guard.controls.begin(), guard.controls.end(), curve) != guard.controls.end();
 }
 
-/// Guards that had something to hold back in a frame, of those that know a watched lane.
+/// Guards that had something to hold back in a frame, of those that know a watched curve.
 void write_guards(const Performance& performance, const Recording& recording, size_t frame,
                   JsonWriter& json) {
   const std::vector<GuardFacts>& guards = performance.guards();
@@ -27,7 +27,7 @@ void write_guards(const Performance& performance, const Recording& recording, si
   json.begin_object();
   for (size_t g = 0; g < guards.size(); ++g) {
     const GuardFrame& state = recording.guards[frame][g];
-    const auto known = [&](uint16_t lane) { return knows(guards[g], lane); };
+    const auto known = [&](uint16_t curve) { return knows(guards[g], curve); };
     if (!state.acts() || std::none_of(recording.watched.begin(), recording.watched.end(), known)) {
       continue;
     }
@@ -46,18 +46,18 @@ void write_guards(const Performance& performance, const Recording& recording, si
   json.end_object();
 }
 
-/// The guards that held a lane back, as words below its name.
+/// The guards that held a curve back, as words below its name.
 std::string holders(const Performance& performance, const Recording& recording, size_t watched) {
   const std::vector<std::string>& stages = performance.stages();
   const auto at = std::find(stages.begin(), stages.end(), "guards");
   const auto stage = static_cast<size_t>(at - stages.begin());
   if (stage == 0 || at == stages.end()) return "";
-  const uint16_t lane = recording.watched[watched];
+  const uint16_t curve = recording.watched[watched];
   std::string text;
   for (size_t g = 0; g < performance.guards().size(); ++g) {
     const GuardFacts& guard = performance.guards()[g];
     bool held = false;
-    for (size_t f = 0; f < recording.times.size() && !held && knows(guard, lane); ++f) {
+    for (size_t f = 0; f < recording.times.size() && !held && knows(guard, curve); ++f) {
       const float* values = &recording.stages[f][watched * stages.size()];
       held = values[stage] != values[stage - 1] && recording.guards[f][g].acts();
     }
@@ -69,9 +69,9 @@ std::string holders(const Performance& performance, const Recording& recording, 
 }  // namespace
 
 Frame Recording::shown_frame(size_t number, size_t raw_count) const {
-  const size_t lane_count = rows.size() / times.size();
+  const size_t curve_count = rows.size() / times.size();
   Frame frame;
-  for (uint32_t i = 0; i < raw_count; ++i) frame.raw.push_back({i, rows[number * lane_count + i]});
+  for (uint32_t i = 0; i < raw_count; ++i) frame.raw.push_back({i, rows[number * curve_count + i]});
   if (!heads.empty()) frame.head = heads[number];
   return frame;
 }
@@ -79,8 +79,8 @@ Frame Recording::shown_frame(size_t number, size_t raw_count) const {
 void write_json(const std::string& rig_name, const Performance& performance,
                 const Recording& recording, bool stages, Output& output) {
   const std::vector<uint16_t>& watched = recording.watched;
-  const RigLanes& lanes = performance.lanes();
-  const size_t controls = lanes.controls().size(), count = lanes.count();
+  const RigCurves& curves = performance.curves();
+  const size_t controls = curves.controls().size(), count = curves.count();
   JsonWriter json(output);
   using Layout = JsonWriter::Layout;
   const auto list = [&](const char* key, const std::vector<std::string>& names) {
@@ -93,8 +93,8 @@ void write_json(const std::string& rig_name, const Performance& performance,
   json.member("rig", rig_name);
   json.key("rate");
   json.shortest(recording.rate);
-  list("controls", lanes.controls());
-  list("variables", lanes.variables());
+  list("controls", curves.controls());
+  list("variables", curves.variables());
   json.key("events");
   json.begin_array(Layout::kLines);
   for (const FiredEvent& event : performance.events()) {
@@ -124,8 +124,8 @@ void write_json(const std::string& rig_name, const Performance& performance,
       json.key("stages");
       json.begin_object();
       for (size_t w = 0; w < watched.size(); ++w) {
-        json.key(watched[w] < controls ? short_name(lanes.controls()[watched[w]])
-                                       : lanes.variables()[watched[w] - controls]);
+        json.key(watched[w] < controls ? short_name(curves.controls()[watched[w]])
+                                       : curves.variables()[watched[w] - controls]);
         json.begin_array();
         for (size_t s = 0; s < stage_count; ++s) {
           json.begin_array();
@@ -146,9 +146,9 @@ void write_json(const std::string& rig_name, const Performance& performance,
 }
 
 void write_csv(const Performance& performance, const Recording& recording, Output& output) {
-  const RigLanes& lanes = performance.lanes();
+  const RigCurves& curves = performance.curves();
   std::string text = "time";
-  for (const std::string& name : lanes.controls()) text += "," + csv_field(name);
+  for (const std::string& name : curves.controls()) text += "," + csv_field(name);
   text += "\n";
   char digits[64];
   const auto append = [&](auto number) {
@@ -156,9 +156,9 @@ void write_csv(const Performance& performance, const Recording& recording, Outpu
   };
   for (size_t f = 0; f < recording.times.size(); ++f) {
     append(recording.times[f]);
-    for (size_t c = 0; c < lanes.controls().size(); ++c) {
+    for (size_t c = 0; c < curves.controls().size(); ++c) {
       text += ',';
-      append(recording.rows[f * lanes.count() + c]);
+      append(recording.rows[f * curves.count() + c]);
     }
     text += '\n';
     output.write(text);
@@ -168,9 +168,9 @@ void write_csv(const Performance& performance, const Recording& recording, Outpu
 
 void write_clip(const Performance& performance, const Recording& recording,
                 const std::string& shown, Output& output) {
-  const RigLanes& lanes = performance.lanes();
+  const RigCurves& curves = performance.curves();
   std::vector<MienStringView> names;
-  for (const std::string& name : lanes.controls()) names.push_back({name.data(), name.size()});
+  for (const std::string& name : curves.controls()) names.push_back({name.data(), name.size()});
   const Rate fraction = nearest_rate(recording.rate, 1e-9);
   auto desc = sized<MienClipDesc>();
   desc.rate_numerator = fraction.numerator;
@@ -179,7 +179,7 @@ void write_clip(const Performance& performance, const Recording& recording,
   desc.channel_count = static_cast<uint32_t>(names.size());
   desc.names = names.data();
   desc.values = recording.rows.data();
-  desc.frame_stride = lanes.count();
+  desc.frame_stride = curves.count();
   auto error = sized<MienError>();
   MienClip* made = nullptr;
   check(mien_clip_build(&desc, &made, &error), &error, "cannot build clip", shown);
@@ -195,7 +195,7 @@ void write_clip(const Performance& performance, const Recording& recording,
 
 void keep_moving(const Performance& performance, Recording& recording) {
   std::vector<uint16_t>& watched = recording.watched;
-  const size_t stage_count = performance.stages().size(), count = performance.lanes().count();
+  const size_t stage_count = performance.stages().size(), count = performance.curves().count();
   std::vector<size_t> kept;
   for (size_t w = 0; w < watched.size(); ++w) {
     bool moves = false;
@@ -219,17 +219,17 @@ void keep_moving(const Performance& performance, Recording& recording) {
 
 void write_svg(const Performance& performance, const Recording& recording, Output& output) {
   const std::vector<uint16_t>& watched = recording.watched;
-  const RigLanes& lanes = performance.lanes();
+  const RigCurves& curves = performance.curves();
   const size_t frames = recording.times.size(), stage_count = performance.stages().size();
-  std::vector<LanePlot> plots;
+  std::vector<CurvePlot> plots;
   for (size_t w = 0; w < watched.size(); ++w) {
-    const size_t lane = watched[w], controls = lanes.controls().size();
-    LanePlot plot;
-    plot.name = lane < controls ? std::string(short_name(lanes.controls()[lane]))
-                                : lanes.variables()[lane - controls];
+    const size_t curve = watched[w], controls = curves.controls().size();
+    CurvePlot plot;
+    plot.name = curve < controls ? std::string(short_name(curves.controls()[curve]))
+                                 : curves.variables()[curve - controls];
     plot.stages.assign(stage_count, std::vector<float>(frames));
     for (size_t f = 0; f < frames; ++f) {
-      plot.values.push_back(recording.rows[f * lanes.count() + lane]);
+      plot.values.push_back(recording.rows[f * curves.count() + curve]);
       for (size_t s = 0; s < stage_count; ++s) {
         plot.stages[s][f] = recording.stages[f][w * stage_count + s];
       }
@@ -252,7 +252,7 @@ void write_svg(const Performance& performance, const Recording& recording, Outpu
     if (acts) guards.push_back(std::move(plot));
   }
   output.write(
-      lanes_svg(plots, performance.stages(), guards, recording.captions, recording.times.back()));
+      curves_svg(plots, performance.stages(), guards, recording.captions, recording.times.back()));
 }
 
 }  // namespace mien::cli

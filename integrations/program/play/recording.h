@@ -14,28 +14,28 @@ namespace mien::cli {
 struct Recording {
   double rate = 60;
   std::vector<double> times;
-  std::vector<float> rows;                      // [frame][lane]
-  std::vector<uint16_t> watched;                // lanes with stages
-  std::vector<std::vector<float>> stages;       // [frame][watched lane * stages + stage]
+  std::vector<float> rows;                      // [frame][curve]
+  std::vector<uint16_t> watched;                // curves with stages
+  std::vector<std::vector<float>> stages;       // [frame][watched curve * stages + stage]
   std::vector<std::vector<GuardFrame>> guards;  // [frame][guard]
   Captions captions;
   std::vector<HeadPose> heads;  // of each frame, or empty
 
-  /// What images and GLB files show of a frame; `raw` are the first of its lanes.
+  /// What images and GLB files show of a frame; `raw` are the first of its curves.
   Frame shown_frame(size_t number, size_t raw_count) const;
 };
 
-/// Drops the watched lanes that stay as they are, with their stages.
+/// Drops the watched curves that stay as they are, with their stages.
 void keep_moving(const Performance& performance, Recording& recording);
 
-/// Frames as `mien eval` takes them. `stages`: those of the watched lanes as well.
+/// Frames as `mien eval` takes them. `stages`: those of the watched curves as well.
 void write_json(const std::string& rig_name, const Performance& performance,
                 const Recording& recording, bool stages, Output& output);
 void write_csv(const Performance& performance, const Recording& recording, Output& output);
 /// `shown` is for messages.
 void write_clip(const Performance& performance, const Recording& recording,
                 const std::string& shown, Output& output);
-/// The watched lanes over time.
+/// The watched curves over time.
 void write_svg(const Performance& performance, const Recording& recording, Output& output);
 
 }  // namespace mien::cli

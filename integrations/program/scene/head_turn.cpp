@@ -92,7 +92,7 @@ HeadTurn::HeadTurn(const MienRig* rig, const MienDeformer* deformer, const std::
   auto desc = sized<MienSolverStackDesc>();
   desc.solvers = &entry;
   desc.solver_count = 1;
-  desc.lane_count = 2;
+  desc.curve_count = 2;
   auto error = sized<MienError>();
   MienSolverStack* stack = nullptr;
   check(mien_solver_stack_create(deformer, &desc, &stack, &error), &error, kCannot, shown);

@@ -217,7 +217,7 @@ class PlayTest(unittest.TestCase):
         self.assertEqual([jaws[2][0], jaws[2][4]], [0.5, 0.5], "in the pauses")
         self.assertLess(max(jaws[2][1:4]), 0.05, "in the M")
 
-    def test_a_guard_tells_why_it_holds_a_lane_back(self):
+    def test_a_guard_tells_why_it_holds_a_curve_back(self):
         scene = load(os.path.join(here, "../../../examples/scene.json"))
         played = self.play(scene, "--stages", "jawOpen", "-o", path("why.json"), "-o", path("why.svg"))
         self.assertIsNone(played)

@@ -18,14 +18,14 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[3]
 RECIPE = re.compile(r"### ([^\n]+)\n(?:(?!###)[\s\S])*?```json\n([\s\S]*?)```\s*```c\n([\s\S]*?)```")
 CONTROLS = ["jawOpen", "mouthSmileLeft", "browInnerUp", "eyeBlinkLeft"]
-LANES = 52  # of the head
+CURVES = 52  # of the head
 
 BEFORE = r"""
 #include <mien.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-enum { LANES = %d };
+enum { CURVES = %d };
 static MienError error = {.struct_size = sizeof error};
 static MienRig* rig;
 static MienDeformer* deformer;
@@ -38,7 +38,7 @@ static void check(MienStatus status) {
     fprintf(stderr, "%%s: %%s\n", mien_status_name(status), error.message);
     exit(1);
 }
-static uint16_t lane(const char* name) {
+static uint16_t curve(const char* name) {
     uint32_t index;
     check(mien_rig_find(rig, MIEN_KIND_RAW_CONTROL, name, &index));
     return (uint16_t)index;
@@ -65,7 +65,7 @@ static void until(double time) {
         step_to(seconds(frame / 60.0));
         check(mien_mixer_row(mixer, &row));
         for (size_t i = 0; i < sizeof shown / sizeof *shown; ++i)
-            printf("%%.9g ", (double)row.data[lane(shown[i])]);
+            printf("%%.9g ", (double)row.data[curve(shown[i])]);
         printf("\n");
     }
     step_to(seconds(time));
@@ -122,7 +122,7 @@ int main(int argc, char** argv) {
 
 def program_of(blocks):
     """All recipes in C, one after the other."""
-    text = BEFORE % (LANES, ", ".join(f'"{name}"' for name in CONTROLS))
+    text = BEFORE % (CURVES, ", ".join(f'"{name}"' for name in CONTROLS))
     for number, block in enumerate(blocks):
         description, actions = block.split("\n\n", 1)
         poses = "desc.poses = poses;\n    desc.pose_count = sizeof poses / sizeof *poses;" \
@@ -213,7 +213,7 @@ class Recipes(unittest.TestCase):
         free = self.play({**scene, "guards": []})
         self.assertGreater(free["jawOpen"][38], 0.25)  # so the test can fail
 
-    def test_lanes_have_one_source(self):
+    def test_curves_have_one_source(self):
         rows = self.of("Upper face from tracking, mouth from visemes")
         for frame in range(121):
             self.assertAlmostEqual(rows["jawOpen"][frame], self.talk[frame], 6)

@@ -470,8 +470,8 @@ class LayerGroup(IntEnum):
 
 
 class BlendMode(IntEnum):
-    """How a layer changes a lane: o is the value so far, x the value of the layer, a = weight *
-    mask. Lanes for which the layer's source has no value do not change.
+    """How a layer changes a curve: o is the value so far, x the value of the layer, a = weight *
+    mask. Curves for which the layer's source has no value do not change.
     """
 
     #: o + a (x - o)
@@ -503,17 +503,17 @@ class Generator(IntEnum):
     """What a layer generates from the seed of the mixer and the time."""
 
     #: blinks every `period` on average, at least 0.5 s apart. The wait starts over when earlier
-    #: layers raise the first lane above 0.6
+    #: layers raise the first curve above 0.6
     BLINK = 0
     #: rises from 0 to 1 in 40 % of the period, then falls back to 0
     BREATH = 1
     #: smooth noise between -1 and 1 with a new random value every period
     NOISE = 2
-    #: turns the eyes to a target with saccades, by MienMixDesc.gaze. `lanes` are three lanes with
-    #: the left, up and front of a MienGazeTarget, read after the earlier layers, then optionally
-    #: two lanes that get the part left for the head (MienGazeRest). `amounts` are fixation jitter
-    #: sideways and up in degrees, 0, and factors for the two head lanes. Shifts of 20 degrees or
-    #: more make the blink layers of the mix blink
+    #: turns the eyes to a target with saccades, by MienMixDesc.gaze. `curves` are three curves
+    #: with the left, up and front of a MienGazeTarget, read after the earlier layers, then
+    #: optionally two curves that get the part left for the head (MienGazeRest). `amounts` are
+    #: fixation jitter sideways and up in degrees, 0, and factors for the two head curves. Shifts
+    #: of 20 degrees or more make the blink layers of the mix blink
     GAZE = 3
 
 
@@ -545,7 +545,7 @@ class Transition(IntEnum):
     """How a layer changes to another clip. A layer that plays no clip fades in, except with a cut.
     """
 
-    #: the old clip stops; each lane blends from its last value and speed
+    #: the old clip stops; each curve blends from its last value and speed
     INERTIAL = 0
     #: both clips play; Transition.INERTIAL if no player is free
     CROSSFADE = 1
@@ -1746,10 +1746,10 @@ class MienMixLayer(Structure):
         ("period", c_int64),
         ("delay", c_int64),
         ("mask", c_void_p),
-        ("lanes", c_void_p),
+        ("curves", c_void_p),
         ("amounts", c_void_p),
         ("mask_count", c_uint32),
-        ("lane_count", c_uint32),
+        ("curve_count", c_uint32),
         ("group", c_uint32),
         ("mode", c_uint32),
         ("source", c_uint32),
@@ -1764,10 +1764,10 @@ class MienMixLayer(Structure):
     period: Any
     delay: Any
     mask: Any
-    lanes: Any
+    curves: Any
     amounts: Any
     mask_count: Any
-    lane_count: Any
+    curve_count: Any
     group: Any
     mode: Any
     source: Any
@@ -1782,11 +1782,11 @@ class MienMixLayer(Structure):
 
 class MienMixPose(Structure):
     _fields_ = [
-        ("lanes", c_void_p),
+        ("curves", c_void_p),
         ("values", c_void_p),
         ("count", c_size_t),
     ]
-    lanes: Any
+    curves: Any
     values: Any
     count: Any
 
@@ -2005,7 +2005,7 @@ class MienMixInfo(Structure):
         ("struct_size", c_size_t),
         ("raw_control_count", c_uint32),
         ("variable_count", c_uint32),
-        ("lane_count", c_uint32),
+        ("curve_count", c_uint32),
         ("layer_count", c_uint32),
         ("stage_count", c_uint32),
         ("guard_count", c_uint32),
@@ -2015,7 +2015,7 @@ class MienMixInfo(Structure):
     struct_size: Any
     raw_control_count: Any
     variable_count: Any
-    lane_count: Any
+    curve_count: Any
     layer_count: Any
     stage_count: Any
     guard_count: Any
@@ -2029,7 +2029,7 @@ class MienMixInfo(Structure):
 class MienMixGuardInfo(Structure):
     _fields_ = [
         ("struct_size", c_size_t),
-        ("lanes", MienIndex16View),
+        ("curves", MienIndex16View),
         ("gains", MienFloatView),
         ("pair_count", c_uint32),
         ("needs_speech", c_uint32),
@@ -2039,7 +2039,7 @@ class MienMixGuardInfo(Structure):
         ("fit_error", c_float),
     ]
     struct_size: Any
-    lanes: Any
+    curves: Any
     gains: Any
     pair_count: Any
     needs_speech: Any
@@ -2239,7 +2239,7 @@ class MienAimSolver(Structure):
     _fields_ = [
         ("joint", c_uint32),
         ("target_joint", c_uint32),
-        ("target_lane", c_uint32),
+        ("target_curve", c_uint32),
         ("axis", c_float * 3),
         ("up_axis", c_float * 3),
         ("up", c_float * 3),
@@ -2248,7 +2248,7 @@ class MienAimSolver(Structure):
     ]
     joint: Any
     target_joint: Any
-    target_lane: Any
+    target_curve: Any
     axis: Any
     up_axis: Any
     up: Any
@@ -2261,14 +2261,14 @@ class MienSpaceSolver(Structure):
         ("ease_ticks", c_int64),
         ("spaces", c_void_p),
         ("space_count", c_uint32),
-        ("lane", c_uint32),
+        ("curve", c_uint32),
         ("joint", c_uint32),
         ("reserved", c_uint32),
     ]
     ease_ticks: Any
     spaces: Any
     space_count: Any
-    lane: Any
+    curve: Any
     joint: Any
     reserved: Any
 
@@ -2411,27 +2411,27 @@ class MienSolverStackDesc(Structure):
         ("struct_size", c_size_t),
         ("solvers", POINTER(MienSolver)),
         ("solver_count", c_size_t),
-        ("lane_count", c_uint32),
+        ("curve_count", c_uint32),
         ("check_writes", c_uint32),
         ("allocator", POINTER(MienAllocator)),
     ]
     struct_size: Any
     solvers: Any
     solver_count: Any
-    lane_count: Any
+    curve_count: Any
     check_writes: Any
     allocator: Any
 
     def __init__(self, *,
                  solvers: Any = None,
                  solver_count: int = 0,
-                 lane_count: int = 0,
+                 curve_count: int = 0,
                  check_writes: bool = False,
                  allocator: Any = None) -> None:
         super().__init__(40)
         self.solvers = solvers
         self.solver_count = solver_count
-        self.lane_count = lane_count
+        self.curve_count = curve_count
         self.check_writes = check_writes
         self.allocator = allocator
 
@@ -2440,14 +2440,14 @@ class MienSolverStackInfo(Structure):
     _fields_ = [
         ("struct_size", c_size_t),
         ("solver_count", c_uint32),
-        ("lane_count", c_uint32),
+        ("curve_count", c_uint32),
         ("output_count", c_uint32),
         ("joint_count", c_uint32),
         ("state_bytes", c_uint64),
     ]
     struct_size: Any
     solver_count: Any
-    lane_count: Any
+    curve_count: Any
     output_count: Any
     joint_count: Any
     state_bytes: Any
@@ -3165,7 +3165,7 @@ class ClipPlayerInfo(NamedTuple):
 class MixInfo(NamedTuple):
     """Properties of a mix.
 
-      lane_count: raw controls and pose variables
+      curve_count: raw controls and pose variables
       stage_count: for mien_mixer_stage()
       guard_count: for mien_mixer_set_guard()
       mixer_bytes: memory of a mixer without MienMixerDesc.stages
@@ -3174,7 +3174,7 @@ class MixInfo(NamedTuple):
 
     raw_control_count: int
     variable_count: int
-    lane_count: int
+    curve_count: int
     layer_count: int
     stage_count: int
     guard_count: int
@@ -3183,7 +3183,7 @@ class MixInfo(NamedTuple):
 
     @classmethod
     def _of(cls, c: MienMixInfo) -> MixInfo:
-        return cls(c.raw_control_count, c.variable_count, c.lane_count, c.layer_count,
+        return cls(c.raw_control_count, c.variable_count, c.curve_count, c.layer_count,
                    c.stage_count, c.guard_count, c.mixer_bytes, c.snapshot_bytes)
 
 
@@ -3212,14 +3212,14 @@ class SolverStackInfo(NamedTuple):
     """
 
     solver_count: int
-    lane_count: int
+    curve_count: int
     output_count: int
     joint_count: int
     state_bytes: int
 
     @classmethod
     def _of(cls, c: MienSolverStackInfo) -> SolverStackInfo:
-        return cls(c.solver_count, c.lane_count, c.output_count, c.joint_count, c.state_bytes)
+        return cls(c.solver_count, c.curve_count, c.output_count, c.joint_count, c.state_bytes)
 
 
 # Why functions fail, beyond what the package checks: (status, condition).
@@ -4071,7 +4071,7 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
     "mien_mix_antagonists": (),
     "mien_mix_mirror": (
         (Status.MISMATCH,
-         "`lane_count` is less than the raw controls"),
+         "`curve_count` is less than the raw controls"),
         (Status.MEMORY,
          "that returns NULL"),
         (Status.DNA_LIMIT,
@@ -4079,7 +4079,7 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
     ),
     "mien_mix_mask": (
         (Status.MISMATCH,
-         "`lane_count` is less than the raw controls"),
+         "`curve_count` is less than the raw controls"),
         (Status.INDEX,
          "a group does not exist"),
         (Status.MEMORY,
@@ -4216,7 +4216,7 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
          "a number is out of range, or if a solver reads a joint that a later one moves;"
          " the message names both"),
         (Status.INDEX,
-         "a joint or lane does not exist"),
+         "a joint or curve does not exist"),
         (Status.MEMORY,
          "there is no memory"),
     ),
@@ -4232,14 +4232,14 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
          "`ticks` or the LOD is out of range"),
         (Status.MISMATCH,
          "instance and stack have different deformers or the row is shorter than "
-         "MienSolverStackDesc.lane_count"),
+         "MienSolverStackDesc.curve_count"),
     ),
     "mien_solver_state_step_batch": (
         (Status.INVALID_ARGUMENT,
          "`ticks` or the LOD is out of range"),
         (Status.MISMATCH,
          "instance and stack have different deformers or the row is shorter than "
-         "MienSolverStackDesc.lane_count; or the states have different stacks"),
+         "MienSolverStackDesc.curve_count; or the states have different stacks"),
     ),
     "mien_solver_state_outputs": (
         (Status.INDEX,

@@ -34,11 +34,11 @@ class Mix(MixView):
         mixer.set_pose_weight(1, 0, 0.7, mien.ticks(0.4))
         mixer.step(mien.ticks(1 / 60), face)      # then face.evaluate()
 
-    variables:   names of pose variables, lanes behind the raw controls
+    variables:   names of pose variables, curves behind the raw controls
     antagonists: such as `Mix.find_antagonists(rig)`
-    mirror:      per lane its counterpart, such as of `Mix.find_mirror(deformer)`; None: nothing can
+    mirror:      per curve its counterpart, such as of `Mix.find_mirror(deformer)`; None: nothing can
                  be played mirrored
-    limits:      (lower, upper), one number for all lanes or one for each; None: none
+    limits:      (lower, upper), one number for all curves or one for each; None: none
     guards:      `Guard` bits; measured on `deformer`, which takes time
     custom_guards: more of them, for landmarks of yours
     gaze:        for a layer of `MixLayer.gaze`
@@ -58,7 +58,7 @@ class Mix(MixView):
         lists = Lists(rig, variables)
         layer_list = [lists.layer(layer) for layer in layers]
         reaction_list = [lists.reaction(reaction) for reaction in reactions]
-        pairs = [_api.MienMixAntagonists(first=lists.lane(a), second=lists.lane(b),
+        pairs = [_api.MienMixAntagonists(first=lists.curve(a), second=lists.curve(b),
                                          stiffness=stiffness) for a, b, stiffness in antagonists]
         guard_list = [lists.guard(guard) for guard in custom_guards]
         desc = _api.MienMixDesc(
@@ -75,7 +75,7 @@ class Mix(MixView):
             max_changing_channels=uint32(max_changing_channels, "max_changing_channels"),
             max_events=uint32(max_events, "max_events"), reverse=bool(reverse))
         if mirror is not None:
-            desc.mirror = lists.lanes(full(list(mirror), lists.lane_count, "mirror"))
+            desc.mirror = lists.curves(full(list(mirror), lists.curve_count, "mirror"))
         if limits is not None:
             lower, upper = limits
             desc.lower = lists.limit(lower)
@@ -168,25 +168,25 @@ class Mix(MixView):
 
     @staticmethod
     @raises("mien_mix_mirror")
-    def find_mirror(deformer: Deformer, lane_count: int) -> List[int]:
-        """For each lane its counterpart in the other half of the face, or itself."""
-        lanes, error = (ctypes.c_uint16 * index(lane_count))(), MienError()
-        status = lib.mien_mix_mirror(deformer._open(), lanes, len(lanes), _byref(error))
+    def find_mirror(deformer: Deformer, curve_count: int) -> List[int]:
+        """For each curve its counterpart in the other half of the face, or itself."""
+        curves, error = (ctypes.c_uint16 * index(curve_count))(), MienError()
+        status = lib.mien_mix_mirror(deformer._open(), curves, len(curves), _byref(error))
         if status:
             fail(status, "no mirror map", error)
-        return list(lanes)
+        return list(curves)
 
     @staticmethod
     @raises("mien_mix_mask")
-    def find_mask(rig: Rig, groups: Iterable[int], lane_count: int, otherwise: float = 0.0) -> Any:
+    def find_mask(rig: Rig, groups: Iterable[int], curve_count: int, otherwise: float = 0.0) -> Any:
         """For each raw control the share of its joint motion that belongs to some joint groups,
         float32; `otherwise` for those that move no joint, and for pose variables."""
         numbers = [uint32(group, "group") for group in groups]
         list_of_groups = (ctypes.c_uint32 * len(numbers))(*numbers)
-        values, address = new_array("f", index(lane_count))
+        values, address = new_array("f", index(curve_count))
         error = MienError()
         status = lib.mien_mix_mask(rig._open(), list_of_groups, len(numbers), otherwise, address,
-                                   index(lane_count), _byref(error))
+                                   index(curve_count), _byref(error))
         if status:
             fail(status, "no mask", error)
         return values

@@ -16,10 +16,10 @@ from .rig import Rig
 
 _byref = ctypes.byref
 
-#: A raw control or pose variable: its name, or its number among the lanes.
-Lane = Union[str, int]
-#: Values of the lanes that a pose moves: {"mouthSmileLeft": 0.8}.
-Pose = Mapping[Lane, float]
+#: A raw control or pose variable: its name, or its number among the curves.
+Curve = Union[str, int]
+#: Values of the curves that a pose moves: {"mouthSmileLeft": 0.8}.
+Pose = Mapping[Curve, float]
 
 
 def ticks(seconds: float) -> int:
@@ -30,8 +30,8 @@ def ticks(seconds: float) -> int:
 class MixLayer(NamedTuple):
     """A layer of a mix. Make it with `clip`, `poses`, `stream` or `generator`.
 
-    mask: weights of lanes, 0 to 1: {"jawOpen": 0.5} or names alone for 1, others are 0; or an array
-          with one weight per lane. None: 1 for all
+    mask: weights of curves, 0 to 1: {"jawOpen": 0.5} or names alone for 1, others are 0; or an array
+          with one weight per curve. None: 1 for all
     weight: initial weight, 0 to 1; with `BlendMode.ADD` -1 to 1
     after_guards: acts after the guards; not for base and speech
     """
@@ -43,7 +43,7 @@ class MixLayer(NamedTuple):
     mask: Any = None
     after_guards: bool = False
     bank: Sequence[Pose] = ()
-    lanes: Sequence[Lane] = ()
+    curves: Sequence[Curve] = ()
     amounts: Sequence[float] = ()
     kind: int = Generator.BLINK
     period: int = 0
@@ -64,42 +64,42 @@ class MixLayer(NamedTuple):
         return cls(LayerSource.POSES, group, mode, weight, mask, after_guards, tuple(bank))
 
     @classmethod
-    def stream(cls, channels: Iterable[Lane], group: int = LayerGroup.BASE,
+    def stream(cls, channels: Iterable[Curve], group: int = LayerGroup.BASE,
                mode: int = BlendMode.OVERRIDE, weight: float = 1.0, mask: Any = None,
                after_guards: bool = False, delay: int = 0, frames: int = 0) -> MixLayer:
-        """Rows that arrive from outside, one value for each of these lanes: `Mixer.push`.
+        """Rows that arrive from outside, one value for each of these curves: `Mixer.push`.
 
         delay:  ticks by which rows are played later than their times, which hides jitter
         frames: most rows that can be queued; 0 means 64
         """
         return cls(LayerSource.STREAM, group, mode, weight, mask, after_guards,
-                   lanes=tuple(channels), delay=delay, frames=frames)
+                   curves=tuple(channels), delay=delay, frames=frames)
 
     @classmethod
-    def generator(cls, kind: int, lanes: Mapping[Lane, float], period: int,
+    def generator(cls, kind: int, curves: Mapping[Curve, float], period: int,
                   group: int = LayerGroup.LIFE, mode: int = BlendMode.ADD, weight: float = 1.0,
                   mask: Any = None, after_guards: bool = False) -> MixLayer:
-        """Blinks, breath or noise (`Generator`) for lanes with amounts; `period` in ticks."""
+        """Blinks, breath or noise (`Generator`) for curves with amounts; `period` in ticks."""
         return cls(LayerSource.GENERATOR, group, mode, weight, mask, after_guards,
-                   lanes=tuple(lanes), amounts=tuple(lanes.values()), kind=kind, period=period)
+                   curves=tuple(curves), amounts=tuple(curves.values()), kind=kind, period=period)
 
     @classmethod
-    def gaze(cls, target: Sequence[Lane], head: Mapping[Lane, float] = {},
+    def gaze(cls, target: Sequence[Curve], head: Mapping[Curve, float] = {},
              jitter: Tuple[float, float] = (0.0, 0.0), period: int = TICKS_PER_SECOND // 4,
              group: int = LayerGroup.LIFE, weight: float = 1.0) -> MixLayer:
         """Turns the eyes to a target, by the `gaze` of the mix.
 
-        target: three lanes, usually pose variables: millimeters to the left, up and to the front
-        head:   two lanes with factors, which get what is left for the head
+        target: three curves, usually pose variables: millimeters to the left, up and to the front
+        head:   two curves with factors, which get what is left for the head
         jitter: degrees of fixation across and up; `period` is its time
         """
         return cls(LayerSource.GENERATOR, group, BlendMode.OVERRIDE, weight,
-                   lanes=(*target, *head), amounts=(*jitter, 0.0, *head.values()),
+                   curves=(*target, *head), amounts=(*jitter, 0.0, *head.values()),
                    kind=Generator.GAZE, period=period)
 
 
 class Stroke(NamedTuple):
-    """A part of a reaction: moves lanes to a pose and back. Times are in ticks.
+    """A part of a reaction: moves curves to a pose and back. Times are in ticks.
 
     is_held: holds as long as the stimulus lasts, instead of for `hold`
     is_lag:  moves exponentially; attack and release are time constants
@@ -139,7 +139,7 @@ class Reaction(NamedTuple):
 
 
 class Antagonists(NamedTuple):
-    """Two lanes that move the face in opposite directions."""
+    """Two curves that move the face in opposite directions."""
 
     first: int
     second: int
@@ -168,7 +168,7 @@ class CustomGuard(NamedTuple):
 
     upper: Landmark
     lower: Landmark
-    closed_by: Lane = NO_CONTROL
+    closed_by: Curve = NO_CONTROL
     needs_speech: bool = False
     tolerance: float = 0.3
     f_on: float = 12.0
@@ -198,17 +198,17 @@ class Lists:
         self._rig = rig
         self._raw_count = rig.count(Kind.RAW_CONTROL)
         self._variables = {name: self._raw_count + i for i, name in enumerate(variables)}
-        self.lane_count = self._raw_count + len(variables)
+        self.curve_count = self._raw_count + len(variables)
         self._held: List[Any] = []
         self.poses: List[Any] = []
 
-    def lane(self, lane: Lane) -> int:
-        if isinstance(lane, str):
-            found = self._variables.get(lane)
-            return self._rig.raw_control(lane) if found is None else found
-        number = index(lane)
-        if not 0 <= number < self.lane_count:
-            raise OutOfRangeError(f"lane {number} of {self.lane_count}", Status.INDEX)
+    def curve(self, curve: Curve) -> int:
+        if isinstance(curve, str):
+            found = self._variables.get(curve)
+            return self._rig.raw_control(curve) if found is None else found
+        number = index(curve)
+        if not 0 <= number < self.curve_count:
+            raise OutOfRangeError(f"curve {number} of {self.curve_count}", Status.INDEX)
         return number
 
     def floats(self, values: Any, what: str) -> Tuple[Optional[int], int]:
@@ -216,15 +216,15 @@ class Lists:
         self._held.append(held)
         return address, count
 
-    def lanes(self, lanes: Iterable[Lane]) -> Any:
-        numbers = [self.lane(lane) for lane in lanes]
-        list_of_lanes = (ctypes.c_uint16 * len(numbers))(*numbers)
-        self._held.append(list_of_lanes)
-        return ctypes.cast(list_of_lanes, ctypes.c_void_p)
+    def curves(self, curves: Iterable[Curve]) -> Any:
+        numbers = [self.curve(curve) for curve in curves]
+        list_of_curves = (ctypes.c_uint16 * len(numbers))(*numbers)
+        self._held.append(list_of_curves)
+        return ctypes.cast(list_of_curves, ctypes.c_void_p)
 
     def add_pose(self, pose: Pose) -> int:
         values, count = self.floats([float(v) for v in pose.values()], "a pose")
-        self.poses.append(_api.MienMixPose(lanes=self.lanes(pose), values=values, count=count))
+        self.poses.append(_api.MienMixPose(curves=self.curves(pose), values=values, count=count))
         return len(self.poses) - 1
 
     def mask(self, mask: Any) -> Tuple[Optional[int], int]:
@@ -232,17 +232,17 @@ class Lists:
             return None, 0
         if isinstance(mask, (str, bytes)):
             raise TypeError("a mask is a mapping, a list of names or an array, not a string")
-        names = isinstance(mask, Mapping) or any(isinstance(lane, str) for lane in mask)
+        names = isinstance(mask, Mapping) or any(isinstance(curve, str) for curve in mask)
         if not names:
             return self.floats(mask, "mask")
-        weights = [0.0] * self.lane_count
-        for lane in mask:
-            weights[self.lane(lane)] = float(mask[lane]) if isinstance(mask, Mapping) else 1.0
+        weights = [0.0] * self.curve_count
+        for curve in mask:
+            weights[self.curve(curve)] = float(mask[curve]) if isinstance(mask, Mapping) else 1.0
         return self.floats(weights, "mask")
 
     def limit(self, limit: Any) -> Optional[int]:
-        values = limit if hasattr(limit, "__len__") else [limit] * self.lane_count
-        return self.floats(full(values, self.lane_count, "a limit"), "a limit")[0]
+        values = limit if hasattr(limit, "__len__") else [limit] * self.curve_count
+        return self.floats(full(values, self.curve_count, "a limit"), "a limit")[0]
 
     def layer(self, from_: MixLayer) -> Any:
         mask, mask_count = self.mask(from_.mask)
@@ -255,8 +255,8 @@ class Lists:
             generator=uint32(from_.kind, "kind"), stream_frames=uint32(from_.frames, "frames"))
         for pose in from_.bank:
             self.add_pose(pose)
-        if from_.lanes:
-            to.lanes, to.lane_count = self.lanes(from_.lanes), len(from_.lanes)
+        if from_.curves:
+            to.curves, to.curve_count = self.curves(from_.curves), len(from_.curves)
         if from_.amounts:
             to.amounts = self.floats([float(a) for a in from_.amounts], "amounts")[0]
         return to
@@ -270,7 +270,7 @@ class Lists:
             mesh=_api.MIEN_NO_MESH if from_.mesh is None else uint32(from_.mesh, "mesh"))
 
     def guard(self, from_: CustomGuard) -> Any:
-        closed_by = from_.closed_by if from_.closed_by == NO_CONTROL else self.lane(from_.closed_by)
+        closed_by = from_.closed_by if from_.closed_by == NO_CONTROL else self.curve(from_.closed_by)
         return _api.MienMixGuard(
             upper=self.landmark(from_.upper), lower=self.landmark(from_.lower),
             closed_by=closed_by, needs_speech=bool(from_.needs_speech),
@@ -297,5 +297,5 @@ class Lists:
 
 def full(values: Any, count: int, what: str) -> Any:
     if len(values) != count:
-        raise ArgumentError(f"{what} takes one value for each of {count} lanes, not {len(values)}")
+        raise ArgumentError(f"{what} takes one value for each of {count} curves, not {len(values)}")
     return values

@@ -10,18 +10,18 @@ from ._api import MixInfo, Status
 from ._library import lib
 from ._memory import Closable, MixHandle, uint32
 from .errors import UnknownNameError, fail, raises
-from .mix_parts import Lane
+from .mix_parts import Curve
 
 _byref = ctypes.byref
 
 
 class GuardInfo(NamedTuple):
-    """A guard as it was measured: millimeters = rest + sum of gain * lane + pairs of lanes.
+    """A guard as it was measured: millimeters = rest + sum of gain * curve + pairs of curves.
 
     fit_error: millimeters, root mean square over the measured rows
     """
 
-    lanes: List[int]
+    curves: List[int]
     gains: List[float]
     pair_count: int
     rest: float
@@ -56,13 +56,13 @@ class MixView(Closable):
         status = lib.mien_mix_guard(handle, uint32(guard, "guard"), _byref(g))
         if status:
             fail(status, f"guard {guard} of {self.info.guard_count}")
-        count = g.lanes.count
-        lanes = list((ctypes.c_uint16 * count).from_address(g.lanes.data)) if count else []
+        count = g.curves.count
+        curves = list((ctypes.c_uint16 * count).from_address(g.curves.data)) if count else []
         gains = list((ctypes.c_float * count).from_address(g.gains.data)) if count else []
-        return GuardInfo(lanes, gains, g.pair_count, g.rest,
+        return GuardInfo(curves, gains, g.pair_count, g.rest,
                          bool(g.needs_speech), g.tolerance, g.f_on, g.fit_error)
 
-    def variable(self, variable: Lane) -> int:
+    def variable(self, variable: Curve) -> int:
         """Index of a pose variable."""
         if not isinstance(variable, str):
             return uint32(variable, "variable")

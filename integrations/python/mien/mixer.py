@@ -15,7 +15,7 @@ from ._memory import Closable, Floats, MixerHandle, array_over, as_bytes, floats
 from .clip import TICKS_PER_SECOND, Clip, ClipBinding, _fraction, _int
 from .errors import ArgumentError, BusyError, fail, raises
 from .instance import Instance
-from .mix_parts import Lane
+from .mix_parts import Curve
 from .mix_view import MixView
 
 _byref = ctypes.byref
@@ -136,7 +136,7 @@ class Mixer(Closable):
                    uint32(layer, "layer"), uint32(pose, "pose"), weight, _int(fade, 64, "fade"))
 
     @raises("mien_mixer_set_variable")
-    def set_variable(self, variable: Lane, value: float) -> None:
+    def set_variable(self, variable: Curve, value: float) -> None:
         """The value that a pose variable, by name or number, has at the start of each step."""
         self._call(lib.mien_mixer_set_variable, f"variable {variable}, {value}",
                    self.mix.variable(variable), value)
@@ -206,7 +206,7 @@ class Mixer(Closable):
 
     @property
     def row(self) -> Floats:
-        """float32 (lanes,), read-only, no copy: what the last step gave, raw controls and then pose
+        """float32 (curves,), read-only, no copy: what the last step gave, raw controls and then pose
         variables. Each step changes it."""
         handle, view = self._open(), _api.MienFloatView()
         status = lib.mien_mixer_row(handle, _byref(view))

@@ -21,13 +21,13 @@ from .errors import ArgumentError, BusyError, fail, raises
 _byref = ctypes.byref
 Vector = Tuple[float, float, float]
 
-#: No joint: model space, or a target at lanes of the row.
+#: No joint: model space, or a target at curves of the row.
 NO_JOINT: int = _api.MIEN_NO_JOINT
 _ZERO: Vector = (0.0, 0.0, 0.0)
 
 
 class AimSolver(NamedTuple):
-    """Turns a joint so that one of its axes points at a joint, or at three lanes of the row.
+    """Turns a joint so that one of its axes points at a joint, or at three curves of the row.
 
     up_axis, up:  of the joint, and where to turn it in model space as far as possible
     cone_degrees: largest angle from the neutral direction; 0 is no limit
@@ -37,7 +37,7 @@ class AimSolver(NamedTuple):
     joint: int
     axis: Vector
     target_joint: int = NO_JOINT
-    target_lane: int = 0
+    target_curve: int = 0
     up_axis: Vector = _ZERO
     up: Vector = _ZERO
     cone_degrees: float = 0.0
@@ -47,11 +47,11 @@ class AimSolver(NamedTuple):
 
 class SpaceSolver(NamedTuple):
     """Space switch: moves a joint as if its parent were attached to one of some joints, selected by a
-    lane of the row."""
+    curve of the row."""
 
     joint: int
     spaces: Sequence[int]
-    lane: int
+    curve: int
     ease_ticks: int = 0
     lods: Optional[Sequence[int]] = None
 
@@ -100,7 +100,7 @@ class SolverPose(NamedTuple):
     locals:   float32 (joints, 10), writable: tx ty tz qx qy qz qw sx sy sz
     models:   float32 (joints, 16): columns of the model matrices
     previous: float32 (previous joints, 16), after the last step
-    row:      float32 (lanes,)
+    row:      float32 (curves,)
     outputs:  float32 (outputs,), writable
     state:    float32 (state floats,), writable; zeros at first
     """
@@ -135,9 +135,9 @@ Solver = Union[AimSolver, SpaceSolver, SpringSolver, TwistSolver, CopySolver, Cu
 class _Function:
     """A custom solver as the library calls it."""
 
-    def __init__(self, solver: CustomSolver, lane_count: int) -> None:
+    def __init__(self, solver: CustomSolver, curve_count: int) -> None:
         # As numbers: the lists of the description may change, the memory of the states does not.
-        self._solve, self._lane_count = solver.solve, lane_count
+        self._solve, self._curve_count = solver.solve, curve_count
         self._previous_count = len(solver.previous_joints)
         self._output_count = uint32(solver.output_count, "output_count")
         self._state_floats = uint32(solver.state_floats, "state_floats")
@@ -162,7 +162,7 @@ class _Function:
         return SolverPose(over(pose.locals, joints * 10, True, 10),
                           over(pose.models, joints * 16, False, 16),
                           over(pose.previous, self._previous_count * 16, False, 16),
-                          over(pose.row, self._lane_count, False),
+                          over(pose.row, self._curve_count, False),
                           over(pose.outputs, self._output_count, True),
                           over(pose.state, self._state_floats, True), pose.lod, bool(pose.is_reset))
 
@@ -188,8 +188,8 @@ _current = _Current()
 class _Lists:
     """Solvers as C takes them. Everything lives as long as this."""
 
-    def __init__(self, lane_count: int) -> None:
-        self._lane_count = lane_count
+    def __init__(self, curve_count: int) -> None:
+        self._curve_count = curve_count
         self._held: List[Any] = []
         self.functions: List[_Function] = []
 
@@ -219,13 +219,13 @@ class _Lists:
         if isinstance(s, AimSolver):
             point("aim", _api.MienAimSolver(
                 joint=uint32(s.joint, "joint"), target_joint=uint32(s.target_joint, "joint"),
-                target_lane=uint32(s.target_lane, "target_lane"), axis=tuple(s.axis),
+                target_curve=uint32(s.target_curve, "target_curve"), axis=tuple(s.axis),
                 up_axis=tuple(s.up_axis), up=tuple(s.up), cone_degrees=s.cone_degrees,
                 weight=s.weight))
         elif isinstance(s, SpaceSolver):
             point("space", _api.MienSpaceSolver(
                 ease_ticks=_int(s.ease_ticks, 64, "ease_ticks"), spaces=self._joints(s.spaces),
-                space_count=len(s.spaces), lane=uint32(s.lane, "lane"),
+                space_count=len(s.spaces), curve=uint32(s.curve, "curve"),
                 joint=uint32(s.joint, "joint")))
         elif isinstance(s, SpringSolver):
             point("spring", _api.MienSpringSolver(
@@ -244,7 +244,7 @@ class _Lists:
                 is_mirrored=bool(s.is_mirrored), mirror_axis=tuple(s.mirror_axis),
                 weight=s.weight))
         else:
-            function = _Function(s, self._lane_count)
+            function = _Function(s, self._curve_count)
             self.functions.append(function)
             name = ctypes.create_string_buffer(
                 terminated(s.name.encode("utf-8", "surrogateescape"), "a name"))
@@ -269,21 +269,21 @@ class SolverStack(Closable):
         pose.update(face)
         state.step(pose, ticks)                   # then pose.deform(mesh)
 
-    lane_count:   of the rows that steps get, at least
+    curve_count:   of the rows that steps get, at least
     check_writes: compares all joints before and after each solver, for `SolverState.undeclared`
     """
 
     __slots__ = ("info",)
 
     @raises("mien_solver_stack_create")
-    def __init__(self, deformer: Deformer, solvers: Iterable[Solver], lane_count: int = 0,
+    def __init__(self, deformer: Deformer, solvers: Iterable[Solver], curve_count: int = 0,
                  check_writes: bool = False) -> None:
-        lists = _Lists(uint32(lane_count, "lane_count"))
+        lists = _Lists(uint32(curve_count, "curve_count"))
         given = [lists.solver(solver) for solver in solvers]
         array = (_api.MienSolver * len(given))(*given)
         desc = _api.MienSolverStackDesc(
             solvers=ctypes.cast(array, ctypes.POINTER(_api.MienSolver)), solver_count=len(given),
-            lane_count=lane_count, check_writes=bool(check_writes))
+            curve_count=curve_count, check_writes=bool(check_writes))
         made_for = deformer._open()
         handle, error = SolverStackHandle(), MienError()
         handle.baked, handle.functions = made_for.baked, lists.functions

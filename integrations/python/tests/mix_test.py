@@ -319,14 +319,14 @@ class MixTest(unittest.TestCase):
         mix = mien.Mix(rig, [mien.MixLayer.poses([{"jawOpen": 0.5}])], deformer=deformer_of(),
                        custom_guards=[mien.CustomGuard(*joints, f_on=4.0)])
         guard = mix.guard(0)
-        self.assertEqual(guard.lanes[0], rig.raw_control("jawOpen"))
+        self.assertEqual(guard.curves[0], rig.raw_control("jawOpen"))
         self.assertGreater(guard.gains[0], 1)
         mixer = mix.mixer()
         mixer.set_pose_weight(0, 0, 1.0)
         mixer.step(mien.ticks(1))
         step = mixer.guard(0)
         self.assertEqual(step.activation, 1.0)
-        self.assertEqual((step.name, step.kind, list(step.controls)), ("custom", 0, guard.lanes))
+        self.assertEqual((step.name, step.kind, list(step.controls)), ("custom", 0, guard.curves))
         self.assertGreater(step.wanted, step.limit)
         self.assertAlmostEqual(step.distance, step.limit, 3)
         for error, call in ((mien.OutOfRangeError, lambda: mix.guard(1)),
@@ -354,7 +354,7 @@ class SolverTest(unittest.TestCase):
             mien.Kind.JOINT) else rig.info.joint_count - 1
 
     def step(self, solver, row=None, **options):
-        stack = mien.SolverStack(self.deformer, [solver], lane_count=0 if row is None else len(row),
+        stack = mien.SolverStack(self.deformer, [solver], curve_count=0 if row is None else len(row),
                                  check_writes=True)
         state = stack.state()
         stack.close()
@@ -371,7 +371,7 @@ class SolverTest(unittest.TestCase):
         neutral = self.deformer.bind_matrices[joint].copy()
         target = neutral[:3, 3] + [0, 0, 100]
         kinds = (
-            (mien.AimSolver(joint, (1, 0, 0), target_lane=1, up_axis=(0, 1, 0)), [0, *target]),
+            (mien.AimSolver(joint, (1, 0, 0), target_curve=1, up_axis=(0, 1, 0)), [0, *target]),
             (mien.SpringSolver(joint, 2, 0.5, rest_offset=(1, 0, 0)), None),
             (mien.CustomSolver(lambda poses, ticks: poses[0].locals.__setitem__(
                 (joint, 1), 3), [joint]), None))
@@ -446,7 +446,7 @@ class SolverTest(unittest.TestCase):
                 mien.SolverStack(self.deformer, [solver])
         with self.assertRaises(TypeError):
             mien.SolverStack(self.deformer, ["spring"])
-        stack = mien.SolverStack(self.deformer, [mien.SpringSolver(jaw, 1, 1)], lane_count=2)
+        stack = mien.SolverStack(self.deformer, [mien.SpringSolver(jaw, 1, 1)], curve_count=2)
         state = stack.state()
         with self.assertRaises(mien.ArgumentError):
             state.step(self.body, 1, [0.0])

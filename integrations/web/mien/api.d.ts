@@ -454,7 +454,7 @@ export declare const LayerGroup: {
 export type LayerGroup = (typeof LayerGroup)[keyof typeof LayerGroup];
 
 /**
- * How a layer changes a lane: o is the value so far, x the value of the layer, a = weight * mask. Lanes
+ * How a layer changes a curve: o is the value so far, x the value of the layer, a = weight * mask. Curves
  * for which the layer's source has no value do not change.
  */
 export declare const BlendMode: {
@@ -487,7 +487,7 @@ export type LayerSource = (typeof LayerSource)[keyof typeof LayerSource];
 /** What a layer generates from the seed of the mixer and the time. */
 export declare const Generator: {
   /**
-   * blinks every `period` on average, at least 0.5 s apart. The wait starts over when earlier layers raise the first lane above 0.6
+   * blinks every `period` on average, at least 0.5 s apart. The wait starts over when earlier layers raise the first curve above 0.6
    */
   readonly BLINK: 0;
   /** rises from 0 to 1 in 40 % of the period, then falls back to 0 */
@@ -495,7 +495,7 @@ export declare const Generator: {
   /** smooth noise between -1 and 1 with a new random value every period */
   readonly NOISE: 2;
   /**
-   * turns the eyes to a target with saccades, by MienMixDesc.gaze. `lanes` are three lanes with the left, up and front of a MienGazeTarget, read after the earlier layers, then optionally two lanes that get the part left for the head (MienGazeRest). `amounts` are fixation jitter sideways and up in degrees, 0, and factors for the two head lanes. Shifts of 20 degrees or more make the blink layers of the mix blink
+   * turns the eyes to a target with saccades, by MienMixDesc.gaze. `curves` are three curves with the left, up and front of a MienGazeTarget, read after the earlier layers, then optionally two curves that get the part left for the head (MienGazeRest). `amounts` are fixation jitter sideways and up in degrees, 0, and factors for the two head curves. Shifts of 20 degrees or more make the blink layers of the mix blink
    */
   readonly GAZE: 3;
 };
@@ -530,7 +530,7 @@ export type Guard = number;
  * How a layer changes to another clip. A layer that plays no clip fades in, except with a cut.
  */
 export declare const Transition: {
-  /** the old clip stops; each lane blends from its last value and speed */
+  /** the old clip stops; each curve blends from its last value and speed */
   readonly INERTIAL: 0;
   /** both clips play; MIEN_TRANSITION_INERTIAL if no player is free */
   readonly CROSSFADE: 1;
@@ -1216,14 +1216,14 @@ export interface MixLayer {
   period?: number;
   /** of a stream, ticks: rows are played this much later than their times */
   delay?: number;
-  /** one per lane, 0 to 1; lanes beyond mask_count have 0. NULL: 1 for all */
+  /** one per curve, 0 to 1; curves beyond mask_count have 0. NULL: 1 for all */
   mask?: Float32Array | readonly number[];
-  /** the lane of each channel of a stream, or the lanes of a generator */
-  lanes?: Uint16Array | readonly number[];
-  /** one per lane of a generator: a factor for its value */
+  /** the curve of each channel of a stream, or the curves of a generator */
+  curves?: Uint16Array | readonly number[];
+  /** one per curve of a generator: a factor for its value */
   amounts?: Float32Array | readonly number[];
   maskCount?: number;
-  laneCount?: number;
+  curveCount?: number;
   /** MIEN_LAYER_GROUP_... */
   group?: LayerGroup;
   /** MIEN_BLEND_MODE_... */
@@ -1243,15 +1243,15 @@ export interface MixLayer {
   streamFrames?: number;
 }
 
-/** A pose: the lanes that it moves, and their values. */
+/** A pose: the curves that it moves, and their values. */
 export interface MixPose {
-  lanes?: Uint16Array | readonly number[];
+  curves?: Uint16Array | readonly number[];
   values?: Float32Array | readonly number[];
   count?: number;
 }
 
 /**
- * A part of a reaction: moves the lanes of a pose to its values and back to 0. Times are in ticks.
+ * A part of a reaction: moves the curves of a pose to its values and back to 0. Times are in ticks.
  */
 export interface MixStroke {
   /** after the trigger */
@@ -1300,7 +1300,7 @@ export interface MixReaction {
 }
 
 /**
- * Two lanes that move the face in opposite directions. If both are above 0, the smaller one times
+ * Two curves that move the face in opposite directions. If both are above 0, the smaller one times
  * stiffness is subtracted from both.
  */
 export interface MixAntagonists {
@@ -1357,10 +1357,10 @@ export interface MixDesc {
   antagonists?: readonly MixAntagonists[];
   antagonistCount?: number;
   /**
-   * for each lane its counterpart in the other half of the face, or itself. NULL: clips cannot be played mirrored
+   * for each curve its counterpart in the other half of the face, or itself. NULL: clips cannot be played mirrored
    */
   mirror?: Uint16Array | readonly number[];
-  /** limits per lane. NULL: none; both or neither */
+  /** limits per curve. NULL: none; both or neither */
   lower?: Float32Array | readonly number[];
   upper?: Float32Array | readonly number[];
   /** numbered after the built-in ones; at most 8 guards in total */
@@ -1372,7 +1372,7 @@ export interface MixDesc {
   deformer?: { readonly handle: number };
   /** MIEN_GUARD_... bits; a guard is left out if the rig lacks its landmarks */
   guards?: Guard;
-  /** pose variables; at most 4096 lanes with the raw controls */
+  /** pose variables; at most 4096 curves with the raw controls */
   variableCount?: number;
   /**
    * clips that can play at the same time; a crossfade needs two. 0: two for each clip layer
@@ -1397,7 +1397,7 @@ export interface MixInfo {
   readonly rawControlCount: number;
   readonly variableCount: number;
   /** raw controls and pose variables */
-  readonly laneCount: number;
+  readonly curveCount: number;
   readonly layerCount: number;
   /** for mien_mixer_stage() */
   readonly stageCount: number;
@@ -1410,13 +1410,13 @@ export interface MixInfo {
 }
 
 /**
- * A guard of a mix, as it was measured: the distance in millimeters is `rest`, plus the sum of gain * lane,
- * plus a sum over pairs of lanes that share a corrective. See docs/mixing.md, 4 "Guards".
+ * A guard of a mix, as it was measured: the distance in millimeters is `rest`, plus the sum of gain * curve,
+ * plus a sum over pairs of curves that share a corrective. See docs/mixing.md, 4 "Guards".
  */
 export interface MixGuardInfo {
   /** raw controls that change the distance, by descending gain */
-  readonly lanes: Uint16Array;
-  /** 1 float per lane: millimeters at value 1 */
+  readonly curves: Uint16Array;
+  /** 1 float per curve: millimeters at value 1 */
   readonly gains: Float32Array;
   readonly pairCount: number;
   /** as in MienMixGuard */
@@ -1545,10 +1545,10 @@ export interface MixerClip {
  */
 export interface AimSolver {
   joint?: number;
-  /** its position is the target. MIEN_NO_JOINT: three lanes of the row are */
+  /** its position is the target. MIEN_NO_JOINT: three curves of the row are */
   targetJoint?: number;
   /** first of these three: x y z in model space */
-  targetLane?: number;
+  targetCurve?: number;
   /** aim axis, in the space of the joint; not 0 0 0 */
   axis?: readonly number[];
   /** in the space of the joint; 0 0 0: no rotation about the aim axis */
@@ -1562,7 +1562,7 @@ export interface AimSolver {
 }
 
 /**
- * Space switch: moves a joint as if its parent were attached to another joint. A lane selects one of the
+ * Space switch: moves a joint as if its parent were attached to another joint. A curve selects one of the
  * spaces. When it changes, the joint stays where it is, and the difference to the new space eases out.
  */
 export interface SpaceSolver {
@@ -1573,7 +1573,7 @@ export interface SpaceSolver {
   /** 1 to 8 */
   spaceCount?: number;
   /** of the row: its value, rounded, is an index in `spaces` */
-  lane?: number;
+  curve?: number;
   joint?: number;
 }
 
@@ -1641,7 +1641,7 @@ export interface SolverPose {
   readonly models: Float32Array | readonly number[];
   /** 16 floats for each joint in `previous_joints`, as the last step left it */
   readonly previous: Float32Array | readonly number[];
-  /** MienSolverStackDesc.lane_count floats. NULL: there are none */
+  /** MienSolverStackDesc.curve_count floats. NULL: there are none */
   readonly row: Float32Array | readonly number[];
   /** MienUserSolver.output_count floats for the caller to read */
   readonly outputs: Float32Array | readonly number[];
@@ -1716,8 +1716,8 @@ export interface SolverStackDesc {
   /** in the order in which they run; at most 256 */
   solvers?: readonly Solver[];
   solverCount?: number;
-  /** the rows passed to steps have this many lanes or more. 0: no row */
-  laneCount?: number;
+  /** the rows passed to steps have this many curves or more. 0: no row */
+  curveCount?: number;
   /**
    * compare all joints before and after each solver, to find undeclared writes: mien_solver_state_undeclared()
    */
@@ -1727,7 +1727,7 @@ export interface SolverStackDesc {
 /** Properties of a solver stack. */
 export interface SolverStackInfo {
   readonly solverCount: number;
-  readonly laneCount: number;
+  readonly curveCount: number;
   /** of all solvers */
   readonly outputCount: number;
   readonly jointCount: number;
@@ -1743,7 +1743,7 @@ export interface SolverStateDesc {
 export interface SolverInput {
   /** such as the one from mien_mixer_row(). NULL: none */
   row?: Float32Array | readonly number[];
-  /** at least MienSolverStackDesc.lane_count */
+  /** at least MienSolverStackDesc.curve_count */
   rowCount?: number;
   /** 0 to 63 */
   lod?: number;
@@ -2739,22 +2739,22 @@ export interface Exports {
   /**
    * Finds the counterparts of raw controls in the other half of the face, for MienMixDesc.mirror. Controls
    * are counterparts if their names differ only in Left and Right (or L and R) and their motions agree, or
-   * else if their motions are mirror images. Other controls, and lanes beyond the raw controls, map to
+   * else if their motions are mirror images. Other controls, and curves beyond the raw controls, map to
    * themselves. Evaluates the rig once for each raw control, and takes memory from its allocator during
    * the call.
-   * Fails with MIEN_ERROR_MEMORY if that returns NULL, MIEN_ERROR_MISMATCH if `lane_count` is less than the
+   * Fails with MIEN_ERROR_MEMORY if that returns NULL, MIEN_ERROR_MISMATCH if `curve_count` is less than the
    * raw controls, MIEN_ERROR_DNA_LIMIT if raw controls times joints exceed 2^22.
    */
-  mien_mix_mirror(deformer: number, out_lanes: number, lane_count: number, error: number): number;
+  mien_mix_mirror(deformer: number, out_curves: number, curve_count: number, error: number): number;
   /**
    * Computes a mask that selects joint groups: for each raw control the share of its joint motion, at
    * value 1 and LOD 0, that belongs to these groups. A millimeter counts as much as a degree. Controls
-   * that move no joint, and lanes beyond the raw controls, get `otherwise_weight`. Evaluates the rig once
+   * that move no joint, and curves beyond the raw controls, get `otherwise_weight`. Evaluates the rig once
    * for each raw control and group, and takes memory from its allocator during the call.
    * Fails with MIEN_ERROR_MEMORY if that returns NULL, MIEN_ERROR_INDEX if a group does not exist,
-   * MIEN_ERROR_MISMATCH if `lane_count` is less than the raw controls.
+   * MIEN_ERROR_MISMATCH if `curve_count` is less than the raw controls.
    */
-  mien_mix_mask(rig: number, groups: number, group_count: number, otherwise_weight: number, out_mask: number, lane_count: number, error: number): number;
+  mien_mix_mask(rig: number, groups: number, group_count: number, otherwise_weight: number, out_mask: number, curve_count: number, error: number): number;
   /**
    * Creates a gaze by measuring how raw controls turn the eyes, which evaluates the rig at least twice per
    * raw control. `deformer` may be destroyed afterwards. Destroy with mien_gaze_destroy().
@@ -2874,12 +2874,12 @@ export interface Exports {
    */
   mien_mixer_step_batch(mixers: number, instances: number, count: number, ticks: bigint): number;
   /**
-   * Returns the row of the last step, one float per lane: raw controls, then pose variables.
+   * Returns the row of the last step, one float per curve: raw controls, then pose variables.
    * Contents change with mien_mixer_step() and mien_mixer_step_batch().
    */
   mien_mixer_row(mixer: number, out_row: number): number;
   /**
-   * Returns the row after a stage of the last step, one float per lane. Stages are numbered: the layers,
+   * Returns the row after a stage of the last step, one float per curve. Stages are numbered: the layers,
    * then reactions, guards, antagonists, limits. Layers that act after the reactions or the guards keep
    * their numbers.
    * Fails with MIEN_ERROR_INDEX if the stage does not exist, MIEN_ERROR_INVALID_ARGUMENT if
@@ -2913,7 +2913,7 @@ export interface Exports {
   /**
    * Creates a solver stack. `desc` is required. `deformer` may be destroyed before it. Destroy with
    * mien_solver_stack_destroy().
-   * Fails with MIEN_ERROR_INDEX if a joint or lane does not exist, MIEN_ERROR_INVALID_ARGUMENT if a number
+   * Fails with MIEN_ERROR_INDEX if a joint or curve does not exist, MIEN_ERROR_INVALID_ARGUMENT if a number
    * is out of range, or if a solver reads a joint that a later one moves; the message names both.
    */
   mien_solver_stack_create(deformer: number, desc: number, out_solver_stack: number, error: number): number;
@@ -2935,7 +2935,7 @@ export interface Exports {
    * step. `input` may be NULL: no row, LOD 0. `ticks`, the time since the last step, is 0 to
    * 2^40. Does not allocate or lock.
    * Fails with MIEN_ERROR_MISMATCH if instance and stack have different deformers or the row is
-   * shorter than MienSolverStackDesc.lane_count, MIEN_ERROR_INVALID_ARGUMENT if `ticks` or the LOD is out of
+   * shorter than MienSolverStackDesc.curve_count, MIEN_ERROR_INVALID_ARGUMENT if `ticks` or the LOD is out of
    * range.
    */
   mien_solver_state_step(solver_state: number, deformer_instance: number, input: number, ticks: bigint): number;

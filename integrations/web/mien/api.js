@@ -620,10 +620,10 @@ export const layouts = {
     period: [0, "i64"],
     delay: [8, "i64"],
     mask: [16, "*f32", "maskCount"],
-    lanes: [20, "*u16", "laneCount"],
+    curves: [20, "*u16", "curveCount"],
     amounts: [24, "*f32"],
     maskCount: [28, "u32"],
-    laneCount: [32, "u32"],
+    curveCount: [32, "u32"],
     group: [36, "u32"],
     mode: [40, "u32"],
     source: [44, "u32"],
@@ -635,7 +635,7 @@ export const layouts = {
     streamFrames: [68, "u32"],
   } },
   MixPose: { size: 12, sized: false, fields: {
-    lanes: [0, "*u16", "count"],
+    curves: [0, "*u16", "count"],
     values: [4, "*f32", "count"],
     count: [8, "u32"],
   } },
@@ -709,7 +709,7 @@ export const layouts = {
   MixInfo: { size: 48, sized: true, fields: {
     rawControlCount: [4, "u32"],
     variableCount: [8, "u32"],
-    laneCount: [12, "u32"],
+    curveCount: [12, "u32"],
     layerCount: [16, "u32"],
     stageCount: [20, "u32"],
     guardCount: [24, "u32"],
@@ -717,7 +717,7 @@ export const layouts = {
     snapshotBytes: [40, "u64"],
   } },
   MixGuardInfo: { size: 44, sized: true, fields: {
-    lanes: [4, "u16s"],
+    curves: [4, "u16s"],
     gains: [12, "f32s"],
     pairCount: [20, "u32"],
     needsSpeech: [24, "bool"],
@@ -782,7 +782,7 @@ export const layouts = {
   AimSolver: { size: 56, sized: false, fields: {
     joint: [0, "u32"],
     targetJoint: [4, "u32"],
-    targetLane: [8, "u32"],
+    targetCurve: [8, "u32"],
     axis: [12, "f32", 3],
     upAxis: [24, "f32", 3],
     up: [36, "f32", 3],
@@ -793,7 +793,7 @@ export const layouts = {
     easeTicks: [0, "i64"],
     spaces: [8, "*u16", "spaceCount"],
     spaceCount: [12, "u32"],
-    lane: [16, "u32"],
+    curve: [16, "u32"],
     joint: [20, "u32"],
   } },
   SpringSolver: { size: 32, sized: false, fields: {
@@ -860,12 +860,12 @@ export const layouts = {
   SolverStackDesc: { size: 24, sized: true, fields: {
     solvers: [4, "*Solver", "solverCount"],
     solverCount: [8, "u32"],
-    laneCount: [12, "u32"],
+    curveCount: [12, "u32"],
     checkWrites: [16, "bool"],
   } },
   SolverStackInfo: { size: 32, sized: true, fields: {
     solverCount: [4, "u32"],
-    laneCount: [8, "u32"],
+    curveCount: [8, "u32"],
     outputCount: [12, "u32"],
     jointCount: [16, "u32"],
     stateBytes: [24, "u64"],

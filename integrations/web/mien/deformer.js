@@ -67,8 +67,8 @@ export class Deformer extends Handle {
     return new DeformerInstance(this.memory, this, desc);
   }
 
-  mirror(laneCount) {
-    return findMirror(this.memory, this, laneCount);
+  mirror(curveCount) {
+    return findMirror(this.memory, this, curveCount);
   }
 
   gaze(desc = {}) {

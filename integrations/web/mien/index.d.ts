@@ -258,9 +258,9 @@ export interface Rig extends Handle {
   mix(options?: MixOptions): Mix;
   /** Pairs of raw controls that the two halves of one GUI control drive, for MixOptions.antagonists. */
   antagonists(): Antagonists[];
-  /** Of each lane the share of its joint motion that is of some joint groups, for masks of layers. Those that
+  /** Of each curve the share of its joint motion that is of some joint groups, for masks of layers. Those that
    * move no joint have `otherwise`. */
-  groupMask(groups: readonly number[], options?: { otherwise?: number; laneCount?: number }): Float32Array;
+  groupMask(groups: readonly number[], options?: { otherwise?: number; curveCount?: number }): Float32Array;
   /** Meshes with other options. `dna` is the file that the rig was made from. */
   createDeformer(dna: Dna, desc?: DeformerDesc): Deformer;
   /** The bytes of a baked file; null: without meshes. */
@@ -322,8 +322,8 @@ export interface Deformer extends Handle {
   readonly inverseBindMatrices: Float32Array;
   /** A character. */
   instance(desc?: DeformerInstanceDesc): DeformerInstance;
-  /** Of each lane of a mix its counterpart in the other half of the face, for MixOptions.mirror. */
-  mirror(laneCount: number): Uint16Array;
+  /** Of each curve of a mix its counterpart in the other half of the face, for MixOptions.mirror. */
+  mirror(curveCount: number): Uint16Array;
   /** Measures which raw controls turn the eyes. */
   gaze(desc?: GazeDesc): Gaze;
   /** Solvers, in the order in which they run. */
@@ -414,13 +414,13 @@ export const ClipBinding: { readonly prototype: ClipBinding };
 /** Seconds in the unit of all times. */
 export declare function ticks(seconds: number): number;
 
-/** A raw control or pose variable: its name, or its number among the lanes of a mix. */
-export type Lane = string | number;
+/** A raw control or pose variable: its name, or its number among the curves of a mix. */
+export type Curve = string | number;
 
-/** Values of the lanes that a pose moves: { mouthSmileLeft: 0.8 }. */
+/** Values of the curves that a pose moves: { mouthSmileLeft: 0.8 }. */
 export type Pose = Readonly<Record<string, number>>;
 
-/** Weights of lanes, 0 to 1: { jawOpen: 0.5 }, or names alone for 1, others are 0; or one number for each lane. */
+/** Weights of curves, 0 to 1: { jawOpen: 0.5 }, or names alone for 1, others are 0; or one number for each curve. */
 export type Mask = readonly string[] | Readonly<Record<string, number>> | readonly number[] | Float32Array;
 
 export interface LayerOptions {
@@ -428,7 +428,7 @@ export interface LayerOptions {
   mode?: BlendMode;
   /** Initial weight, 0 to 1; with BlendMode.ADD -1 to 1. Default: 1. */
   weight?: number;
-  /** Default: 1 for all lanes. */
+  /** Default: 1 for all curves. */
   mask?: Mask;
   /** Acts after the guards; not for base and speech. */
   afterGuards?: boolean;
@@ -436,10 +436,10 @@ export interface LayerOptions {
 
 /** A layer of a mix, as MixLayer makes it. */
 export interface MixLayer extends LayerOptions,
-  Omit<MixLayerDesc, "mask" | "maskCount" | "lanes" | "laneCount" | "firstPose" | "poseCount" | keyof LayerOptions> {
+  Omit<MixLayerDesc, "mask" | "maskCount" | "curves" | "curveCount" | "firstPose" | "poseCount" | keyof LayerOptions> {
   source: LayerSource;
   poses?: readonly Pose[];
-  lanes?: readonly Lane[];
+  curves?: readonly Curve[];
   amounts?: readonly number[];
 }
 
@@ -449,20 +449,20 @@ export declare const MixLayer: {
   clip(options?: LayerOptions): MixLayer;
   /** A weighted sum of poses: mixer.setPoseWeight(). Emotion, screen. */
   poses(poses: readonly Pose[], options?: LayerOptions): MixLayer;
-  /** Rows that arrive from outside, a value for each of these lanes: mixer.push(). Base, override. `delay` in
+  /** Rows that arrive from outside, a value for each of these curves: mixer.push(). Base, override. `delay` in
    * ticks hides jitter; `streamFrames` is how many rows can be queued, 0 means 64. */
-  stream(lanes: readonly Lane[], options?: LayerOptions & { delay?: number; streamFrames?: number }): MixLayer;
-  /** Blinks, breath or noise for lanes, scaled by their amounts; `period` in ticks. Life, add. */
+  stream(curves: readonly Curve[], options?: LayerOptions & { delay?: number; streamFrames?: number }): MixLayer;
+  /** Blinks, breath or noise for curves, scaled by their amounts; `period` in ticks. Life, add. */
   generator(generator: GeneratorKind, amounts: Pose, options: LayerOptions & { period: number }): MixLayer;
-  /** Turns the eyes to a place, by MixOptions.gaze. `target`: three lanes, usually pose variables, millimeters to
-   * the left, up and to the front. `head`: two lanes with factors, which get what is left for the head. `jitter`:
+  /** Turns the eyes to a place, by MixOptions.gaze. `target`: three curves, usually pose variables, millimeters to
+   * the left, up and to the front. `head`: two curves with factors, which get what is left for the head. `jitter`:
    * degrees across and up; `period` is its time, by default a quarter of a second. Life. */
-  gaze(target: readonly Lane[], options?: Omit<LayerOptions, "mode"> & {
+  gaze(target: readonly Curve[], options?: Omit<LayerOptions, "mode"> & {
     head?: Pose; jitter?: readonly [number, number]; period?: number;
   }): MixLayer;
 };
 
-/** A part of a reaction: moves lanes to a pose and back. */
+/** A part of a reaction: moves curves to a pose and back. */
 export interface Stroke extends Omit<MixStroke, "pose"> {
   pose: Pose;
 }
@@ -472,10 +472,10 @@ export interface Reaction extends Omit<MixReaction, "strokes" | "strokeCount"> {
   strokes: readonly Stroke[];
 }
 
-/** Two lanes that move the face in opposite directions. */
+/** Two curves that move the face in opposite directions. */
 export interface Antagonists {
-  first: Lane;
-  second: Lane;
+  first: Curve;
+  second: Curve;
   /** Default: 1. */
   stiffness?: number;
 }
@@ -491,7 +491,7 @@ export interface CustomGuard {
   upper: Landmark;
   lower: Landmark;
   /** Raw control that makes both touch at 1. null: they do at rest. */
-  closedBy?: Lane | null;
+  closedBy?: Curve | null;
   needsSpeech?: boolean;
   /** Millimeters by which later layers may open. Default: 0.3. */
   tolerance?: number;
@@ -506,12 +506,12 @@ export interface MixOptions extends Pick<MixDesc,
   /** Such as rig.antagonists(). */
   antagonists?: readonly Antagonists[];
   customGuards?: readonly CustomGuard[];
-  /** Names of pose variables, lanes behind the raw controls. */
+  /** Names of pose variables, curves behind the raw controls. */
   variables?: readonly string[];
-  /** Limits, one for all lanes or one for each; both or neither. */
+  /** Limits, one for all curves or one for each; both or neither. */
   lower?: number | readonly number[] | Float32Array;
   upper?: number | readonly number[] | Float32Array;
-  /** Per lane its counterpart, such as deformer.mirror(). Without it nothing can be played mirrored. */
+  /** Per curve its counterpart, such as deformer.mirror(). Without it nothing can be played mirrored. */
   mirror?: readonly number[] | Uint16Array;
   /** For a layer of MixLayer.gaze. */
   gaze?: Gaze;
@@ -561,7 +561,7 @@ export interface Mixer extends Handle {
   /** `pose` counts from the first one of its layer. */
   setPoseWeight(layer: number, pose: number, weight: number, fadeTicks?: number): void;
   /** The value that a pose variable has at the start of each step. */
-  setVariable(variable: Lane, value: number): void;
+  setVariable(variable: Curve, value: number): void;
   /** How much a guard acts, 0 to 1; negative: as it finds by itself. */
   setGuard(guard: number, activation: number): void;
   /** What a guard did in the last step; a copy. */
@@ -639,16 +639,16 @@ export interface CustomSolver {
   outputCount?: number;
 }
 
-/** `weight` is 1 by default; without `targetJoint` the target is at three lanes of the row. */
+/** `weight` is 1 by default; without `targetJoint` the target is at three curves of the row. */
 export interface AimSolver extends Omit<AimSolverDesc, "targetJoint"> {
   targetJoint?: number | null;
 }
 
-/** Lets a joint hang on one of some joints, which a lane of the row chooses. null: model space. */
+/** Lets a joint hang on one of some joints, which a curve of the row chooses. null: model space. */
 export interface SpaceSolver {
   joint: number;
   spaces: readonly (number | null)[];
-  lane: number;
+  curve: number;
   easeTicks?: number;
 }
 

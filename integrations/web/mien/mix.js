@@ -3,7 +3,7 @@
 import { Kind, layouts, Status, TICKS_PER_SECOND, Transition } from "./api.js";
 import { errorOf } from "./errors.js";
 import { Handle, handlesOf, makeHandle } from "./memory.js";
-import { Lanes, Parts } from "./mix_parts.js";
+import { Curves, Parts } from "./mix_parts.js";
 
 /** Copies of the arrays in a struct: views of memory that may be released. */
 function copied(struct) {
@@ -19,8 +19,8 @@ export class Mix extends Handle {
     layers = [], reactions = [], antagonists = [], customGuards = [], variables = [], lower, upper, mirror, deformer,
     ...rest
   } = {}) {
-    const lanes = new Lanes(rig, variables);
-    const parts = new Parts(lanes);
+    const curves = new Curves(rig, variables);
+    const parts = new Parts(curves);
     const desc = {
       ...rest,
       layers: layers.map((layer) => parts.layer(layer)),
@@ -28,9 +28,9 @@ export class Mix extends Handle {
       antagonists: antagonists.map((pair) => parts.antagonists(pair)),
       customGuards: customGuards.map((guard) => parts.guard(guard)),
       poses: parts.poses,
-      lower: lanes.each(lower, "lower"),
-      upper: lanes.each(upper, "upper"),
-      mirror: mirror && lanes.full(mirror, "mirror"),
+      lower: curves.each(lower, "lower"),
+      upper: curves.each(upper, "upper"),
+      mirror: mirror && curves.full(mirror, "mirror"),
       // Guards are measured on meshes and joints: those of the rig, unless others are given.
       deformer: deformer ?? (rest.guards || customGuards.length ? rig.deformer : null),
       variableCount: variables.length,
@@ -314,23 +314,23 @@ export function findAntagonists(memory, rig) {
   });
 }
 
-/** The counterpart of each lane in the other half of the face. */
-export function findMirror(memory, deformer, laneCount) {
+/** The counterpart of each curve in the other half of the face. */
+export function findMirror(memory, deformer, curveCount) {
   return memory.withScratch((scratch) => {
     const error = scratch.out("Error");
-    const out = scratch.take(Math.max(1, laneCount) * 2);
-    memory.check(memory.exports.mien_mix_mirror(deformer.handle, out, laneCount, error), error);
-    return memory.array("u16", out, laneCount).slice();
+    const out = scratch.take(Math.max(1, curveCount) * 2);
+    memory.check(memory.exports.mien_mix_mirror(deformer.handle, out, curveCount, error), error);
+    return memory.array("u16", out, curveCount).slice();
   });
 }
 
 /** The share of some joint groups in what each raw control moves. */
-export function findMask(memory, rig, groups, { otherwise = 0, laneCount = rig.count(Kind.RAW_CONTROL) } = {}) {
+export function findMask(memory, rig, groups, { otherwise = 0, curveCount = rig.count(Kind.RAW_CONTROL) } = {}) {
   return memory.withScratch((scratch) => {
     const error = scratch.out("Error");
-    const out = scratch.take(Math.max(1, laneCount) * 4);
+    const out = scratch.take(Math.max(1, curveCount) * 4);
     memory.check(memory.exports.mien_mix_mask(rig.handle, scratch.array("u32", groups), groups.length, otherwise, out,
-      laneCount, error), error);
-    return memory.array("f32", out, laneCount).slice();
+      curveCount, error), error);
+    return memory.array("f32", out, curveCount).slice();
   });
 }

@@ -19,24 +19,24 @@ export const MixLayer = Object.freeze({
     group: LayerGroup.EMOTION, mode: BlendMode.SCREEN, ...options, source: LayerSource.POSES, poses,
   }),
   /** Rows that arrive from outside: mixer.push(). */
-  stream: (lanes, options = {}) => ({
-    group: LayerGroup.BASE, mode: BlendMode.OVERRIDE, ...options, source: LayerSource.STREAM, lanes,
+  stream: (curves, options = {}) => ({
+    group: LayerGroup.BASE, mode: BlendMode.OVERRIDE, ...options, source: LayerSource.STREAM, curves,
   }),
-  /** Blinks, breath or noise for lanes, scaled by amounts. */
+  /** Blinks, breath or noise for curves, scaled by amounts. */
   generator: (generator, amounts, options = {}) => ({
     group: LayerGroup.LIFE, mode: BlendMode.ADD, ...options, source: LayerSource.GENERATOR, generator,
-    lanes: Object.keys(amounts), amounts: Object.values(amounts),
+    curves: Object.keys(amounts), amounts: Object.values(amounts),
   }),
   /** Turns the eyes to a place, by the gaze of the mix. */
   gaze: (target, { head = {}, jitter = [0, 0], ...options } = {}) => ({
     group: LayerGroup.LIFE, period: TICKS_PER_SECOND / 4, ...options, mode: BlendMode.OVERRIDE,
-    source: LayerSource.GENERATOR, generator: Generator.GAZE, lanes: [...target, ...Object.keys(head)],
+    source: LayerSource.GENERATOR, generator: Generator.GAZE, curves: [...target, ...Object.keys(head)],
     amounts: [...jitter, 0, ...Object.values(head)],
   }),
 });
 
-/** The lanes of a mix by name: raw controls of the rig, then pose variables. */
-export class Lanes {
+/** The curves of a mix by name: raw controls of the rig, then pose variables. */
+export class Curves {
   #rig;
   #variables;
 
@@ -47,20 +47,20 @@ export class Lanes {
     this.count = rawCount + variables.length;
   }
 
-  /** The number of a lane, which may be given by name. */
-  index(lane) {
-    if (typeof lane === "string") {
-      const index = this.#variables.get(lane) ?? this.#rig.find(Kind.RAW_CONTROL, lane);
-      if (index === undefined) throw errorOf(Status.NAME, `there is no raw control or pose variable "${lane}"`);
+  /** The number of a curve, which may be given by name. */
+  index(curve) {
+    if (typeof curve === "string") {
+      const index = this.#variables.get(curve) ?? this.#rig.find(Kind.RAW_CONTROL, curve);
+      if (index === undefined) throw errorOf(Status.NAME, `there is no raw control or pose variable "${curve}"`);
       return index;
     }
-    if (!Number.isInteger(lane) || lane < 0 || lane >= this.count) {
-      throw errorOf(Status.INDEX, `lane ${lane} of ${this.count}`);
+    if (!Number.isInteger(curve) || curve < 0 || curve >= this.count) {
+      throw errorOf(Status.INDEX, `curve ${curve} of ${this.count}`);
     }
-    return lane;
+    return curve;
   }
 
-  /** A weight for each lane: of a list of names, of an object by names, or as it is. */
+  /** A weight for each curve: of a list of names, of an object by names, or as it is. */
   mask(mask) {
     if (mask === undefined || mask === null) return undefined;
     if (isNumbers(mask)) return mask;
@@ -70,7 +70,7 @@ export class Lanes {
     return weights;
   }
 
-  /** A value for each lane: of one number, or of as many as there are lanes. */
+  /** A value for each curve: of one number, or of as many as there are curves. */
   each(values, what) {
     if (values === undefined || values === null) return undefined;
     if (typeof values === "number") return new Float32Array(this.count).fill(values);
@@ -79,7 +79,7 @@ export class Lanes {
 
   full(values, what) {
     if (values.length !== this.count) {
-      throw errorOf(Status.MISMATCH, `${what} takes one value for each of ${this.count} lanes, not ${values.length}`);
+      throw errorOf(Status.MISMATCH, `${what} takes one value for each of ${this.count} curves, not ${values.length}`);
     }
     return values;
   }
@@ -93,22 +93,22 @@ function isNumbers(values) {
 export class Parts {
   poses = [];
 
-  constructor(lanes) {
-    this.lanes = lanes;
+  constructor(curves) {
+    this.curves = curves;
   }
 
   #pose(pose) {
     const names = Object.keys(pose);
-    this.poses.push({ lanes: names.map((name) => this.lanes.index(name)), values: Object.values(pose) });
+    this.poses.push({ curves: names.map((name) => this.curves.index(name)), values: Object.values(pose) });
     return this.poses.length - 1;
   }
 
-  layer({ poses = [], lanes, mask, weight = 1, ...rest }) {
+  layer({ poses = [], curves, mask, weight = 1, ...rest }) {
     const firstPose = this.poses.length;
     for (const pose of poses) this.#pose(pose);
     return {
-      ...rest, weight, firstPose, poseCount: poses.length, mask: this.lanes.mask(mask),
-      lanes: lanes?.map((lane) => this.lanes.index(lane)),
+      ...rest, weight, firstPose, poseCount: poses.length, mask: this.curves.mask(mask),
+      curves: curves?.map((curve) => this.curves.index(curve)),
     };
   }
 
@@ -120,11 +120,11 @@ export class Parts {
     const landmark = ({ points, mesh }) => ({ points, mesh: mesh ?? NO_MESH });
     return {
       ...rest, tolerance, fOn, upper: landmark(upper), lower: landmark(lower),
-      closedBy: closedBy === undefined || closedBy === null ? NO_CONTROL : this.lanes.index(closedBy),
+      closedBy: closedBy === undefined || closedBy === null ? NO_CONTROL : this.curves.index(closedBy),
     };
   }
 
   antagonists({ first, second, stiffness = 1 }) {
-    return { first: this.lanes.index(first), second: this.lanes.index(second), stiffness };
+    return { first: this.curves.index(first), second: this.curves.index(second), stiffness };
   }
 }

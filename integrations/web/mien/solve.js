@@ -7,7 +7,7 @@ import { Handle, handlesOf, makeHandle } from "./memory.js";
 const KINDS = ["aim", "space", "spring", "twist", "copy", "custom"];
 
 /** The fields of a struct Solver. Functions of custom solvers are added to `functions`. */
-function describe(memory, solver, laneCount, functions) {
+function describe(memory, solver, curveCount, functions) {
   const kinds = KINDS.filter((kind) => solver[kind]);
   if (kinds.length !== 1) throw new TypeError(`a solver has one of ${KINDS.join(", ")}`);
   const [kind] = kinds;
@@ -24,17 +24,17 @@ function describe(memory, solver, laneCount, functions) {
   const { solve, stateFloats = 0, ...rest } = given;
   if (typeof solve !== "function") throw new TypeError("a custom solver needs a function solve(poses, ticks)");
   const user = memory.addFunction((call) => solve(
-    call.poses.map((pose) => poseOf(memory, pose, call.jointCount, { laneCount, stateFloats, ...rest })), call.ticks));
+    call.poses.map((pose) => poseOf(memory, pose, call.jointCount, { curveCount, stateFloats, ...rest })), call.ticks));
   functions.push(user);
   return { ...solver, custom: { ...rest, user, solve: memory.exports.mien_web_solver(), stateBytes: 4 * stateFloats } };
 }
 
 /** What a custom solver sees of a character: arrays over the memory of the module. */
-function poseOf(memory, pose, jointCount, { laneCount, stateFloats, outputCount = 0, previousJoints = [] }) {
+function poseOf(memory, pose, jointCount, { curveCount, stateFloats, outputCount = 0, previousJoints = [] }) {
   const floats = (address, count) => memory.array("f32", address, address ? count : 0);
   return {
     locals: floats(pose.locals, 10 * jointCount), models: floats(pose.models, 16 * jointCount),
-    previous: floats(pose.previous, 16 * previousJoints.length), row: floats(pose.row, laneCount),
+    previous: floats(pose.previous, 16 * previousJoints.length), row: floats(pose.row, curveCount),
     outputs: floats(pose.outputs, outputCount), state: floats(pose.state, stateFloats), lod: pose.lod,
     isReset: pose.isReset,
   };
@@ -43,12 +43,12 @@ function poseOf(memory, pose, jointCount, { laneCount, stateFloats, outputCount 
 export class SolverStack extends Handle {
   #info;
 
-  static create(memory, deformer, solvers, { laneCount = 0, ...desc } = {}) {
+  static create(memory, deformer, solvers, { curveCount = 0, ...desc } = {}) {
     const functions = [];
     try {
-      const given = solvers.map((solver) => describe(memory, solver, laneCount, functions));
+      const given = solvers.map((solver) => describe(memory, solver, curveCount, functions));
       const handle = makeHandle(memory, (out, error, scratch) => memory.exports.mien_solver_stack_create(
-        deformer.handle, scratch.struct("SolverStackDesc", { ...desc, laneCount, solvers: given }), out, error));
+        deformer.handle, scratch.struct("SolverStackDesc", { ...desc, curveCount, solvers: given }), out, error));
       return new SolverStack(memory, handle, functions);
     } catch (error) {
       for (const user of functions) memory.removeFunction(user);

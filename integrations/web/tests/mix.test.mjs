@@ -230,14 +230,14 @@ test("guards of one's own tell what they measured and held", () => {
   const [upper, lower] = ["C_TeethUpper", "C_TeethLower"].map((name) => ({ points: [rig.indexOf(Kind.JOINT, name)] }));
   const mix = rig.mix({ layers: [MixLayer.poses([{ jawOpen: 0.5 }])], customGuards: [{ upper, lower, fOn: 4 }] });
   const guard = mix.guard(0);
-  assert.equal(guard.lanes[0], raw("jawOpen"));
+  assert.equal(guard.curves[0], raw("jawOpen"));
   assert.ok(guard.gains[0] > 1);
   const mixer = mix.mixer();
   mixer.setPoseWeight(0, 0, 1);
   mixer.step(ticks(1));
   const state = mixer.guard(0);
   assert.equal(state.activation, 1);
-  assert.deepEqual([state.name, state.kind, [...state.controls]], ["custom", 0, [...guard.lanes]]);
+  assert.deepEqual([state.name, state.kind, [...state.controls]], ["custom", 0, [...guard.curves]]);
   assert.ok(state.wanted > state.limit && Math.abs(state.distance - state.limit) < 1e-3);
   assert.throws(() => mix.guard(1), fails(Status.INDEX));
   for (const object of [mixer, mix]) object.dispose();
@@ -262,7 +262,7 @@ test("antagonists, mirrors, masks of joint groups and limits come from the rig",
   const mirror = rig.deformer.mirror(count);
   assert.equal(mirror[raw("mouthSmileLeft")], raw("mouthSmileRight"));
   const groups = Array.from({ length: rig.count(Kind.JOINT_GROUP) }, (_, i) => i);
-  const mask = rig.groupMask(groups, { otherwise: 0.25, laneCount: count });
+  const mask = rig.groupMask(groups, { otherwise: 0.25, curveCount: count });
   assert.equal(mask[count - 1], 0.25);
   const mix = scene({ antagonists: pairs, mirror, lower: 0, upper: new Float32Array(count).fill(1) });
   const clip = mien.buildClip({ names: ["mouthSmileLeft"], values: [0.5, 0.5] });
@@ -365,7 +365,7 @@ const jaw = rig.indexOf(Kind.JOINT, "C_Jaw");
 const body = rig.deformer.instance();
 
 function solved(solver, { row, steps = 1, ...input } = {}) {
-  const stack = rig.deformer.solvers([solver], { laneCount: row?.length ?? 0, checkWrites: 1 });
+  const stack = rig.deformer.solvers([solver], { curveCount: row?.length ?? 0, checkWrites: 1 });
   const state = stack.state();
   stack.dispose(); // states go on
   for (let i = 0; i < steps; ++i) {
@@ -379,7 +379,7 @@ test("each kind of solver moves its joint", () => {
   const neutral = rig.deformer.bindMatrices.slice(16 * jaw, 16 * jaw + 16);
   const [x, y, z] = neutral.subarray(12);
   for (const [solver, input] of [
-    [{ aim: { joint: jaw, axis: [1, 0, 0], targetLane: 1, upAxis: [0, 1, 0] } }, { row: [0, x, y, z + 100] }],
+    [{ aim: { joint: jaw, axis: [1, 0, 0], targetCurve: 1, upAxis: [0, 1, 0] } }, { row: [0, x, y, z + 100] }],
     [{ spring: { joint: jaw, frequency: 2, damping: 0.5, restOffset: [1, 0, 0] } }, { steps: 60 }],
     [{ custom: { writes: [jaw], solve: ([{ locals }]) => { locals[10 * jaw + 1] = 3; } } }, {}],
   ]) {
@@ -390,7 +390,7 @@ test("each kind of solver moves its joint", () => {
     state.dispose();
   }
   for (const solver of [
-    { space: { joint: jaw, spaces: [null, 0], lane: 0 } },
+    { space: { joint: jaw, spaces: [null, 0], curve: 0 } },
     { twist: { source: 0, axis: [1, 0, 0], joints: [jaw], shares: [0.5] } },
     { copy: { source: 0, joint: jaw, isMirrored: true } },
   ]) solved(solver, { row: [1] }).dispose();
@@ -408,7 +408,7 @@ test("custom solvers keep state, see rows and publish, one character or many", (
         seen.push([ticks, pose.lod, pose.isReset, pose.previous.length]);
       }
     },
-  } }], { laneCount: 2 });
+  } }], { curveCount: 2 });
   assert.equal(stack.info.outputCount, 2);
   const states = [stack.state(), stack.state()];
   const bodies = [body, rig.deformer.instance()];
@@ -454,7 +454,7 @@ test("wrong solvers and wrong steps throw", () => {
   }
   const twist = { source: jaw, axis: [1, 0, 0], joints: [0], shares: [0.5, 1] };
   assert.throws(() => rig.deformer.solvers([{ twist }]), RangeError);
-  const stack = rig.deformer.solvers([{ spring: { joint: jaw, frequency: 1, damping: 1 } }], { laneCount: 2 });
+  const stack = rig.deformer.solvers([{ spring: { joint: jaw, frequency: 1, damping: 1 } }], { curveCount: 2 });
   const state = stack.state();
   assert.throws(() => state.step(body, 1, { row: [0] }), fails(Status.MISMATCH));
   assert.throws(() => state.step(body, -1, { row: [0, 0] }), fails(Status.INVALID_ARGUMENT));

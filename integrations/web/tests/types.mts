@@ -71,9 +71,9 @@ export function mixing(mien: Mien, rig: Rig, clip: Clip): number {
   mixer.restore(mixer.snapshot(), [{ clipId: 1, clip, binding: clip.bind(rig) }]);
   const stack = rig.deformer?.solvers([
     { spring: { joint: 1, frequency: 3, damping: 0.3 }, lods: 1 },
-    { space: { joint: 1, spaces: [null, 2], lane: 0 } },
+    { space: { joint: 1, spaces: [null, 2], curve: 0 } },
     { custom: { writes: [1], solve: (poses, time) => { for (const pose of poses) pose.locals[10] = time; } } },
-  ], { laneCount: 1 });
+  ], { curveCount: 1 });
   const meshes = rig.deformer?.instance();
   if (meshes) stack?.state().step(meshes, 1, { row: mixer.row });
   // @ts-expect-error: a misspelled option

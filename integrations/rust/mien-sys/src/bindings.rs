@@ -367,17 +367,17 @@ pub const MIEN_LAYER_SOURCE_GENERATOR: u32 = 3;
 
 // enum MienGenerator
 /// Blinks every `period` on average, at least 0.5 s apart. The wait starts over when earlier
-/// layers raise the first lane above 0.6.
+/// layers raise the first curve above 0.6.
 pub const MIEN_GENERATOR_BLINK: u32 = 0;
 /// Rises from 0 to 1 in 40 % of the period, then falls back to 0.
 pub const MIEN_GENERATOR_BREATH: u32 = 1;
 /// Smooth noise between -1 and 1 with a new random value every period.
 pub const MIEN_GENERATOR_NOISE: u32 = 2;
-/// Turns the eyes to a target with saccades, by MienMixDesc.gaze. `lanes` are three lanes with the
-/// left, up and front of a MienGazeTarget, read after the earlier layers, then optionally two
-/// lanes that get the part left for the head (MienGazeRest). `amounts` are fixation jitter
-/// sideways and up in degrees, 0, and factors for the two head lanes. Shifts of 20 degrees or more
-/// make the blink layers of the mix blink.
+/// Turns the eyes to a target with saccades, by MienMixDesc.gaze. `curves` are three curves with
+/// the left, up and front of a MienGazeTarget, read after the earlier layers, then optionally two
+/// curves that get the part left for the head (MienGazeRest). `amounts` are fixation jitter
+/// sideways and up in degrees, 0, and factors for the two head curves. Shifts of 20 degrees or
+/// more make the blink layers of the mix blink.
 pub const MIEN_GENERATOR_GAZE: u32 = 3;
 
 // enum MienRetrigger
@@ -397,7 +397,7 @@ pub const MIEN_GUARD_TEETH: u32 = 4;
 pub const MIEN_GUARD_ALL: u32 = 7;
 
 // enum MienTransition
-/// The old clip stops; each lane blends from its last value and speed.
+/// The old clip stops; each curve blends from its last value and speed.
 pub const MIEN_TRANSITION_INERTIAL: u32 = 0;
 /// Both clips play; `MIEN_TRANSITION_INERTIAL` if no player is free.
 pub const MIEN_TRANSITION_CROSSFADE: u32 = 1;
@@ -580,7 +580,7 @@ pub struct MienClipBinding {
     _opaque: Opaque,
 }
 
-/// What is mixed for one rig, and how. A row holds one value per lane. The lanes are the raw
+/// What is mixed for one rig, and how. A row holds one value per curve. The curves are the raw
 /// controls of the rig, then pose variables: numbers of the caller that are mixed by the same
 /// rules (gaze, head turn, breath). Each step of a MienMixer applies the layers in order, then
 /// reactions, guards, layers and reactions that act after the guards, antagonists, and limits.
@@ -1833,14 +1833,14 @@ pub struct MienMixLayer {
     pub period: i64,
     /// Of a stream, ticks: rows are played this much later than their times.
     pub delay: i64,
-    /// One per lane, 0 to 1; lanes beyond `mask_count` have 0. NULL: 1 for all.
+    /// One per curve, 0 to 1; curves beyond `mask_count` have 0. NULL: 1 for all.
     pub mask: *const f32,
-    /// The lane of each channel of a stream, or the lanes of a generator.
-    pub lanes: *const u16,
-    /// One per lane of a generator: a factor for its value.
+    /// The curve of each channel of a stream, or the curves of a generator.
+    pub curves: *const u16,
+    /// One per curve of a generator: a factor for its value.
     pub amounts: *const f32,
     pub mask_count: u32,
-    pub lane_count: u32,
+    pub curve_count: u32,
     /// `MIEN_LAYER_GROUP_...`
     pub group: u32,
     /// `MIEN_BLEND_MODE_...`
@@ -1870,11 +1870,11 @@ impl Default for MienMixLayer {
     }
 }
 
-/// A pose: the lanes that it moves, and their values.
+/// A pose: the curves that it moves, and their values.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienMixPose {
-    pub lanes: *const u16,
+    pub curves: *const u16,
     pub values: *const f32,
     pub count: usize,
 }
@@ -1887,7 +1887,7 @@ impl Default for MienMixPose {
     }
 }
 
-/// A part of a reaction: moves the lanes of a pose to its values and back to 0. Times are in
+/// A part of a reaction: moves the curves of a pose to its values and back to 0. Times are in
 /// ticks.
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -1958,8 +1958,8 @@ impl Default for MienMixReaction {
     }
 }
 
-/// Two lanes that move the face in opposite directions. If both are above 0, the smaller one times
-/// stiffness is subtracted from both.
+/// Two curves that move the face in opposite directions. If both are above 0, the smaller one
+/// times stiffness is subtracted from both.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienMixAntagonists {
@@ -2039,10 +2039,10 @@ pub struct MienMixDesc {
     pub reaction_count: usize,
     pub antagonists: *const MienMixAntagonists,
     pub antagonist_count: usize,
-    /// For each lane its counterpart in the other half of the face, or itself. NULL: clips cannot
+    /// For each curve its counterpart in the other half of the face, or itself. NULL: clips cannot
     /// be played mirrored.
     pub mirror: *const u16,
-    /// Limits per lane. NULL: none; both or neither.
+    /// Limits per curve. NULL: none; both or neither.
     pub lower: *const f32,
     pub upper: *const f32,
     /// Numbered after the built-in ones; at most 8 guards in total.
@@ -2054,7 +2054,7 @@ pub struct MienMixDesc {
     pub deformer: *const MienDeformer,
     /// `MIEN_GUARD_...` bits; a guard is left out if the rig lacks its landmarks.
     pub guards: u32,
-    /// Pose variables; at most 4096 lanes with the raw controls.
+    /// Pose variables; at most 4096 curves with the raw controls.
     pub variable_count: u32,
     /// Clips that can play at the same time; a crossfade needs two. 0: two for each clip layer.
     pub player_count: u32,
@@ -2107,7 +2107,7 @@ pub struct MienMixInfo {
     pub raw_control_count: u32,
     pub variable_count: u32,
     /// Raw controls and pose variables.
-    pub lane_count: u32,
+    pub curve_count: u32,
     pub layer_count: u32,
     /// For `mien_mixer_stage()`.
     pub stage_count: u32,
@@ -2130,15 +2130,15 @@ impl Default for MienMixInfo {
 }
 
 /// A guard of a mix, as it was measured: the distance in millimeters is `rest`, plus the sum of
-/// gain \* lane, plus a sum over pairs of lanes that share a corrective. See docs/mixing.md, 4
+/// gain \* curve, plus a sum over pairs of curves that share a corrective. See docs/mixing.md, 4
 /// "Guards".
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienMixGuardInfo {
     pub struct_size: usize,
     /// Raw controls that change the distance, by descending gain.
-    pub lanes: MienIndex16View,
-    /// 1 float per lane: millimeters at value 1.
+    pub curves: MienIndex16View,
+    /// 1 float per curve: millimeters at value 1.
     pub gains: MienFloatView,
     pub pair_count: u32,
     /// As in MienMixGuard.
@@ -2385,10 +2385,10 @@ impl Default for MienMixerClip {
 #[derive(Clone, Copy)]
 pub struct MienAimSolver {
     pub joint: u32,
-    /// Its position is the target. `MIEN_NO_JOINT`: three lanes of the row are.
+    /// Its position is the target. `MIEN_NO_JOINT`: three curves of the row are.
     pub target_joint: u32,
     /// First of these three: x y z in model space.
-    pub target_lane: u32,
+    pub target_curve: u32,
     /// Aim axis, in the space of the joint; not 0 0 0.
     pub axis: [f32; 3],
     /// In the space of the joint; 0 0 0: no rotation about the aim axis.
@@ -2409,8 +2409,8 @@ impl Default for MienAimSolver {
     }
 }
 
-/// Space switch: moves a joint as if its parent were attached to another joint. A lane selects one
-/// of the spaces. When it changes, the joint stays where it is, and the difference to the new
+/// Space switch: moves a joint as if its parent were attached to another joint. A curve selects
+/// one of the spaces. When it changes, the joint stays where it is, and the difference to the new
 /// space eases out.
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -2422,7 +2422,7 @@ pub struct MienSpaceSolver {
     /// 1 to 8.
     pub space_count: u32,
     /// Of the row: its value, rounded, is an index in `spaces`.
-    pub lane: u32,
+    pub curve: u32,
     pub joint: u32,
     /// 0.
     pub reserved: u32,
@@ -2525,7 +2525,7 @@ pub struct MienSolverPose {
     pub models: *const f32,
     /// 16 floats for each joint in `previous_joints`, as the last step left it.
     pub previous: *const f32,
-    /// MienSolverStackDesc.`lane_count` floats. NULL: there are none.
+    /// MienSolverStackDesc.`curve_count` floats. NULL: there are none.
     pub row: *const f32,
     /// MienUserSolver.`output_count` floats for the caller to read.
     pub outputs: *mut f32,
@@ -2640,8 +2640,8 @@ pub struct MienSolverStackDesc {
     /// In the order in which they run; at most 256.
     pub solvers: *const MienSolver,
     pub solver_count: usize,
-    /// The rows passed to steps have this many lanes or more. 0: no row.
-    pub lane_count: u32,
+    /// The rows passed to steps have this many curves or more. 0: no row.
+    pub curve_count: u32,
     /// Compare all joints before and after each solver, to find undeclared writes:
     /// `mien_solver_state_undeclared()`.
     pub check_writes: u32,
@@ -2664,7 +2664,7 @@ impl Default for MienSolverStackDesc {
 pub struct MienSolverStackInfo {
     pub struct_size: usize,
     pub solver_count: u32,
-    pub lane_count: u32,
+    pub curve_count: u32,
     /// Of all solvers.
     pub output_count: u32,
     pub joint_count: u32,
@@ -2706,7 +2706,7 @@ impl Default for MienSolverStateDesc {
 pub struct MienSolverInput {
     /// Such as the one from `mien_mixer_row()`. NULL: none.
     pub row: *const f32,
-    /// At least MienSolverStackDesc.`lane_count`.
+    /// At least MienSolverStackDesc.`curve_count`.
     pub row_count: usize,
     /// 0 to 63.
     pub lod: u32,
@@ -3954,23 +3954,23 @@ extern "C" {
     /// Finds the counterparts of raw controls in the other half of the face, for
     /// MienMixDesc.mirror. Controls are counterparts if their names differ only in Left and Right
     /// (or L and R) and their motions agree, or else if their motions are mirror images. Other
-    /// controls, and lanes beyond the raw controls, map to themselves. Evaluates the rig once for
+    /// controls, and curves beyond the raw controls, map to themselves. Evaluates the rig once for
     /// each raw control, and takes memory from its allocator during the call.
     ///
-    /// Fails with `MIEN_ERROR_MEMORY` if that returns NULL, `MIEN_ERROR_MISMATCH` if `lane_count`
+    /// Fails with `MIEN_ERROR_MEMORY` if that returns NULL, `MIEN_ERROR_MISMATCH` if `curve_count`
     /// is less than the raw controls, `MIEN_ERROR_DNA_LIMIT` if raw controls times joints exceed
     /// 2^22.
-    pub fn mien_mix_mirror(deformer: *const MienDeformer, out_lanes: *mut u16, lane_count: usize, error: *mut MienError) -> MienStatus;
+    pub fn mien_mix_mirror(deformer: *const MienDeformer, out_curves: *mut u16, curve_count: usize, error: *mut MienError) -> MienStatus;
 
     /// Computes a mask that selects joint groups: for each raw control the share of its joint
     /// motion, at value 1 and LOD 0, that belongs to these groups. A millimeter counts as much as
-    /// a degree. Controls that move no joint, and lanes beyond the raw controls, get
+    /// a degree. Controls that move no joint, and curves beyond the raw controls, get
     /// `otherwise_weight`. Evaluates the rig once for each raw control and group, and takes memory
     /// from its allocator during the call.
     ///
     /// Fails with `MIEN_ERROR_MEMORY` if that returns NULL, `MIEN_ERROR_INDEX` if a group does not
-    /// exist, `MIEN_ERROR_MISMATCH` if `lane_count` is less than the raw controls.
-    pub fn mien_mix_mask(rig: *const MienRig, groups: *const u32, group_count: usize, otherwise_weight: f32, out_mask: *mut f32, lane_count: usize, error: *mut MienError) -> MienStatus;
+    /// exist, `MIEN_ERROR_MISMATCH` if `curve_count` is less than the raw controls.
+    pub fn mien_mix_mask(rig: *const MienRig, groups: *const u32, group_count: usize, otherwise_weight: f32, out_mask: *mut f32, curve_count: usize, error: *mut MienError) -> MienStatus;
 
     /// Creates a gaze by measuring how raw controls turn the eyes, which evaluates the rig at
     /// least twice per raw control. `deformer` may be destroyed afterwards. Destroy with
@@ -4100,12 +4100,12 @@ extern "C" {
     /// twice.
     pub fn mien_mixer_step_batch(mixers: *const *mut MienMixer, instances: *const *mut MienInstance, count: usize, ticks: i64) -> MienStatus;
 
-    /// Returns the row of the last step, one float per lane: raw controls, then pose variables.
+    /// Returns the row of the last step, one float per curve: raw controls, then pose variables.
     ///
     /// Contents change with `mien_mixer_step()` and `mien_mixer_step_batch()`.
     pub fn mien_mixer_row(mixer: *const MienMixer, out_row: *mut MienFloatView) -> MienStatus;
 
-    /// Returns the row after a stage of the last step, one float per lane. Stages are numbered:
+    /// Returns the row after a stage of the last step, one float per curve. Stages are numbered:
     /// the layers, then reactions, guards, antagonists, limits. Layers that act after the
     /// reactions or the guards keep their numbers.
     ///
@@ -4144,7 +4144,7 @@ extern "C" {
     /// Creates a solver stack. `desc` is required. `deformer` may be destroyed before it. Destroy
     /// with `mien_solver_stack_destroy()`.
     ///
-    /// Fails with `MIEN_ERROR_INDEX` if a joint or lane does not exist,
+    /// Fails with `MIEN_ERROR_INDEX` if a joint or curve does not exist,
     /// `MIEN_ERROR_INVALID_ARGUMENT` if a number is out of range, or if a solver reads a joint
     /// that a later one moves; the message names both.
     pub fn mien_solver_stack_create(deformer: *const MienDeformer, desc: *const MienSolverStackDesc, out_solver_stack: *mut *mut MienSolverStack, error: *mut MienError) -> MienStatus;
@@ -4168,7 +4168,7 @@ extern "C" {
     /// step, is 0 to 2^40. Does not allocate or lock.
     ///
     /// Fails with `MIEN_ERROR_MISMATCH` if instance and stack have different deformers or the row
-    /// is shorter than MienSolverStackDesc.`lane_count`, `MIEN_ERROR_INVALID_ARGUMENT` if `ticks`
+    /// is shorter than MienSolverStackDesc.`curve_count`, `MIEN_ERROR_INVALID_ARGUMENT` if `ticks`
     /// or the LOD is out of range.
     pub fn mien_solver_state_step(solver_state: *mut MienSolverState, deformer_instance: *mut MienDeformerInstance, input: *const MienSolverInput, ticks: i64) -> MienStatus;
 

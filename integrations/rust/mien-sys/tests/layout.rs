@@ -610,10 +610,10 @@ fn mien_mix_layer() {
     assert_eq!(offset!(S, period), 0);
     assert_eq!(offset!(S, delay), 8);
     assert_eq!(offset!(S, mask), 16);
-    assert_eq!(offset!(S, lanes), 24);
+    assert_eq!(offset!(S, curves), 24);
     assert_eq!(offset!(S, amounts), 32);
     assert_eq!(offset!(S, mask_count), 40);
-    assert_eq!(offset!(S, lane_count), 44);
+    assert_eq!(offset!(S, curve_count), 44);
     assert_eq!(offset!(S, group), 48);
     assert_eq!(offset!(S, mode), 52);
     assert_eq!(offset!(S, source), 56);
@@ -631,7 +631,7 @@ fn mien_mix_pose() {
     use mien_sys::MienMixPose as S;
     assert_eq!(size_of::<S>(), 24);
     assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, lanes), 0);
+    assert_eq!(offset!(S, curves), 0);
     assert_eq!(offset!(S, values), 8);
     assert_eq!(offset!(S, count), 16);
 }
@@ -753,7 +753,7 @@ fn mien_mix_info() {
     assert_eq!(offset!(S, struct_size), 0);
     assert_eq!(offset!(S, raw_control_count), 8);
     assert_eq!(offset!(S, variable_count), 12);
-    assert_eq!(offset!(S, lane_count), 16);
+    assert_eq!(offset!(S, curve_count), 16);
     assert_eq!(offset!(S, layer_count), 20);
     assert_eq!(offset!(S, stage_count), 24);
     assert_eq!(offset!(S, guard_count), 28);
@@ -767,7 +767,7 @@ fn mien_mix_guard_info() {
     assert_eq!(size_of::<S>(), 64);
     assert_eq!(align_of::<S>(), 8);
     assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, lanes), 8);
+    assert_eq!(offset!(S, curves), 8);
     assert_eq!(offset!(S, gains), 24);
     assert_eq!(offset!(S, pair_count), 40);
     assert_eq!(offset!(S, needs_speech), 44);
@@ -892,7 +892,7 @@ fn mien_aim_solver() {
     assert_eq!(align_of::<S>(), 4);
     assert_eq!(offset!(S, joint), 0);
     assert_eq!(offset!(S, target_joint), 4);
-    assert_eq!(offset!(S, target_lane), 8);
+    assert_eq!(offset!(S, target_curve), 8);
     assert_eq!(offset!(S, axis), 12);
     assert_eq!(offset!(S, up_axis), 24);
     assert_eq!(offset!(S, up), 36);
@@ -908,7 +908,7 @@ fn mien_space_solver() {
     assert_eq!(offset!(S, ease_ticks), 0);
     assert_eq!(offset!(S, spaces), 8);
     assert_eq!(offset!(S, space_count), 16);
-    assert_eq!(offset!(S, lane), 20);
+    assert_eq!(offset!(S, curve), 20);
     assert_eq!(offset!(S, joint), 24);
     assert_eq!(offset!(S, reserved), 28);
 }
@@ -1019,7 +1019,7 @@ fn mien_solver_stack_desc() {
     assert_eq!(offset!(S, struct_size), 0);
     assert_eq!(offset!(S, solvers), 8);
     assert_eq!(offset!(S, solver_count), 16);
-    assert_eq!(offset!(S, lane_count), 24);
+    assert_eq!(offset!(S, curve_count), 24);
     assert_eq!(offset!(S, check_writes), 28);
     assert_eq!(offset!(S, allocator), 32);
 }
@@ -1031,7 +1031,7 @@ fn mien_solver_stack_info() {
     assert_eq!(align_of::<S>(), 8);
     assert_eq!(offset!(S, struct_size), 0);
     assert_eq!(offset!(S, solver_count), 8);
-    assert_eq!(offset!(S, lane_count), 12);
+    assert_eq!(offset!(S, curve_count), 12);
     assert_eq!(offset!(S, output_count), 16);
     assert_eq!(offset!(S, joint_count), 20);
     assert_eq!(offset!(S, state_bytes), 24);

@@ -14,7 +14,7 @@ fn main() -> mien::Result<()> {
     let rig = Rig::new(&dna)?;
     let deformer = Deformer::new(&dna, &rig)?;
     let mut face = rig.instance()?;
-    let lane = |name: &str| rig.find(Kind::RAW_CONTROL, name);
+    let curve = |name: &str| rig.find(Kind::RAW_CONTROL, name);
 
     // Speech: the jaw at 60 frames a second, closed for every m of "mama mama".
     let phases = (0..180).map(|i| i % 30);
@@ -23,17 +23,21 @@ fn main() -> mien::Result<()> {
     let binding = Arc::new(speech.bind(&rig, &[])?);
 
     // Joy over it, held back where it would part the lips; the flashlight acts last.
-    let (jaw, smile, lids, squint) =
-        (lane("jawOpen")?, lane("mouthSmileLeft")?, lane("eyeBlinkLeft")?, lane("eyeSquintLeft")?);
+    let (jaw, smile, lids, squint) = (
+        curve("jawOpen")?,
+        curve("mouthSmileLeft")?,
+        curve("eyeBlinkLeft")?,
+        curve("eyeSquintLeft")?,
+    );
     let joy = [
         (jaw, 0.2),
         (smile, 0.9),
-        (lane("mouthSmileRight")?, 0.9),
-        (lane("cheekSquintLeft")?, 0.6),
-        (lane("cheekSquintRight")?, 0.6),
+        (curve("mouthSmileRight")?, 0.9),
+        (curve("cheekSquintLeft")?, 0.6),
+        (curve("cheekSquintRight")?, 0.6),
     ];
     let close = Stroke {
-        pose: vec![(lids, 1.0), (lane("eyeBlinkRight")?, 1.0)],
+        pose: vec![(lids, 1.0), (curve("eyeBlinkRight")?, 1.0)],
         mode: BlendMode::MAX,
         delay: 60 * MS,
         attack: 70 * MS,
@@ -42,7 +46,7 @@ fn main() -> mien::Result<()> {
         ..Default::default()
     };
     let narrow = Stroke {
-        pose: vec![(squint, 0.8), (lane("eyeSquintRight")?, 0.8)],
+        pose: vec![(squint, 0.8), (curve("eyeSquintRight")?, 0.8)],
         mode: BlendMode::SCREEN,
         delay: 90 * MS,
         attack: 150 * MS,

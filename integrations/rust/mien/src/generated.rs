@@ -724,8 +724,8 @@ impl LayerGroup {
 
 numbers!(LayerGroup, u32, [(0, "BASE"), (1, "SPEECH"), (2, "EMOTION"), (3, "REACTION"), (4, "LIFE")]);
 
-/// How a layer changes a lane: o is the value so far, x the value of the layer, a = weight \*
-/// mask. Lanes for which the layer's source has no value do not change.
+/// How a layer changes a curve: o is the value so far, x the value of the layer, a = weight \*
+/// mask. Curves for which the layer's source has no value do not change.
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -776,17 +776,17 @@ pub struct Generator(pub u32);
 
 impl Generator {
     /// Blinks every `period` on average, at least 0.5 s apart. The wait starts over when earlier
-    /// layers raise the first lane above 0.6.
+    /// layers raise the first curve above 0.6.
     pub const BLINK: Self = Self(0);
     /// Rises from 0 to 1 in 40 % of the period, then falls back to 0.
     pub const BREATH: Self = Self(1);
     /// Smooth noise between -1 and 1 with a new random value every period.
     pub const NOISE: Self = Self(2);
-    /// Turns the eyes to a target with saccades, by MienMixDesc.gaze. `lanes` are three lanes with
-    /// the left, up and front of a MienGazeTarget, read after the earlier layers, then optionally
-    /// two lanes that get the part left for the head (MienGazeRest). `amounts` are fixation jitter
-    /// sideways and up in degrees, 0, and factors for the two head lanes. Shifts of 20 degrees or
-    /// more make the blink layers of the mix blink.
+    /// Turns the eyes to a target with saccades, by MienMixDesc.gaze. `curves` are three curves
+    /// with the left, up and front of a MienGazeTarget, read after the earlier layers, then
+    /// optionally two curves that get the part left for the head (MienGazeRest). `amounts` are
+    /// fixation jitter sideways and up in degrees, 0, and factors for the two head curves. Shifts
+    /// of 20 degrees or more make the blink layers of the mix blink.
     pub const GAZE: Self = Self(3);
 }
 
@@ -839,7 +839,7 @@ flags!(Guard, u32, [(1, "LIPS"), (2, "LIDS"), (4, "TEETH"), (7, "ALL")]);
 pub struct Transition(pub u32);
 
 impl Transition {
-    /// The old clip stops; each lane blends from its last value and speed.
+    /// The old clip stops; each curve blends from its last value and speed.
     pub const INERTIAL: Self = Self(0);
     /// Both clips play; `Transition::INERTIAL` if no player is free.
     pub const CROSSFADE: Self = Self(1);
@@ -1509,7 +1509,7 @@ pub struct MixInfo {
     /// Variable count.
     pub variable_count: usize,
     /// Raw controls and pose variables.
-    pub lane_count: usize,
+    pub curve_count: usize,
     /// Layer count.
     pub layer_count: usize,
     /// For `mien_mixer_stage()`.
@@ -1527,7 +1527,7 @@ impl From<sys::MienMixInfo> for MixInfo {
         Self {
             raw_control_count: c.raw_control_count as usize,
             variable_count: c.variable_count as usize,
-            lane_count: c.lane_count as usize,
+            curve_count: c.curve_count as usize,
             layer_count: c.layer_count as usize,
             stage_count: c.stage_count as usize,
             guard_count: c.guard_count as usize,
@@ -1565,8 +1565,8 @@ impl From<sys::MienMixerInfo> for MixerInfo {
 pub struct SolverStackInfo {
     /// Solver count.
     pub solver_count: usize,
-    /// Lane count.
-    pub lane_count: usize,
+    /// Curve count.
+    pub curve_count: usize,
     /// Of all solvers.
     pub output_count: usize,
     /// Joint count.
@@ -1579,7 +1579,7 @@ impl From<sys::MienSolverStackInfo> for SolverStackInfo {
     fn from(c: sys::MienSolverStackInfo) -> Self {
         Self {
             solver_count: c.solver_count as usize,
-            lane_count: c.lane_count as usize,
+            curve_count: c.curve_count as usize,
             output_count: c.output_count as usize,
             joint_count: c.joint_count as usize,
             state_bytes: c.state_bytes,
@@ -2176,12 +2176,12 @@ macro_rules! errors {
         "- none with valid arguments"
     };
     (mien_mix_mirror) => {
-        "- [`Status::MISMATCH`](crate::Status::MISMATCH) if `lane_count` is less than the raw controls\n\
+        "- [`Status::MISMATCH`](crate::Status::MISMATCH) if `curve_count` is less than the raw controls\n\
          - [`Status::MEMORY`](crate::Status::MEMORY) if that returns NULL\n\
          - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if raw controls times joints exceed 2^22"
     };
     (mien_mix_mask) => {
-        "- [`Status::MISMATCH`](crate::Status::MISMATCH) if `lane_count` is less than the raw controls\n\
+        "- [`Status::MISMATCH`](crate::Status::MISMATCH) if `curve_count` is less than the raw controls\n\
          - [`Status::INDEX`](crate::Status::INDEX) if a group does not exist\n\
          - [`Status::MEMORY`](crate::Status::MEMORY) if that returns NULL"
     };
@@ -2276,7 +2276,7 @@ macro_rules! errors {
     };
     (mien_solver_stack_create) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if a number is out of range, or if a solver reads a joint that a later one moves; the message names both\n\
-         - [`Status::INDEX`](crate::Status::INDEX) if a joint or lane does not exist\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if a joint or curve does not exist\n\
          - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory"
     };
     (mien_solver_stack_info) => {
@@ -2288,11 +2288,11 @@ macro_rules! errors {
     };
     (mien_solver_state_step) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `ticks` or the LOD is out of range\n\
-         - [`Status::MISMATCH`](crate::Status::MISMATCH) if instance and stack have different deformers or the row is shorter than MienSolverStackDesc.`lane_count`"
+         - [`Status::MISMATCH`](crate::Status::MISMATCH) if instance and stack have different deformers or the row is shorter than MienSolverStackDesc.`curve_count`"
     };
     (mien_solver_state_step_batch) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `ticks` or the LOD is out of range\n\
-         - [`Status::MISMATCH`](crate::Status::MISMATCH) if instance and stack have different deformers or the row is shorter than MienSolverStackDesc.`lane_count`; or the states have different stacks"
+         - [`Status::MISMATCH`](crate::Status::MISMATCH) if instance and stack have different deformers or the row is shorter than MienSolverStackDesc.`curve_count`; or the states have different stacks"
     };
     (mien_solver_state_outputs) => {
         "- [`Status::INDEX`](crate::Status::INDEX) if the solver does not exist"

@@ -14,7 +14,7 @@ use std::sync::Arc;
 
 /// A layer of a mix: a source of rows, and how they change what the layers before it made.
 ///
-/// Lanes are raw controls, then pose variables. Times are in ticks of
+/// Curves are raw controls, then pose variables. Times are in ticks of
 /// 1 / [`TICKS_PER_SECOND`](crate::TICKS_PER_SECOND).
 #[derive(Clone, Debug)]
 pub struct MixLayer {
@@ -25,7 +25,7 @@ pub struct MixLayer {
     after_guards: bool,
     mask: Option<Vec<f32>>,
     poses: Vec<(Vec<u16>, Vec<f32>)>,
-    lanes: Vec<u16>,
+    curves: Vec<u16>,
     amounts: Vec<f32>,
     generator: Generator,
     period: i64,
@@ -43,9 +43,9 @@ fn written(write: impl Fn(*mut c_void, usize, &mut usize) -> Result<()>) -> Resu
 }
 
 fn split(pose: &[(usize, f32)]) -> (Vec<u16>, Vec<f32>) {
-    // A lane that does not fit is past the end of everything.
-    let lane = |lane: usize| u16::try_from(lane).unwrap_or(u16::MAX);
-    pose.iter().map(|(number, value)| (lane(*number), *value)).unzip()
+    // A curve that does not fit is past the end of everything.
+    let curve = |curve: usize| u16::try_from(curve).unwrap_or(u16::MAX);
+    pose.iter().map(|(number, value)| (curve(*number), *value)).unzip()
 }
 
 impl MixLayer {
@@ -58,7 +58,7 @@ impl MixLayer {
             after_guards: false,
             mask: None,
             poses: Vec::new(),
-            lanes: Vec::new(),
+            curves: Vec::new(),
             amounts: Vec::new(),
             generator: Generator::BLINK,
             period: 0,
@@ -74,7 +74,7 @@ impl MixLayer {
     }
 
     /// A weighted sum of poses ([`Mixer::set_pose_weight`]) in the group emotion, screened. A pose is
-    /// a list of lanes and values.
+    /// a list of curves and values.
     #[must_use]
     pub fn poses(poses: &[&[(usize, f32)]]) -> Self {
         let mut layer = Self::new(LayerSource::POSES, LayerGroup::EMOTION, BlendMode::SCREEN);
@@ -82,35 +82,35 @@ impl MixLayer {
         layer
     }
 
-    /// Rows that arrive from outside, one value for each of these lanes: [`Mixer::push`].
+    /// Rows that arrive from outside, one value for each of these curves: [`Mixer::push`].
     #[must_use]
-    pub fn stream(group: LayerGroup, lanes: &[usize]) -> Self {
+    pub fn stream(group: LayerGroup, curves: &[usize]) -> Self {
         let mut layer = Self::new(LayerSource::STREAM, group, BlendMode::OVERRIDE);
-        layer.lanes = split(&lanes.iter().map(|lane| (*lane, 0.0)).collect::<Vec<_>>()).0;
+        layer.curves = split(&curves.iter().map(|curve| (*curve, 0.0)).collect::<Vec<_>>()).0;
         layer
     }
 
-    /// Blinks, breath or noise for lanes with amounts, in the group life, added.
+    /// Blinks, breath or noise for curves with amounts, in the group life, added.
     #[must_use]
-    pub fn generator(generator: Generator, lanes: &[(usize, f32)], period: i64) -> Self {
+    pub fn generator(generator: Generator, curves: &[(usize, f32)], period: i64) -> Self {
         let mut layer = Self::new(LayerSource::GENERATOR, LayerGroup::LIFE, BlendMode::ADD);
-        let (lanes, amounts) = split(lanes);
-        layer.lanes = lanes;
+        let (curves, amounts) = split(curves);
+        layer.curves = curves;
         layer.amounts = amounts;
         layer.generator = generator;
         layer.period = period;
         layer
     }
 
-    /// Turns the eyes to a place, by [`MixOptions::gaze`], in the group life. `target` are lanes,
-    /// usually pose variables: millimeters to the left, up and to the front. Two lanes of `head` with
+    /// Turns the eyes to a place, by [`MixOptions::gaze`], in the group life. `target` are curves,
+    /// usually pose variables: millimeters to the left, up and to the front. Two curves of `head` with
     /// factors get what is left for the head. `jitter`: degrees of fixation across and up.
     #[must_use]
     pub fn gaze(target: [usize; 3], head: Option<[(usize, f32); 2]>, jitter: [f32; 2]) -> Self {
         let [across, up] = jitter;
-        let mut lanes = vec![(target[0], across), (target[1], up), (target[2], 0.0)];
-        lanes.extend(head.iter().flatten());
-        Self::generator(Generator::GAZE, &lanes, crate::TICKS_PER_SECOND / 4)
+        let mut curves = vec![(target[0], across), (target[1], up), (target[2], 0.0)];
+        curves.extend(head.iter().flatten());
+        Self::generator(Generator::GAZE, &curves, crate::TICKS_PER_SECOND / 4)
             .mode(BlendMode::OVERRIDE)
     }
 
@@ -121,7 +121,7 @@ impl MixLayer {
         self
     }
 
-    /// How it changes lanes.
+    /// How it changes curves.
     #[must_use]
     pub fn mode(mut self, mode: BlendMode) -> Self {
         self.mode = mode;
@@ -135,7 +135,7 @@ impl MixLayer {
         self
     }
 
-    /// Weight per lane, 0 to 1; those left out at the end are 0.
+    /// Weight per curve, 0 to 1; those left out at the end are 0.
     #[must_use]
     pub fn mask(mut self, mask: &[f32]) -> Self {
         self.mask = Some(mask.to_vec());
@@ -169,10 +169,10 @@ impl MixLayer {
             period: self.period,
             delay: self.delay,
             mask: mask.map_or(null(), <[f32]>::as_ptr),
-            lanes: self.lanes.as_ptr(),
+            curves: self.curves.as_ptr(),
             amounts: if self.amounts.is_empty() { null() } else { self.amounts.as_ptr() },
             mask_count: index(mask.map_or(0, <[f32]>::len)),
-            lane_count: index(self.lanes.len()),
+            curve_count: index(self.curves.len()),
             group: self.group.0,
             mode: self.mode.0,
             source: self.source.0,
@@ -187,12 +187,12 @@ impl MixLayer {
     }
 }
 
-/// A part of a reaction: moves lanes to a pose and back. Times are in ticks.
+/// A part of a reaction: moves curves to a pose and back. Times are in ticks.
 #[derive(Clone, Debug, Default)]
 pub struct Stroke {
-    /// Lanes and values.
+    /// Curves and values.
     pub pose: Vec<(usize, f32)>,
-    /// How it changes lanes.
+    /// How it changes curves.
     pub mode: BlendMode,
     /// After the trigger.
     pub delay: i64,
@@ -324,15 +324,15 @@ pub struct CustomGuard {
     pub f_on: f32,
 }
 
-/// A guard of a mix, as it was measured: millimeters = rest + sum of gain * lane + pairs of lanes.
+/// A guard of a mix, as it was measured: millimeters = rest + sum of gain * curve + pairs of curves.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct GuardInfo<'a> {
     /// Raw controls that change it, by falling gain.
-    pub lanes: &'a [u16],
+    pub curves: &'a [u16],
     /// Beside these: millimeters at value 1.
     pub gains: &'a [f32],
-    /// Pairs of lanes that share a corrective.
+    /// Pairs of curves that share a corrective.
     pub pair_count: usize,
     /// Distance of a row of zeros.
     pub rest: f32,
@@ -346,7 +346,7 @@ pub struct GuardInfo<'a> {
     pub fit_error: f32,
 }
 
-/// Two lanes that move the face in opposite directions.
+/// Two curves that move the face in opposite directions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Antagonists {
     /// One.
@@ -405,7 +405,7 @@ impl MixOptions {
         self
     }
 
-    /// Per lane its counterpart, such as that of [`Mix::find_mirror`]; without it, nothing can be
+    /// Per curve its counterpart, such as that of [`Mix::find_mirror`]; without it, nothing can be
     /// played mirrored.
     #[must_use]
     pub fn mirror(mut self, mirror: &[u16]) -> Self {
@@ -413,7 +413,7 @@ impl MixOptions {
         self
     }
 
-    /// The lowest and the highest value of each lane.
+    /// The lowest and the highest value of each curve.
     #[must_use]
     pub fn limits(mut self, lower: &[f32], upper: &[f32]) -> Self {
         self.limits = Some((lower.to_vec(), upper.to_vec()));
@@ -441,7 +441,7 @@ impl MixOptions {
         self
     }
 
-    /// Pose variables: lanes behind the raw controls.
+    /// Pose variables: curves behind the raw controls.
     #[must_use]
     pub fn variables(mut self, count: usize) -> Self {
         self.variables = count;
@@ -490,25 +490,25 @@ impl MixOptions {
     ///
     #[doc = errors!(mien_mix_create)]
     pub fn create(&self, rig: &Rig) -> Result<Mix> {
-        let lanes = rig.count(crate::Kind::RAW_CONTROL) + self.variables;
+        let curves = rig.count(crate::Kind::RAW_CONTROL) + self.variables;
         let wrong = |what| Err(Error::new(Status::INVALID_ARGUMENT, what));
-        if self.mirror.as_ref().map_or(false, |mirror| mirror.len() != lanes) {
-            return wrong("mirror: not one lane for each");
+        if self.mirror.as_ref().map_or(false, |mirror| mirror.len() != curves) {
+            return wrong("mirror: not one curve for each");
         }
         let off =
-            |(lower, upper): &(Vec<f32>, Vec<f32>)| lower.len() != lanes || upper.len() != lanes;
+            |(lower, upper): &(Vec<f32>, Vec<f32>)| lower.len() != curves || upper.len() != curves;
         if self.limits.as_ref().map_or(false, off) {
-            return wrong("limits: not one for each lane");
+            return wrong("limits: not one for each curve");
         }
         let strokes: Vec<_> = self.reactions.iter().flat_map(|r| &r.strokes).collect();
         let stroke_poses: Vec<_> = strokes.iter().map(|stroke| split(&stroke.pose)).collect();
         let layer_poses = self.layers.iter().flat_map(|layer| &layer.poses);
         let poses: Vec<_> = layer_poses
             .chain(&stroke_poses)
-            .map(|(lanes, values)| sys::MienMixPose {
-                lanes: lanes.as_ptr(),
+            .map(|(curves, values)| sys::MienMixPose {
+                curves: curves.as_ptr(),
                 values: values.as_ptr(),
-                count: lanes.len(),
+                count: curves.len(),
             })
             .collect();
         let mut first_pose = 0;
@@ -552,13 +552,13 @@ impl MixOptions {
                 reserved: 0,
             });
         }
-        let lane = |lane: usize| u16::try_from(lane).unwrap_or(u16::MAX);
+        let curve = |curve: usize| u16::try_from(curve).unwrap_or(u16::MAX);
         let antagonists: Vec<_> = self
             .antagonists
             .iter()
             .map(|pair| sys::MienMixAntagonists {
-                first: lane(pair.first),
-                second: lane(pair.second),
+                first: curve(pair.first),
+                second: curve(pair.second),
                 stiffness: pair.stiffness,
             })
             .collect();
@@ -786,11 +786,11 @@ impl Mix {
         // SAFETY: a live handle and a sized struct.
         check(unsafe { sys::mien_mix_guard(self.raw(), index(guard), &mut out) })?;
         // SAFETY: views live as long as the mix.
-        let (lanes, gains) = unsafe {
-            (slice(out.lanes.data, out.lanes.count), slice(out.gains.data, out.gains.count))
+        let (curves, gains) = unsafe {
+            (slice(out.curves.data, out.curves.count), slice(out.gains.data, out.gains.count))
         };
         Ok(GuardInfo {
-            lanes,
+            curves,
             gains,
             pair_count: out.pair_count as usize,
             rest: out.rest,
@@ -831,18 +831,18 @@ impl Mix {
         Ok(pairs.iter().map(pair).collect())
     }
 
-    /// For each lane its counterpart in the other half of the face, or itself.
+    /// For each curve its counterpart in the other half of the face, or itself.
     ///
     /// # Errors
     ///
     #[doc = errors!(mien_mix_mirror)]
-    pub fn find_mirror(deformer: &Deformer, lane_count: usize) -> Result<Vec<u16>> {
-        let mut lanes = vec![0; lane_count];
-        // SAFETY: a live handle, and room for as many lanes as are told.
+    pub fn find_mirror(deformer: &Deformer, curve_count: usize) -> Result<Vec<u16>> {
+        let mut curves = vec![0; curve_count];
+        // SAFETY: a live handle, and room for as many curves as are told.
         checked(|error| unsafe {
-            sys::mien_mix_mirror(deformer.raw(), lanes.as_mut_ptr(), lanes.len(), error)
+            sys::mien_mix_mirror(deformer.raw(), curves.as_mut_ptr(), curves.len(), error)
         })?;
-        Ok(lanes)
+        Ok(curves)
     }
 
     /// For each raw control the share of its joint motion that is of some joint groups; `otherwise`
@@ -855,10 +855,10 @@ impl Mix {
         rig: &Rig,
         groups: &[usize],
         otherwise: f32,
-        lane_count: usize,
+        curve_count: usize,
     ) -> Result<Vec<f32>> {
         let groups: Vec<_> = groups.iter().map(|group| index(*group)).collect();
-        let mut mask = vec![0.0; lane_count];
+        let mut mask = vec![0.0; curve_count];
         // SAFETY: a live handle, and arrays with their lengths.
         checked(|error| unsafe {
             sys::mien_mix_mask(

@@ -14,7 +14,7 @@ use std::ptr::{null, null_mut, NonNull};
 use std::slice::from_raw_parts_mut;
 use std::sync::Arc;
 
-/// No joint: model space, or a target at lanes of the row.
+/// No joint: model space, or a target at curves of the row.
 pub const NO_JOINT: usize = sys::MIEN_NO_JOINT as usize;
 
 /// Turns a joint so that one of its axes points at a target. Directions may have any length.
@@ -22,10 +22,10 @@ pub const NO_JOINT: usize = sys::MIEN_NO_JOINT as usize;
 pub struct AimSolver {
     /// Which one.
     pub joint: usize,
-    /// At which it points; [`NO_JOINT`]: at three lanes of the row.
+    /// At which it points; [`NO_JOINT`]: at three curves of the row.
     pub target_joint: usize,
     /// First of these.
-    pub target_lane: usize,
+    pub target_curve: usize,
     /// Of the joint.
     pub axis: [f32; 3],
     /// Of the joint; zeros: no turn about the axis.
@@ -39,12 +39,12 @@ pub struct AimSolver {
 }
 
 impl Default for AimSolver {
-    /// Joint 0 with its z axis at lane 0.
+    /// Joint 0 with its z axis at curve 0.
     fn default() -> Self {
         Self {
             joint: 0,
             target_joint: NO_JOINT,
-            target_lane: 0,
+            target_curve: 0,
             axis: [0.0, 0.0, 1.0],
             up_axis: [0.0; 3],
             up: [0.0; 3],
@@ -54,7 +54,7 @@ impl Default for AimSolver {
     }
 }
 
-/// Lets a joint hang on one of some joints, which a lane of the row chooses.
+/// Lets a joint hang on one of some joints, which a curve of the row chooses.
 #[derive(Clone, Debug, Default)]
 pub struct SpaceSolver {
     /// Which one.
@@ -62,7 +62,7 @@ pub struct SpaceSolver {
     /// On which it can hang; [`NO_JOINT`] is model space.
     pub spaces: Vec<usize>,
     /// Its value, rounded, is a place in `spaces`.
-    pub lane: usize,
+    pub curve: usize,
     /// Time of a change.
     pub ease_ticks: i64,
 }
@@ -120,7 +120,7 @@ pub struct SolverPose<'a> {
     pub models: &'a [[f32; 16]],
     /// The same for its previous joints, after the last step.
     pub previous: &'a [[f32; 16]],
-    /// Lanes of the step's row.
+    /// Curves of the step's row.
     pub row: &'a [f32],
     /// To publish.
     pub outputs: &'a mut [f32],
@@ -219,7 +219,7 @@ pub enum Solver {
 /// What a custom solver needs when it is called.
 struct Called {
     solve: Arc<Solve>,
-    lane_count: usize,
+    curve_count: usize,
     previous_count: usize,
     state_floats: usize,
     output_count: usize,
@@ -244,7 +244,7 @@ unsafe extern "C" fn solve(user: *mut c_void, call: *const sys::MienSolverCall) 
                 locals: mutable(pose.locals.cast(), joints),
                 models: slice(pose.models.cast(), joints),
                 previous: slice(pose.previous.cast(), called.previous_count),
-                row: slice(pose.row, if pose.row.is_null() { 0 } else { called.lane_count }),
+                row: slice(pose.row, if pose.row.is_null() { 0 } else { called.curve_count }),
                 outputs: mutable(pose.outputs, called.output_count),
                 state: mutable(pose.state.cast(), called.state_floats),
                 lod: pose.lod as usize,
@@ -312,14 +312,14 @@ impl Lists {
         self.joints[self.joints.len() - 1].as_ptr()
     }
 
-    fn solver(&mut self, solver: &Solver, lane_count: usize) -> sys::MienSolver {
+    fn solver(&mut self, solver: &Solver, curve_count: usize) -> sys::MienSolver {
         let mut to = sys::MienSolver::default();
         match solver {
             Solver::Aim(s) => {
                 let aim = sys::MienAimSolver {
                     joint: index(s.joint),
                     target_joint: index(s.target_joint),
-                    target_lane: index(s.target_lane),
+                    target_curve: index(s.target_curve),
                     axis: s.axis,
                     up_axis: s.up_axis,
                     up: s.up,
@@ -333,7 +333,7 @@ impl Lists {
                     ease_ticks: s.ease_ticks,
                     spaces: self.joints(&s.spaces),
                     space_count: index(s.spaces.len()),
-                    lane: index(s.lane),
+                    curve: index(s.curve),
                     joint: index(s.joint),
                     reserved: 0,
                 };
@@ -376,7 +376,7 @@ impl Lists {
             Solver::Custom(s) => {
                 let called = Called {
                     solve: s.solve.clone(),
-                    lane_count,
+                    curve_count,
                     previous_count: s.previous.len(),
                     state_floats: s.state_floats,
                     output_count: s.output_count,
@@ -405,7 +405,7 @@ impl Lists {
 #[derive(Clone, Debug, Default)]
 pub struct SolverStackOptions {
     solvers: Vec<(Solver, String, u64)>,
-    lane_count: usize,
+    curve_count: usize,
     check_writes: bool,
     allocator: Option<Allocator>,
 }
@@ -430,10 +430,10 @@ impl SolverStackOptions {
         self
     }
 
-    /// Lanes of the rows that steps get, at least.
+    /// Curves of the rows that steps get, at least.
     #[must_use]
-    pub fn lane_count(mut self, lane_count: usize) -> Self {
-        self.lane_count = lane_count;
+    pub fn curve_count(mut self, curve_count: usize) -> Self {
+        self.curve_count = curve_count;
         self
     }
 
@@ -460,7 +460,7 @@ impl SolverStackOptions {
         let mut lists = Lists::default();
         let mut solvers = Vec::new();
         for (solver, name, lods) in &self.solvers {
-            let mut to = lists.solver(solver, self.lane_count);
+            let mut to = lists.solver(solver, self.curve_count);
             if !name.is_empty() {
                 lists.names.push(crate::convert::terminated(name)?);
                 to.name = lists.names[lists.names.len() - 1].as_ptr();
@@ -473,7 +473,7 @@ impl SolverStackOptions {
             let desc = sys::MienSolverStackDesc {
                 solvers: solvers.as_ptr(),
                 solver_count: solvers.len(),
-                lane_count: index(self.lane_count),
+                curve_count: index(self.curve_count),
                 check_writes: self.check_writes.into(),
                 allocator,
                 ..Default::default()

@@ -31,7 +31,7 @@ impl Head {
         };
         made.get_or_insert_with(make).clone()
     }
-    fn lane(&self, name: &str) -> usize {
+    fn curve(&self, name: &str) -> usize {
         self.rig.find(Kind::RAW_CONTROL, name).unwrap()
     }
     fn variable(&self) -> usize {
@@ -47,7 +47,7 @@ impl Head {
     }
     fn options(&self) -> MixOptions {
         let squint = Stroke {
-            pose: vec![(self.lane("eyeSquintLeft"), 1.0)],
+            pose: vec![(self.curve("eyeSquintLeft"), 1.0)],
             mode: BlendMode::SCREEN,
             attack: FRAME,
             release: FRAME,
@@ -55,14 +55,14 @@ impl Head {
             is_scaled: true,
             ..Default::default()
         };
-        let lids = [(self.lane("eyeBlinkLeft"), 1.0), (self.lane("eyeBlinkRight"), 1.0)];
+        let lids = [(self.curve("eyeBlinkLeft"), 1.0), (self.curve("eyeBlinkRight"), 1.0)];
         MixOptions::new()
             .layer(MixLayer::clip(LayerGroup::SPEECH))
             .layer(MixLayer::poses(&[&[
-                (self.lane("mouthSmileLeft"), 0.5),
+                (self.curve("mouthSmileLeft"), 0.5),
                 (self.variable(), 1.0),
             ]]))
-            .layer(MixLayer::stream(LayerGroup::BASE, &[self.lane("browInnerUp")]))
+            .layer(MixLayer::stream(LayerGroup::BASE, &[self.curve("browInnerUp")]))
             .layer(
                 MixLayer::generator(Generator::BLINK, &lids, 4 * TICKS_PER_SECOND)
                     .mode(BlendMode::MAX),
@@ -97,8 +97,8 @@ fn layers_reach_the_instance() {
     mixer.set_pose_weight(1, 0, 1.0, 0).unwrap();
     mixer.set_variable(0, 0.0).unwrap();
     mixer.step(10 * FRAME, Some(&mut face)).unwrap();
-    let value = |mixer: &Mixer, name| mixer.row()[head.lane(name)];
-    assert_eq!(face.raw_controls()[head.lane("jawOpen")], 10.0 / 128.0);
+    let value = |mixer: &Mixer, name| mixer.row()[head.curve(name)];
+    assert_eq!(face.raw_controls()[head.curve("jawOpen")], 10.0 / 128.0);
     assert_eq!(value(&mixer, "mouthPucker"), 0.5);
     assert_eq!(value(&mixer, "mouthSmileLeft"), 0.5);
     assert_eq!(
@@ -210,25 +210,25 @@ fn streams_are_pushed_on_another_thread() {
 #[test]
 fn guards_and_tables_measure_the_rig() {
     let head = Head::get();
-    let jaw = head.lane("jawOpen");
-    let lanes = head.variable();
+    let jaw = head.curve("jawOpen");
+    let curves = head.variable();
     let pairs = Mix::find_antagonists(&head.rig).unwrap();
-    let blink = (head.lane("eyeBlinkLeft"), head.lane("eyeWideLeft"));
+    let blink = (head.curve("eyeBlinkLeft"), head.curve("eyeWideLeft"));
     assert!(pairs.iter().any(|pair| (pair.first, pair.second) == blink));
-    let mirror = Mix::find_mirror(&head.deformer, lanes).unwrap();
-    assert_eq!(usize::from(mirror[head.lane("mouthSmileLeft")]), head.lane("mouthSmileRight"));
+    let mirror = Mix::find_mirror(&head.deformer, curves).unwrap();
+    assert_eq!(usize::from(mirror[head.curve("mouthSmileLeft")]), head.curve("mouthSmileRight"));
     let groups: Vec<_> = (0..head.rig.count(Kind::JOINT_GROUP)).collect();
-    let mask = Mix::find_mask(&head.rig, &groups, 0.25, lanes + 1).unwrap();
-    assert_eq!(mask[lanes], 0.25);
-    assert_eq!(Mix::find_mask(&head.rig, &[99], 0.0, lanes).unwrap_err().status(), Status::INDEX);
+    let mask = Mix::find_mask(&head.rig, &groups, 0.25, curves + 1).unwrap();
+    assert_eq!(mask[curves], 0.25);
+    assert_eq!(Mix::find_mask(&head.rig, &[99], 0.0, curves).unwrap_err().status(), Status::INDEX);
 
     let mix = MixOptions::new()
         .layer(MixLayer::clip(LayerGroup::SPEECH))
-        .layer(MixLayer::poses(&[&[(jaw, 0.6), (head.lane("mouthSmileLeft"), 0.8)]]))
+        .layer(MixLayer::poses(&[&[(jaw, 0.6), (head.curve("mouthSmileLeft"), 0.8)]]))
         .guards(Guard::LIPS, &head.deformer)
         .antagonists(&pairs)
         .mirror(&mirror)
-        .limits(&vec![0.0; lanes], &vec![1.0; lanes])
+        .limits(&vec![0.0; curves], &vec![1.0; curves])
         .create(&head.rig)
         .unwrap();
     assert!(mix.info().guard_count >= 3);
@@ -241,7 +241,7 @@ fn guards_and_tables_measure_the_rig() {
     for _ in 0..30 {
         mixer.step(FRAME, None).unwrap();
     }
-    assert!(mixer.row()[jaw] < 0.1 && mixer.row()[head.lane("mouthSmileLeft")] > 0.5);
+    assert!(mixer.row()[jaw] < 0.1 && mixer.row()[head.curve("mouthSmileLeft")] > 0.5);
     let lips = mixer.guard(0).unwrap();
     assert!(lips.name.starts_with("lips") && lips.kind == Guard::LIPS);
     assert!(lips.wanted > lips.limit && lips.distance < lips.limit + 0.01);
@@ -258,9 +258,9 @@ fn guards_and_tables_measure_the_rig() {
     let gaze = Gaze::new(&head.deformer, None).unwrap();
     let [left, right] = gaze.eyes().unwrap();
     assert!(left[0] > 0.0 && left[0] + right[0] < 0.01);
-    let mut row = vec![0.0; lanes];
+    let mut row = vec![0.0; curves];
     gaze.look_at([100.0, 1700.0, 1000.0], &mut row).unwrap();
-    assert!(row[head.lane("eyeLookOutLeft")] > 0.0);
+    assert!(row[head.curve("eyeLookOutLeft")] > 0.0);
     assert!(gaze.look_at([f32::NAN, 0.0, 1.0], &mut row).is_err());
     assert_eq!(
         Gaze::new(&head.deformer, Some(("nobody", "R_Eye"))).unwrap_err().status(),
@@ -272,7 +272,7 @@ fn guards_and_tables_measure_the_rig() {
 fn guards_of_ones_own_tell_what_they_held() {
     let head = Head::get();
     let joint = |name: &str| head.rig.find(Kind::JOINT, name).unwrap() as u32;
-    let jaw = head.lane("jawOpen");
+    let jaw = head.curve("jawOpen");
     let teeth = CustomGuard {
         upper: Landmark { points: vec![joint("C_TeethUpper")], mesh: None },
         lower: Landmark { points: vec![joint("C_TeethLower")], mesh: None },
@@ -283,7 +283,7 @@ fn guards_of_ones_own_tell_what_they_held() {
     };
     let none: [Vec<(usize, f32)>; 4] = Default::default();
     let [a, b, c, d] = none;
-    let glare = Reaction::glare([vec![(head.lane("eyeBlinkLeft"), 1.0)], a, b, c, d]).unwrap();
+    let glare = Reaction::glare([vec![(head.curve("eyeBlinkLeft"), 1.0)], a, b, c, d]).unwrap();
     assert_eq!(glare.strokes[0].delay, TICKS_PER_SECOND / 1000 * 60);
     let options = MixOptions::new()
         .layer(MixLayer::poses(&[&[(jaw, 0.5)]]))
@@ -291,16 +291,16 @@ fn guards_of_ones_own_tell_what_they_held() {
         .guards(Guard(0), &head.deformer);
     let mix = options.clone().custom_guard(teeth.clone()).create(&head.rig).unwrap();
     let guard = mix.guard(0).unwrap();
-    assert_eq!(usize::from(guard.lanes[0]), jaw);
+    assert_eq!(usize::from(guard.curves[0]), jaw);
     assert_eq!(mix.guard(1).unwrap_err().status(), Status::INDEX);
     let mut mixer = mix.mixer(0).unwrap();
     mixer.set_pose_weight(0, 0, 1.0, 0).unwrap();
     mixer.trigger(0, 1.0, 0).unwrap();
     mixer.step(TICKS_PER_SECOND / 100 * 13, None).unwrap();
-    assert_eq!(mixer.row()[head.lane("eyeBlinkLeft")], 1.0);
+    assert_eq!(mixer.row()[head.curve("eyeBlinkLeft")], 1.0);
     let step = mixer.guard(0).unwrap();
     assert_eq!((step.activation, step.name.as_str()), (1.0, "custom"));
-    assert!(step.controls == guard.lanes && step.wanted > step.limit);
+    assert!(step.controls == guard.curves && step.wanted > step.limit);
     assert!((step.distance - step.limit).abs() < 1e-3);
     let wrong = CustomGuard { f_on: 0.0, ..teeth };
     let wrong = options.custom_guard(wrong).create(&head.rig).unwrap_err();
@@ -310,9 +310,9 @@ fn guards_of_ones_own_tell_what_they_held() {
 #[test]
 fn gaze_layers_look_at_pose_variables() {
     let head = Head::get();
-    let lanes = head.variable();
+    let curves = head.variable();
     let gaze = Arc::new(Gaze::new(&head.deformer, None).unwrap());
-    let layer = MixLayer::gaze([lanes, lanes + 1, lanes + 2], None, [0.0; 2]);
+    let layer = MixLayer::gaze([curves, curves + 1, curves + 2], None, [0.0; 2]);
     let options = MixOptions::new().layer(layer).variables(3);
     assert_eq!(options.create(&head.rig).unwrap_err().status(), Status::INVALID_ARGUMENT);
     let mut mixer = options.gaze(&gaze).create(&head.rig).unwrap().mixer(0).unwrap();
@@ -321,9 +321,9 @@ fn gaze_layers_look_at_pose_variables() {
         mixer.set_variable(variable, *value).unwrap();
     }
     mixer.step(FRAME, None).unwrap();
-    let mut row = vec![0.0; lanes];
+    let mut row = vec![0.0; curves];
     gaze.look_at(place, &mut row).unwrap();
-    assert_eq!(mixer.row()[..lanes], row);
+    assert_eq!(mixer.row()[..curves], row);
 }
 
 #[test]
@@ -358,7 +358,7 @@ fn wrong_mixes_are_refused() {
 
 /// A state of a stack of one solver, and a joint for it.
 fn solved(head: &Head, solver: Solver) -> SolverState {
-    let options = SolverStackOptions::new().solver_at(solver, "hat", 0).lane_count(4);
+    let options = SolverStackOptions::new().solver_at(solver, "hat", 0).curve_count(4);
     options.check_writes().create(&head.deformer).unwrap().state().unwrap()
 }
 
@@ -381,7 +381,7 @@ fn solvers_move_joints() {
     let input = SolverInput { row: &row, ..Default::default() };
     let spring = SpringSolver { joint, frequency: 2.0, damping: 0.5, ..Default::default() };
     let copy = CopySolver { source: 0, joint, weight: 1.0, ..Default::default() };
-    let space = SpaceSolver { joint, spaces: vec![NO_JOINT, 0], lane: 3, ease_ticks: FRAME };
+    let space = SpaceSolver { joint, spaces: vec![NO_JOINT, 0], curve: 3, ease_ticks: FRAME };
     let twist = TwistSolver { source: 0, axis: [1.0, 0.0, 0.0], joints: vec![(joint, 0.5)] };
     let aim = AimSolver { joint, ..Default::default() };
     for (solver, moves) in [

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/program/play/lanes_svg.h"
+#include "integrations/program/play/curves_svg.h"
 
 #include <algorithm>
 #include <cmath>
@@ -70,12 +70,12 @@ std::string area(const std::vector<float>& from, const std::vector<float>& to, c
   return "<path " + attributes + " d=\"" + path + "\"/>\n";
 }
 
-std::string curve(const std::vector<float>& values, const Scale& scale, const char* attributes) {
-  std::string line = std::string("<polyline fill=\"none\" ") + attributes + " points=\"";
+std::string line(const std::vector<float>& values, const Scale& scale, const char* attributes) {
+  std::string svg = std::string("<polyline fill=\"none\" ") + attributes + " points=\"";
   for (size_t f = 0; f < values.size(); ++f) {
-    line += number(scale.x(f)) + "," + number(scale.y(values[f])) + " ";
+    svg += number(scale.x(f)) + "," + number(scale.y(values[f])) + " ";
   }
-  return line + "\"/>\n";
+  return svg + "\"/>\n";
 }
 
 std::string text_at(double x, double y, const char* attributes, const std::string& text) {
@@ -108,22 +108,22 @@ std::string hatch(const std::string& stage, const char* color, int angle) {
          color + "\" stroke-width=\"2\"/></pattern>\n";
 }
 
-bool changes(const std::vector<LanePlot>& lanes, size_t stage) {
-  for (const LanePlot& lane : lanes) {
-    for (size_t f = 0; f < lane.values.size(); ++f) {
-      const float before = stage == 0 ? 0.0f : lane.stages[stage - 1][f];
-      if (lane.stages[stage][f] != before) return true;
+bool changes(const std::vector<CurvePlot>& curves, size_t stage) {
+  for (const CurvePlot& curve : curves) {
+    for (size_t f = 0; f < curve.values.size(); ++f) {
+      const float before = stage == 0 ? 0.0f : curve.stages[stage - 1][f];
+      if (curve.stages[stage][f] != before) return true;
     }
   }
   return false;
 }
 
 /// Which color is which stage, of those that do something.
-std::string legend(const std::vector<LanePlot>& lanes, const std::vector<std::string>& stages) {
+std::string legend(const std::vector<CurvePlot>& curves, const std::vector<std::string>& stages) {
   std::string svg;
   double x = kLeft;
   for (size_t s = 0; s < stages.size(); ++s) {
-    if (!changes(lanes, s)) continue;
+    if (!changes(curves, s)) continue;
     const std::string words = holds_back(stages[s]) ? "held back by " + stages[s] : stages[s];
     svg += "<rect x=\"" + number(x) + "\" y=\"12\" width=\"14\" height=\"14\" stroke=\"#999\" " +
            fill_of(stages[s], s) + "/>\n";
@@ -151,33 +151,33 @@ std::string caption_lines(const Captions& captions, double seconds, double botto
   return svg;
 }
 
-std::string lane_row(const LanePlot& lane, const std::vector<std::string>& stages, double top) {
-  const auto [least, most] = std::minmax_element(lane.values.begin(), lane.values.end());
+std::string curve_row(const CurvePlot& curve, const std::vector<std::string>& stages, double top) {
+  const auto [least, most] = std::minmax_element(curve.values.begin(), curve.values.end());
   double low = std::min(0.0, static_cast<double>(*least));
   double high = std::max(1.0, static_cast<double>(*most));
-  for (const std::vector<float>& stage : lane.stages) {
+  for (const std::vector<float>& stage : curve.stages) {
     const auto [lowest, highest] = std::minmax_element(stage.begin(), stage.end());
     low = std::min(low, static_cast<double>(*lowest));
     high = std::max(high, static_cast<double>(*highest));
   }
-  const Scale scale = {low, high, top, lane.values.size()};
+  const Scale scale = {low, high, top, curve.values.size()};
   std::string svg = level_line(scale.y(0), "stroke=\"#bbb\"");
   svg += level_line(scale.y(1), "stroke=\"#eee\"");
   const double middle = top + (kRow - kGap) / 2;
-  svg += text_at(kLeft - 16, middle + (lane.note.empty() ? 4 : -2),
-                 "text-anchor=\"end\" fill=\"#333\"", lane.name);
+  svg += text_at(kLeft - 16, middle + (curve.note.empty() ? 4 : -2),
+                 "text-anchor=\"end\" fill=\"#333\"", curve.name);
   svg += text_at(kLeft - 16, middle + 11, "text-anchor=\"end\" font-size=\"9\" fill=\"#a33\"",
-                 lane.note);
+                 curve.note);
   svg +=
       text_at(kLeft - 4, scale.y(0) + 3, "text-anchor=\"end\" font-size=\"8\" fill=\"#999\"", "0");
   svg +=
       text_at(kLeft - 4, scale.y(1) + 6, "text-anchor=\"end\" font-size=\"8\" fill=\"#999\"", "1");
-  std::vector<float> before(lane.values.size());
-  for (size_t s = 0; s < lane.stages.size(); ++s) {
-    svg += area(before, lane.stages[s], scale, fill_of(stages[s], s));
-    before = lane.stages[s];
+  std::vector<float> before(curve.values.size());
+  for (size_t s = 0; s < curve.stages.size(); ++s) {
+    svg += area(before, curve.stages[s], scale, fill_of(stages[s], s));
+    before = curve.stages[s];
   }
-  return svg + curve(lane.values, scale, "stroke=\"black\" stroke-width=\"1.2\"");
+  return svg + line(curve.values, scale, "stroke=\"black\" stroke-width=\"1.2\"");
 }
 
 std::string guard_row(const GuardPlot& guard, double top) {
@@ -211,29 +211,29 @@ std::string guard_row(const GuardPlot& guard, double top) {
       limit.clear();
     }
   }
-  svg += curve(guard.wanted, scale, "stroke=\"#555\" stroke-dasharray=\"4 3\"");
-  return svg + curve(guard.distance, scale, "stroke=\"black\" stroke-width=\"1.2\"");
+  svg += line(guard.wanted, scale, "stroke=\"#555\" stroke-dasharray=\"4 3\"");
+  return svg + line(guard.distance, scale, "stroke=\"black\" stroke-width=\"1.2\"");
 }
 
 }  // namespace
 
-std::string lanes_svg(const std::vector<LanePlot>& lanes, const std::vector<std::string>& stages,
-                      const std::vector<GuardPlot>& guards, const Captions& captions,
-                      double seconds) {
-  const double lanes_end = kTop + kRow * static_cast<double>(lanes.size());
-  const double guards_top = lanes_end + 24;
+std::string curves_svg(const std::vector<CurvePlot>& curves, const std::vector<std::string>& stages,
+                       const std::vector<GuardPlot>& guards, const Captions& captions,
+                       double seconds) {
+  const double curves_end = kTop + kRow * static_cast<double>(curves.size());
+  const double guards_top = curves_end + 24;
   const double height =
-      (guards.empty() ? lanes_end : guards_top + kRow * static_cast<double>(guards.size())) + 30;
+      (guards.empty() ? curves_end : guards_top + kRow * static_cast<double>(guards.size())) + 30;
   std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" +
                     number(kLeft + kWidth + 30) + "\" height=\"" + number(height) +
                     "\" font-family=\"sans-serif\" font-size=\"12\">\n<defs>" +
                     hatch("guards", "#c33", 45) + hatch("antagonists", "#b279a2", -45) +
                     hatch("limits", "#888", 0) +
                     "</defs>\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
-  svg += legend(lanes, stages);
+  svg += legend(curves, stages);
   svg += caption_lines(captions, seconds, height - 26);
-  for (size_t l = 0; l < lanes.size(); ++l) {
-    svg += lane_row(lanes[l], stages, kTop + kRow * static_cast<double>(l));
+  for (size_t l = 0; l < curves.size(); ++l) {
+    svg += curve_row(curves[l], stages, kTop + kRow * static_cast<double>(l));
   }
   if (!guards.empty()) {
     svg += text_at(kLeft, guards_top - 8, "fill=\"#333\"",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lanes of a mix by the names that a scene gives them: the raw controls of a rig, then variables.
+// Curves of a mix by the names that a scene gives them: the raw controls of a rig, then variables.
 #pragma once
 
 #include <mien.h>
@@ -13,14 +13,14 @@
 
 namespace mien::cli {
 
-struct LaneValues {
-  std::vector<uint16_t> lanes;
+struct CurveValues {
+  std::vector<uint16_t> curves;
   std::vector<float> values;
 };
 
-class RigLanes {
+class RigCurves {
  public:
-  explicit RigLanes(const MienRig* rig);
+  explicit RigCurves(const MienRig* rig);
 
   const std::vector<std::string>& controls() const { return controls_; }
   const std::vector<std::string>& variables() const { return variables_; }
@@ -28,12 +28,12 @@ class RigLanes {
 
   /// A raw control by its name or by its short name without regard to case; else a variable that scenes
   /// know (pupil, breath, head., gaze., user.), which may be new. Exit code 2 with the nearest name.
-  uint16_t lane(const std::string& name, const std::string& where);
+  uint16_t curve(const std::string& name, const std::string& where);
   /// The variable of a name, which may be new.
   uint16_t variable(const std::string& name);
-  LaneValues lanes(const NamedValues& values, const std::string& where);
+  CurveValues curves(const NamedValues& values, const std::string& where);
   /// Those of the names that are raw controls.
-  LaneValues present(const NamedValues& values) const;
+  CurveValues present(const NamedValues& values) const;
   /// Where variables of a row turn the head: to the left by head.left and head.turn, up by head.up.
   HeadPose head(const float* row) const;
   /// 1 for raw controls whose names match a pattern, else 0; inverted if `invert`.

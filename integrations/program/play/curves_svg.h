@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Lanes over time as a vector image: one row per lane that moves, and which layer made its value; below, the
-// distances of guards that held something back.
+// Curves over time as a vector image: one row per curve that moves, and which layer made its value; below,
+// the distances of guards that held something back.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace mien::cli {
 
-struct LanePlot {
+struct CurvePlot {
   std::string name, note;
   std::vector<float> values;               // [frame]
   std::vector<std::vector<float>> stages;  // [stage][frame] the value after it
@@ -22,10 +22,10 @@ struct GuardPlot {
   std::vector<float> activation, wanted, limit, distance;
 };
 
-/// Lanes below each other over `seconds`. What a layer adds has its color; what guards, antagonists and
+/// Curves below each other over `seconds`. What a layer adds has its color; what guards, antagonists and
 /// limits take away is hatched. Captions stand at their times.
-std::string lanes_svg(const std::vector<LanePlot>& lanes, const std::vector<std::string>& stages,
-                      const std::vector<GuardPlot>& guards, const Captions& captions,
-                      double seconds);
+std::string curves_svg(const std::vector<CurvePlot>& curves, const std::vector<std::string>& stages,
+                       const std::vector<GuardPlot>& guards, const Captions& captions,
+                       double seconds);
 
 }  // namespace mien::cli

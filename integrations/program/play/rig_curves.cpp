@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/program/play/rig_lanes.h"
+#include "integrations/program/play/rig_curves.h"
 
 #include <algorithm>
 #include <cctype>
@@ -30,7 +30,7 @@ bool is_variable_name(const std::string& name) {
 
 }  // namespace
 
-RigLanes::RigLanes(const MienRig* rig) {
+RigCurves::RigCurves(const MienRig* rig) {
   for (uint32_t i = 0; i < rig_count(rig, MIEN_KIND_RAW_CONTROL); ++i) {
     controls_.push_back(rig_name(rig, MIEN_KIND_RAW_CONTROL, i));
     by_name_.emplace(controls_.back(), i);
@@ -38,7 +38,7 @@ RigLanes::RigLanes(const MienRig* rig) {
   }
 }
 
-std::vector<size_t> RigLanes::find_controls(const std::string& name) const {
+std::vector<size_t> RigCurves::find_controls(const std::string& name) const {
   const auto whole = by_name_.find(name);
   if (whole != by_name_.end()) return {whole->second};
   const auto found = by_short_name_.find(in_small_letters(name));
@@ -50,14 +50,14 @@ std::vector<size_t> RigLanes::find_controls(const std::string& name) const {
   return exact.empty() ? found->second : exact;
 }
 
-uint16_t RigLanes::variable(const std::string& name) {
+uint16_t RigCurves::variable(const std::string& name) {
   const auto found = std::find(variables_.begin(), variables_.end(), name);
   const size_t index = static_cast<size_t>(found - variables_.begin());
   if (found == variables_.end()) variables_.push_back(name);
   return static_cast<uint16_t>(controls_.size() + index);
 }
 
-uint16_t RigLanes::lane(const std::string& name, const std::string& where) {
+uint16_t RigCurves::curve(const std::string& name, const std::string& where) {
   const std::vector<size_t> found = find_controls(name);
   if (found.size() > 1) {
     fail(kInvalid, kCannot, where,
@@ -71,39 +71,39 @@ uint16_t RigLanes::lane(const std::string& name, const std::string& where) {
        nearest_question(name, controls_, kHowToList));
 }
 
-LaneValues RigLanes::lanes(const NamedValues& values, const std::string& where) {
+CurveValues RigCurves::curves(const NamedValues& values, const std::string& where) {
   std::vector<std::pair<uint16_t, float>> sorted;
-  for (const auto& [name, value] : values) sorted.emplace_back(lane(name, where), value);
+  for (const auto& [name, value] : values) sorted.emplace_back(curve(name, where), value);
   std::sort(sorted.begin(), sorted.end());
-  LaneValues found;
-  for (const auto& [lane, value] : sorted) {
-    if (!found.lanes.empty() && found.lanes.back() == lane) {
-      const size_t variable = lane - std::min<size_t>(lane, controls_.size());
-      const std::string& name = lane < controls_.size() ? controls_[lane] : variables_[variable];
+  CurveValues found;
+  for (const auto& [curve, value] : sorted) {
+    if (!found.curves.empty() && found.curves.back() == curve) {
+      const size_t variable = curve - std::min<size_t>(curve, controls_.size());
+      const std::string& name = curve < controls_.size() ? controls_[curve] : variables_[variable];
       fail(kInvalid, kCannot, where, "\"" + name + "\" is listed twice", "leave one of them out");
     }
-    found.lanes.push_back(lane);
+    found.curves.push_back(curve);
     found.values.push_back(value);
   }
   return found;
 }
 
-LaneValues RigLanes::present(const NamedValues& values) const {
+CurveValues RigCurves::present(const NamedValues& values) const {
   std::vector<std::pair<uint16_t, float>> sorted;
   for (const auto& [name, value] : values) {
     const std::vector<size_t> found = find_controls(name);
     if (!found.empty()) sorted.emplace_back(static_cast<uint16_t>(found[0]), value);
   }
   std::sort(sorted.begin(), sorted.end());
-  LaneValues found;
-  for (const auto& [lane, value] : sorted) {
-    found.lanes.push_back(lane);
+  CurveValues found;
+  for (const auto& [curve, value] : sorted) {
+    found.curves.push_back(curve);
     found.values.push_back(value);
   }
   return found;
 }
 
-HeadPose RigLanes::head(const float* row) const {
+HeadPose RigCurves::head(const float* row) const {
   HeadPose head;
   for (size_t i = 0; i < variables_.size(); ++i) {
     const float value = row[controls_.size() + i];
@@ -113,7 +113,7 @@ HeadPose RigLanes::head(const float* row) const {
   return head;
 }
 
-std::vector<std::string> RigLanes::as_patterns(const std::string& pattern) const {
+std::vector<std::string> RigCurves::as_patterns(const std::string& pattern) const {
   if (pattern.empty() || pattern.find('*') + 1 != pattern.size()) return controls_;
   std::vector<std::string> beginnings;
   for (const std::string& name : controls_) {
@@ -122,8 +122,8 @@ std::vector<std::string> RigLanes::as_patterns(const std::string& pattern) const
   return beginnings;
 }
 
-std::vector<float> RigLanes::mask(const std::vector<std::string>& patterns, bool invert,
-                                  const std::string& where) const {
+std::vector<float> RigCurves::mask(const std::vector<std::string>& patterns, bool invert,
+                                   const std::string& where) const {
   std::vector<float> mask(controls_.size(), invert ? 1.0f : 0.0f);
   for (const std::string& pattern : patterns) {
     bool matches = false;
