@@ -4,15 +4,16 @@
 // weights that they have there, are rows of one least squares problem.
 #pragma once
 
-#include "author/fit/fit_shapes.h"
+#include "author/fit/targets.h"
 
 namespace mien::author {
 
-/// A LOD while its weights are fitted.
+/// A LOD while its weights are fitted, and as it is written.
 struct FittedLod {
   AuthorMesh mesh;                // its vertices with their displacements
   Span<const uint32_t> vertices;  // of LOD 0; empty: all of them
   SkinWeights weights;            // of its vertices
+  Span<const Target> targets;     // by control; empty: none
 };
 
 struct StackedLods {

@@ -51,10 +51,16 @@ Status find_skin(Placing& placing) {
 
 namespace {
 
-void count_groups(Placing& placing) {
+void measure_groups(Placing& placing) {
   PlaceReport& report = placing.report;
   report.group_count = placing.options.groups;
-  for (const uint8_t group : placing.group) ++report.group_sizes[group];
+  for (size_t i = 0; i < placing.group.count; ++i) {
+    const uint8_t group = placing.group[i];
+    const double z = placing.points[i].z;
+    DepthRange& range = report.group_depths[group];
+    if (report.group_sizes[group]++ == 0) range = {z, z};
+    range = {std::max(range.front, z), std::min(range.back, z)};
+  }
 }
 
 Status take_groups(Placing& placing) {
@@ -67,7 +73,7 @@ Status take_groups(Placing& placing) {
     }
     placing.group[i] = group;
   }
-  count_groups(placing);
+  measure_groups(placing);
   return Status::kOk;
 }
 
@@ -107,8 +113,8 @@ Status group_in_depth(Placing& placing) {
   const Vec3 size = placing.box.size();
   const size_t n = placing.points.count;
   report.face_only = options.own_groups.empty() && size.z / size.x < kFaceOnlyDepth;
-  if (report.face_only) return Status::kOk;
   if (n < options.groups) {
+    if (report.face_only) return Status::kOk;
     return fail(placing.error, Status::kAuthorRefused, kNoOffset,
                 "the skin has only %zu positions, fewer than the %u groups in depth", n,
                 options.groups);
@@ -130,7 +136,7 @@ Status group_in_depth(Placing& placing) {
   } else if (Status status = link_depths(placing, weights); status != Status::kOk) {
     return status;
   }
-  count_groups(placing);
+  measure_groups(placing);
   return Status::kOk;
 }
 

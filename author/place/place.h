@@ -35,11 +35,17 @@ enum class NeckSplit : uint8_t { kNoNeck, kLinkage, kAreaLinkage, kPlane };
 constexpr uint32_t kMaxGroups = 16;
 constexpr uint32_t kRuns = 8, kMaxRuns = 32;  // and one more, which goes on from the best
 
+/// Along z.
+struct DepthRange {
+  double front = 0, back = 0;
+};
+
 struct PlaceReport {
-  bool face_only = false;  // no back of the head: no groups
+  bool face_only = false;  // no back of the head: groups are measured, but all is the mask
   Linkage linkage;         // of all places in depth
   uint32_t group_count = 0;
   uint32_t group_sizes[kMaxGroups] = {};  // front first, of places
+  DepthRange group_depths[kMaxGroups];    // of their places; of empty groups 0
   uint32_t border_count = 0;              // 0 where groups are no intervals of z
   double borders[kMaxGroups] = {};        // z between groups, front first
   NeckSplit neck_split = NeckSplit::kNoNeck;

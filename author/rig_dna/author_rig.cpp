@@ -326,11 +326,10 @@ class RigMaker {
   }
 
   bool make_lods() {
-    Span<LodModel> lods;
-    if (!starts("levels of detail") || !author::make(scratch_, lods_.count, lods)) return false;
-    model_.lods = lods;
+    if (!starts("levels of detail")) return false;
+    model_.lods = lods_;
     for (uint32_t l = 0; l < lods_.count; ++l) {
-      if ((l > 0 && !weigh_lod(l, report_.lods[l])) || !make_lod(l, lods[l])) return false;
+      if ((l > 0 && !weigh_lod(l, report_.lods[l])) || !make_lod(l, lods_[l])) return false;
       report_.lods[l].channels = model_.channels_in_lod(l);
     }
     return true;
@@ -353,32 +352,27 @@ class RigMaker {
     return true;
   }
 
-  bool make_lod(uint32_t l, LodModel& lod) {
-    const FittedLod& fitted = lods_[l];
+  bool make_lod(uint32_t l, FittedLod& lod) {
     LodReport& report = report_.lods[l];
-    lod.mesh = &fitted.mesh;
-    lod.vertices = fitted.vertices;
-    lod.weights = fitted.weights;
     FitError error;
-    if (!measure(fitted.mesh, lod.weights, {}, error)) return false;
+    if (!measure(lod.mesh, lod.weights, {}, error)) return false;
     report.joints_error = error.error;
     if (l == 0) {
       report.new_error = error.error;
       report_.joints = error;
     }
-    if (l < 2 && options_.residual_targets && !make_shape_targets(l, fitted.mesh, lod))
-      return false;
+    if (l < 2 && options_.residual_targets && !make_shape_targets(l, lod)) return false;
     if (l == 0 && (!add_correctives(lod.weights) || !list_channels())) return false;
-    if (!measure(fitted.mesh, lod.weights, lod.targets, error)) return false;
+    if (!measure(lod.mesh, lod.weights, lod.targets, error)) return false;
     report.error = error.error;
     if (l == 0) report_.rig = error;
     return true;
   }
 
   /// LOD 0 has targets for all controls, LOD 1 for the expressions that need them most.
-  bool make_shape_targets(uint32_t l, const AuthorMesh& mesh, LodModel& lod) {
+  bool make_shape_targets(uint32_t l, FittedLod& lod) {
     Span<Target> targets, all;
-    if (!make_targets(mesh, lod.weights, motions_, options_.residual_threshold * face_size_,
+    if (!make_targets(lod.mesh, lod.weights, motions_, options_.residual_threshold * face_size_,
                       options_.parallel, scratch_, targets)) {
       return false;
     }

@@ -27,8 +27,8 @@ void find_normals(const AuthorMesh& mesh, Span<Vec3> out) {
 }
 
 /// A coarse surface is shaded like the fine one, but for folds that it has no more.
-void take_normals(const LodModel& lod, Span<const Vec3> finest, Span<Vec3> out) {
-  find_normals(*lod.mesh, out);
+void take_normals(const FittedLod& lod, Span<const Vec3> finest, Span<Vec3> out) {
+  find_normals(lod.mesh, out);
   for (size_t v = 0; v < lod.vertices.count; ++v) {
     const Vec3 n = finest[lod.vertices[v]];
     if (dot(n, out[v]) > 0.7) out[v] = n;
@@ -38,7 +38,7 @@ void take_normals(const LodModel& lod, Span<const Vec3> finest, Span<Vec3> out) 
 class MeshMaker {
  public:
   MeshMaker(const RigModel& rig, size_t part, size_t lod, Arena& arena, Arena& scratch)
-      : rig_(rig), mesh_(*rig.lods[lod].mesh), part_(mesh_.parts[part]), lod_(lod), arena_(arena),
+      : rig_(rig), mesh_(rig.lods[lod].mesh), part_(mesh_.parts[part]), lod_(lod), arena_(arena),
         scratch_(scratch) {}
 
   bool make(Span<const Vec3> normals, dna::Mesh& out) {
@@ -240,7 +240,7 @@ bool fill_meshes(const RigModel& rig, Arena& arena, const Allocator& allocator, 
   if (!make(scratch, parts * rig.lod_count(), lods)) return false;
   size_t count = 0;
   for (uint32_t lod = 0; lod < rig.lod_count(); ++lod) {
-    for (const Part& part : rig.lods[lod].mesh->parts) {
+    for (const Part& part : rig.lods[lod].mesh.parts) {
       if (part.face_count > 0) lods[count++] = lod;
     }
   }
@@ -252,7 +252,7 @@ bool fill_meshes(const RigModel& rig, Arena& arena, const Allocator& allocator, 
   find_normals(rig.mesh, finest);
   size_t m = 0;
   for (size_t lod = 0; lod < rig.lod_count(); ++lod) {
-    const AuthorMesh& mesh = *rig.lods[lod].mesh;
+    const AuthorMesh& mesh = rig.lods[lod].mesh;
     const Span<Vec3> normals = own.first(mesh.positions.count);
     take_normals(rig.lods[lod], finest, normals);
     Text suffix;

@@ -7,18 +7,10 @@
 
 #include "author/fit/correctives.h"
 #include "author/fit/regions.h"
-#include "author/fit/targets.h"
+#include "author/fit/stacked_lods.h"
 #include "runtime/load/dna/format/dna_view.h"
 
 namespace mien::author {
-
-/// The mesh at one LOD.
-struct LodModel {
-  const AuthorMesh* mesh = nullptr;
-  Span<const uint32_t> vertices;  // of LOD 0; empty: all of them
-  SkinWeights weights;            // of its vertices
-  Span<const Target> targets;     // by control; empty: none
-};
 
 /// Controls are the expressions, which are the shapes of `mesh`, and then the combinations.
 struct RigModel {
@@ -26,7 +18,7 @@ struct RigModel {
   const Placement& placement;
   Name name;
   Span<const Combination> combinations;
-  Span<const LodModel> lods;
+  Span<const FittedLod> lods;
   JointDeltas deltas;  // by control
   JointRegions regions;
   Span<const uint32_t> channels;    // controls with blend shapes, the strongest first

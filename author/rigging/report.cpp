@@ -184,6 +184,14 @@ void write_groups(const PlaceReport& place, Json& json) {
   json.key("borders").open("[");
   for (uint32_t g = 0; g < place.border_count; ++g) json.number(place.borders[g]);
   json.close("]");
+  json.key("depths").open("[");
+  for (uint32_t g = 0; g < place.group_count; ++g) {
+    json.open("[");
+    json.number(place.group_depths[g].front);
+    json.number(place.group_depths[g].back);
+    json.close("]");
+  }
+  json.close("]");
   json.key("merge_distances").open("[");
   for (const Merge& merge : place.linkage.merges) json.number(merge.distance);
   json.close("]");

@@ -291,7 +291,7 @@ void note_turned(const AuthorCommand& command, const MeshFile& mesh, const Json&
     note(session, "the halves of the face differ by " + one_decimal(100 * apart) +
                       " % of its size, so joints are not mirrored" + how);
   }
-  if (const Json& groups = report["groups"]; !groups.is_null()) {
+  if (const Json& groups = report["groups"]; !report["face_only"].get<bool>()) {
     uint64_t positions = 0;
     for (const Json& count : groups["counts"]) positions += count.get<uint64_t>();
     const uint64_t mask = report["mask_positions"].get<uint64_t>();
@@ -392,8 +392,11 @@ void run(const AuthorCommand& command, const Session& session) {
   refuse_terminal(command.output.path, session, "a DNA file");
   std::vector<std::string> inputs = {command.mesh};
   if (!command.shapes.empty()) inputs.push_back(command.shapes);
+  // Before the work, which takes a while.
+  refuse_missing_folder(command.output.path);
   refuse_replacing(command.output, inputs);
   if (!command.report.empty()) {
+    refuse_missing_folder(command.report);
     refuse_replacing({command.report, command.output.force}, inputs);
     if (command.report == command.output.path) {
       fail_usage("--report " + command.report, "this is also the output", "give another name");

@@ -249,7 +249,7 @@ std::vector<AuthorImage> draw_author_images(const MadeRig& made, const Session& 
   std::vector<AuthorImage> images;
   Progress progress(session, "image", 6);
   // Groups in space have no borders in depth to draw them by.
-  if (!report["groups"].is_null() && !report["groups"]["borders"].empty()) {
+  if (!report["face_only"].get<bool>() && !report["groups"]["borders"].empty()) {
     images.push_back({"groups.png", draw_groups(source, report["groups"])});
   }
   progress.at(1);

@@ -226,6 +226,13 @@ void refuse_terminal(const std::string& path, const Session& session, const char
              "name a file, or pipe the output");
 }
 
+void refuse_missing_folder(const std::string& path) {
+  const fs::path folder = fs::path(path).parent_path();
+  std::error_code reason;
+  if (path == "-" || folder.empty() || fs::is_directory(folder, reason)) return;
+  fail(kFile, "cannot write", path, "there is no folder " + folder.string(), "make it first");
+}
+
 void refuse_replacing(const OutputFile& output, const std::vector<std::string>& inputs) {
   std::error_code ignored;
   if (output.force || output.path == "-" || !fs::is_regular_file(output.path, ignored)) return;

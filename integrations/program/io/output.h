@@ -48,6 +48,9 @@ class Output {
 /// Wrong usage if `path` is "-" and standard output is a terminal. `what` is "a DNA file", say.
 void refuse_terminal(const std::string& path, const Session& session, const char* what);
 
+/// Fails if the folder that `path` would be written to does not exist.
+void refuse_missing_folder(const std::string& path);
+
 /// -o and --force as they were typed.
 struct OutputFile {
   std::string path;

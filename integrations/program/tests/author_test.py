@@ -413,6 +413,22 @@ class AuthorTest(ProgramTest):
         self.author(path("front.obj"), "--joints", "10", "--lods", "1", "--pictures", path("front"))
         self.assertNotIn("groups.png", self.pictures("front"))
 
+    def test_the_report_tells_sizes_and_borders_of_the_groups_in_depth(self):
+        front = [f for f in FACES if all(POSITIONS[v][2] > 4 for v in f)]
+        write("mask.obj", obj(POSITIONS, front))
+        for name, face_only in (("head.obj", False), ("mask.obj", True)):
+            report = self.author(path(name), "--joints", "10", "--lods", "1", "--paper", name="groups")
+            groups = report["groups"]
+            self.assertEqual(report["face_only"], face_only)
+            used = {v for f in (front if face_only else FACES) for v in f}
+            self.assertEqual(sum(groups["counts"]), len(used))
+            self.assertEqual(len(groups["borders"]), 2)
+            for g, (foremost, rearmost) in enumerate(groups["depths"]):
+                inside = [v for v in used if rearmost <= POSITIONS[v][2] <= foremost]
+                self.assertEqual(len(inside), groups["counts"][g])
+            for border, before, after in zip(groups["borders"], groups["depths"], groups["depths"][1:]):
+                self.assertTrue(before[1] > border > after[0])
+
     def test_no_pictures_where_there_is_no_rig_and_no_folder(self):
         self.fails(INVALID, "author", write("dot.obj", "v 0 0 0\nf 1 1 1\n"), "-o", path("no.dna"),
                    "--pictures", path("none"))
@@ -421,10 +437,12 @@ class AuthorTest(ProgramTest):
         self.fails(FILE, "author", path("head.obj"), "--joints", "8", "--lods", "1", "-o", path("no.dna"),
                    "--pictures", file, says="file")
         self.assertFalse(os.path.exists(path("no.dna")))
-        # A folder that was made for pictures goes if the rig cannot be written.
-        self.fails(FILE, "author", path("head.obj"), "--joints", "8", "--lods", "1", "-o",
-                   path("missing/no.dna"), "--pictures", path("none"))
-        self.assertFalse(os.path.exists(path("none")))
+
+    def test_a_folder_that_does_not_exist_is_one_line_and_told_before_the_mesh_is_read(self):
+        for option in (("-o", path("missing/no.dna")),
+                       ("-o", path("no.dna"), "--report", path("missing/report.json"))):
+            self.fails(FILE, "author", path("not_read.obj"), *option,
+                       says="there is no folder " + path("missing"))
 
     def test_what_cannot_be_rigged_is_refused_with_the_rule(self):
         flat = [(x, y, 0) for x, y, _ in POSITIONS]

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// Results of stages that the caller gives: checked, and brought from the numbers, frame and unit of the
+// source to those of the mesh. Meshes of further LODs are taken in author/mesh/own_lods.h.
+#pragma once
+
+#include "author/base/joint_motion.h"
+#include "author/rigging/rigging.h"
+
+namespace mien::author {
+
+/// Names, positions, order and kinds of `options.bones`. `moves`: there are expressions to fit.
+Status check_bones(const RiggingOptions& options, bool moves, Error& error);
+
+/// The caller's bones, which were checked, in place of those that were found; the mask stays.
+Status take_bones(const MeshSource& source, const RiggingOptions& options, Arena& arena,
+                  Placement& out, Error& error);
+
+/// Weights of the source's positions as those of the mesh's vertices, the heaviest first, with sum one.
+Status take_weights(const ReadMesh& read, const RiggingOptions& options, size_t sources,
+                    Arena& arena, SkinWeights& out, Error& error);
+
+/// Values of the source's positions as those of the mesh's vertices.
+Status take_bytes(const ReadMesh& read, Span<const uint8_t> own, Arena& arena,
+                  Span<const uint8_t>& out, Error& error);
+
+/// The joint group of each of the caller's bones.
+Status take_groups(const RiggingOptions& options, Arena& arena, Span<const uint8_t>& out,
+                   Error& error);
+
+/// The caller's motions, by shape and bone.
+Status take_motions(const MeshSource& source, const RiggingOptions& options, Arena& arena,
+                    Span<const JointDelta>& out, Error& error);
+
+}  // namespace mien::author
