@@ -2,7 +2,9 @@
 // Shared by the generators: arrays, lists and names in an arena, and LOD maps.
 #pragma once
 
+#include <algorithm>
 #include <cstring>
+#include <iterator>
 
 #include "runtime/base/arena.h"
 #include "runtime/base/vector.h"
@@ -78,12 +80,19 @@ struct NewVec3s {
 };
 
 /// An index with every layer of the newest version.
-inline bool fill_index(Arena& arena, dna::DnaView& out) {
-  if (!make(arena, dna::kLayerIdCount, out.index)) return false;
-  for (size_t i = 0; i < dna::kLayerIdCount; ++i) {
-    out.index[i].code = dna::kLayerKinds[i].code;
-    out.index[i].layer_version = dna::kLayerKinds[i].layer_version;
+/// The layers that files of version 2.version have.
+inline bool fill_index(uint16_t version, Arena& arena, dna::DnaView& out) {
+  const auto known = [version](const dna::LayerKind& kind) { return kind.since <= version; };
+  const auto& kinds = dna::kLayerKinds;
+  const auto count = std::count_if(std::begin(kinds), std::end(kinds), known);
+  if (!make(arena, static_cast<size_t>(count), out.index)) return false;
+  size_t i = 0;
+  for (const dna::LayerKind& kind : kinds) {
+    if (!known(kind)) continue;
+    out.index[i].code = kind.code;
+    out.index[i++].layer_version = kind.layer_version;
   }
+  out.version = version;
   out.loaded = dna::kLayersAll;
   return true;
 }

@@ -9,7 +9,11 @@
 using namespace mien;
 using namespace mien::capi;
 
-static_assert(MIEN_PRESET_BODY == int(SyntheticPreset::kBody), "the presets agree");
+static_assert(MIEN_PRESET_BODY == int(SyntheticPreset::kBody) &&
+                  MIEN_PRESET_METAHUMAN_HEAD == int(SyntheticPreset::kMetaHumanHead) &&
+                  MIEN_PRESET_METAHUMAN_BODY == int(SyntheticPreset::kMetaHumanBody) &&
+                  MIEN_PRESET_ARCHETYPE == int(SyntheticPreset::kArchetype),
+              "the presets agree");
 
 namespace {
 
@@ -31,7 +35,7 @@ MienStatus mien_dna_generate(const MienGenerateDesc* desc, MienDna** out_dna, Mi
   MienGenerateDesc known;
   if (MienStatus status = read_desc(desc, known, "MienGenerateDesc", error)) return status;
   const MienStatus in_range =
-      check_fields({{"MienGenerateDesc.preset", known.preset, MIEN_PRESET_HEAD}}, error);
+      check_fields({{"MienGenerateDesc.preset", known.preset, MIEN_PRESET_ARCHETYPE}}, error);
   if (in_range != MIEN_OK) return in_range;
   if ((known.flags & ~uint32_t{MIEN_GENERATE_ML}) != 0) {
     return give_error(
@@ -39,10 +43,11 @@ MienStatus mien_dna_generate(const MienGenerateDesc* desc, MienDna** out_dna, Mi
         "MienGenerateDesc.flags is 0x%x, which has bits that are not a MIEN_GENERATE_...",
         known.flags);
   }
-  if (known.preset == MIEN_PRESET_HEAD && known.flags != 0) {
-    return give_error(
-        error, MIEN_ERROR_INVALID_ARGUMENT,
-        "MIEN_PRESET_HEAD has no machine-learned behavior: MienGenerateDesc.flags must be 0");
+  if (known.preset >= MIEN_PRESET_HEAD && known.flags != 0) {
+    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
+                      "MienGenerateDesc.preset %u has no machine-learned behavior: "
+                      "MienGenerateDesc.flags must be 0",
+                      known.preset);
   }
   Allocator allocator;
   if (MienStatus status = read_allocator(known.allocator, allocator, error)) return status;

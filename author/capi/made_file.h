@@ -23,7 +23,8 @@ struct MadeFile {
 
 /// False if memory ran out.
 inline bool encode_file(const dna::DnaView& view, MadeFile& out) {
-  const dna::WriteOptions options;
+  dna::WriteOptions options;
+  options.version = view.version;
   out.size = static_cast<size_t>(dna::encoded_size(view, options));
   out.bytes = static_cast<uint8_t*>(out.allocator.get(out.size, kBlockAlignment));
   if (!out.bytes) return false;

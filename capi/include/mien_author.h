@@ -39,18 +39,25 @@ enum MienPreset {
     MIEN_PRESET_BODY = 4,   /* a synthetic rig of the size of a production body: 342 joints, moved by 72
                                RBF solvers with 670 poses, 22 twists and 16 swings; some are
                                quaternion joints */
-    MIEN_PRESET_HEAD = 5    /* a stylized head to look at: skin, eyes, teeth, tongue, hair; the 52
+    MIEN_PRESET_HEAD = 5,   /* a stylized head to look at: skin, eyes, teeth, tongue, hair; the 52
                                ARKit expressions as raw controls of the same names (0 to 1),
                                correctives, wrinkle maps, 8 LODs. Seed 0 is the designed head; other
                                seeds vary skull, nose, jaw, age, hair and colors. The metadata holds
                                vertex colors: key "mien.colors.<mesh name>", value base64 of 3 bytes
                                (sRGB) per vertex position of the mesh. */
+    MIEN_PRESET_METAHUMAN_HEAD = 6, /* a synthetic rig with the published counts of exported heads and names
+                               in MetaHuman's conventions: version 2.5, 870 joints, 263 raw controls
+                               (251 expressions, 12 parts of quaternions), 174 GUI controls, 545
+                               correctives, 782 channels, an RBF solver with 18 poses, 8 LODs */
+    MIEN_PRESET_METAHUMAN_BODY = 7, /* MIEN_PRESET_BODY in version 2.7 */
+    MIEN_PRESET_ARCHETYPE = 8       /* MIEN_PRESET_METAHUMAN_HEAD without blend shapes */
 };
 
 /* Additions to a preset, combined with |. */
 enum MienGenerate {
     MIEN_GENERATE_ML = 1 /* machine-learned behavior: networks for mesh regions with all activation
-                            functions and operations, and ML joints; not with MIEN_PRESET_HEAD */
+                            functions and operations, and ML joints; not with MIEN_PRESET_HEAD and
+                            those after it */
 };
 
 /* What to generate. */
@@ -63,8 +70,9 @@ typedef struct MienGenerateDesc {
 } MienGenerateDesc;
 MIEN_DEFAULT(MienGenerateDesc, mien_generate_desc_default)
 
-/* Generates a rig and opens it: a file of version 2.8 with all layers, behavior of realistic size and
- * sparsity, and simple geometry. Close with mien_dna_close(). */
+/* Generates a rig and opens it: a file of version 2.8, unless the preset states another one, with all layers
+ * of its version, behavior of realistic size and sparsity, and simple geometry. Close with
+ * mien_dna_close(). */
 MIEN_AUTHOR_CHECKED MienStatus mien_dna_generate(const MienGenerateDesc* desc, MienDna** out_dna,
                                                  MienError* error);
 

@@ -48,7 +48,7 @@ TEST_F(Misuse, ValuesOutsideTheirRange) {
 
   c.with_error<MienDna*>("preset", [&](auto* o, auto* e) {
     MienGenerateDesc desc = sized<MienGenerateDesc>();
-    desc.preset = MIEN_PRESET_HEAD + 1;
+    desc.preset = MIEN_PRESET_ARCHETYPE + 1;
     return mien_dna_generate(&desc, o, e);
   });
   c.with_error<MienDna*>("generate flags", [&](auto* o, auto* e) {

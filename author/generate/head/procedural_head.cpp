@@ -37,7 +37,7 @@ bool make_head(uint64_t seed, Arena& arena, const Allocator& allocator, dna::Dna
   const Skeleton skeleton(form);
   Head head = {form, shapes, skeleton, {}};
   HalfMesh fitted(scratch);
-  return fill_index(arena, out) && fill_descriptor(seed, form.person(), arena, out.desc) &&
+  return fill_index(8, arena, out) && fill_descriptor(seed, form.person(), arena, out.desc) &&
          make_part(form, Part::kHead, 1, fitted) &&
          fit_joints(shapes, skeleton, fitted, scratch, head.deltas) &&
          fill_controls(head, arena, out) && fill_joints(head, arena, scratch, out) &&

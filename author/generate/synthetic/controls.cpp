@@ -15,13 +15,15 @@ namespace {
 ///     A+B    A all the way, B from three quarters on
 ///     A>B>C  one after the other
 struct Family {
-  uint8_t since;  // smallest preset that has it
+  uint8_t since;  // smallest detail that has it; kNotMetaHuman: the large preset alone
   bool wide;      // moves much of the face
   RegionKind home;
   const char* prefix;
   const char* names;
   const char* sides;
 };
+
+constexpr uint8_t kNotMetaHuman = 4;
 
 constexpr Family kFamilies[] = {
     {1, true, kBrow, "brow", "RaiseIn/Down Lateral RaiseOuter", "L R"},
@@ -78,9 +80,15 @@ constexpr Family kFamilies[] = {
     {2, false, kNeck, "neck", "Stretch/MastoidContract", "L R"},
     {3, false, kNeck, "neck", "SwallowPh1>SwallowPh2>SwallowPh3>SwallowPh4", ""},
     {3, false, kNeck, "neck", "ThroatUp/ThroatDown DigastricUp/DigastricDown", ""},
-    {3, false, kNeck, "neck", "ThroatExhale/ThroatInhale Tense", ""},
-    {3, true, kNeck, "head", "TurnUp/TurnDown TurnLeft/TurnRight", "U M"},
+    {3, false, kNeck, "neck", "ThroatExhale/ThroatInhale", ""},
+    {kNotMetaHuman, false, kNeck, "neck", "Tense", ""},
+    {kNotMetaHuman, true, kNeck, "head", "TurnUp/TurnDown TurnLeft/TurnRight", "U M"},
 };
+
+bool has_family(const Sizes& sizes, const Family& family) {
+  if (family.since == kNotMetaHuman) return sizes.detail == 3 && !sizes.meta_human;
+  return family.since <= sizes.detail;
+}
 
 struct Word {
   const char* at;
@@ -209,11 +217,16 @@ struct RawMaker {
   }
 };
 
-bool make_raw_controls(SyntheticPreset preset, uint64_t seed, Arena& arena, Head& head) {
+/// Switches of the face board: GUI controls that drive no raw control.
+constexpr const char* kSwitches[] = {"CTRL_convergenceSwitch.ty", "CTRL_eyesAimFollowHead.ty",
+                                     "CTRL_faceGUIfollowHead.ty", "CTRL_lookAtSwitch.ty",
+                                     "CTRL_rigLogicSwitch.ty"};
+
+bool make_raw_controls(uint64_t seed, Arena& arena, Head& head) {
   Regions regions;
   RawMaker maker = {regions, Random::from_seed(seed, kControlStream), arena, head};
   for (const Family& family : kFamilies) {
-    if (family.since > static_cast<uint32_t>(preset)) continue;
+    if (!has_family(*head.sizes, family)) continue;
     for (const char* names = family.names;; ++names) {
       Word name = take(names, " ");
       for (const char* sides = family.sides;; ++sides) {
@@ -224,7 +237,41 @@ bool make_raw_controls(SyntheticPreset preset, uint64_t seed, Arena& arena, Head
       if (!*names) break;
     }
   }
+  if (head.sizes->meta_human) {
+    for (const char* name : kSwitches) {
+      if (!copy_text(arena, Text().add(name), head.gui_names[maker.gui_count++])) return false;
+    }
+  }
   assert(maker.raw_count == head.sizes->raw_count && maker.gui_count == head.sizes->gui_count);
+
+  for (uint32_t i = 0; i < head.input_count(); ++i) {
+    const char* const parts[] = {".qx", ".qy", ".qz", ".qw"};
+    dna::String& name = head.controls[maker.raw_count++].name;
+    if (!copy_text(arena, Text().add(kNeckInputs[i / 4]).add(parts[i % 4]), name)) return false;
+  }
+  return true;
+}
+
+// RBF pose controls -----------------------------------------------------------------------------
+
+/// One for each direction and each of the joints that turn; they move the neck.
+bool make_pose_controls(uint64_t seed, Arena& arena, Head& head) {
+  const char* const directions[] = {"TurnUp",    "TurnDown", "TurnLeft",
+                                    "TurnRight", "TiltLeft", "TiltRight"};
+  constexpr Family kFamily = {3, true, kNeck, "head", "", ""};
+  Regions regions;
+  Random random = Random::from_seed(seed, kPoseControlStream);
+  for (uint32_t i = 0; i < head.pose_count(); ++i) {
+    Control& control = head.controls[head.raw_count() + head.sizes->psd_count + i];
+    place_control(regions, kFamily, 0, random, control);
+    Text name = Text()
+                    .add("head")
+                    .add(directions[i / 3])
+                    .add(i % 3 == 0   ? "U"
+                         : i % 3 == 1 ? "M"
+                                      : "D");
+    if (!copy_text(arena, name, control.name)) return false;
+  }
   return true;
 }
 
@@ -265,9 +312,9 @@ void place_corrective(Span<const Control> raw, Control& corrective) {
 
 bool make_correctives(uint64_t seed, Arena& arena, Head& head) {
   Random random = Random::from_seed(seed, kCorrectiveStream);
-  uint32_t raw_count = head.sizes->raw_count;
-  Span<const Control> raw = head.controls.first(raw_count);
-  for (size_t c = raw_count; c < head.controls.count; ++c) {
+  const uint32_t raw_count = head.raw_count();
+  Span<const Control> raw = head.controls.first(head.sizes->raw_count);
+  for (size_t c = raw_count; c < raw_count + head.sizes->psd_count; ++c) {
     Control& corrective = head.controls[c];
     bool taken = true;
     while (taken) {
@@ -290,11 +337,13 @@ bool make_correctives(uint64_t seed, Arena& arena, Head& head) {
 
 }  // namespace
 
-bool make_controls(SyntheticPreset preset, uint64_t seed, Arena& arena, Head& head) {
+bool make_controls(uint64_t seed, Arena& arena, Head& head) {
   const Sizes& sizes = *head.sizes;
   return make(arena, sizes.gui_count, head.gui_names) &&
-         make(arena, size_t{sizes.raw_count} + sizes.psd_count, head.controls) &&
-         make_raw_controls(preset, seed, arena, head) && make_correctives(seed, arena, head);
+         make(arena, size_t{head.raw_count()} + sizes.psd_count + head.pose_count(),
+              head.controls) &&
+         make_raw_controls(seed, arena, head) && make_correctives(seed, arena, head) &&
+         make_pose_controls(seed, arena, head);
 }
 
 }  // namespace mien::synthetic

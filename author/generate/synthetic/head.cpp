@@ -8,10 +8,12 @@ namespace mien::synthetic {
 namespace {
 
 constexpr Sizes kSizes[] = {
-    {"tiny", 3, 12, 6, 7, 3, 8, 5, 8, 4.0},
-    {"small", 4, 40, 27, 60, 24, 90, 20, 4, 2.5},
-    {"medium", 5, 100, 68, 300, 45, 360, 40, 2, 2.0},
-    {"large", 8, 260, 174, 600, 120, 780, 82, 0, 2.0},
+    {"tiny", 3, 12, 6, 7, 3, 8, 5, 8, 4.0, 0, false},
+    {"small", 4, 40, 27, 60, 24, 90, 20, 4, 2.5, 1, false},
+    {"medium", 5, 100, 68, 300, 45, 360, 40, 2, 2.0, 2, false},
+    {"large", 8, 260, 174, 600, 120, 780, 82, 0, 2.0, 3, false},
+    {"metahuman-head", 8, 251, 174, 545, 122, 782, 82, 0, 2.0, 3, true},
+    {"archetype", 8, 251, 174, 545, 122, 0, 82, 0, 2.0, 3, true},
 };
 
 /// Joints at each of eight LODs of a head that has 240; other counts in proportion.
@@ -21,31 +23,56 @@ constexpr uint32_t kLadder[kMaxLodCount] = {240, 160, 110, 75, 50, 32, 20, 12};
 
 struct KindOfRegion {
   const char* name;
-  bool mirrored;  // two regions, left and right; else one over the middle
-  bool inside;    // at its own depth; else on the skin
-  bool on_jaw;    // moved by the jaw joint
-  uint8_t zone;   // groups of the tiny preset, which has fewer groups than regions
-  Vec3 center;    // of the left one
+  const char* meta_human;  // the same in MetaHuman's conventions
+  bool mirrored;           // two regions, left and right; else one over the middle
+  bool inside;             // at its own depth; else on the skin
+  bool on_jaw;             // moved by the jaw joint
+  uint8_t zone;            // groups of the tiny preset, which has fewer groups than regions
+  Vec3 center;             // of the left one
   Vec3 spread;
-  uint8_t units[4];  // per preset; a unit is a mirrored pair of joints or one in the middle
+  uint8_t units[4];  // per detail; a unit is a mirrored pair of joints or one in the middle
 };
 
 constexpr KindOfRegion kKinds[kRegionKindCount] = {
-    {"Forehead", false, false, false, 0, {0, 6.5, 0}, {4.5, 1.8, 0}, {0, 5, 12, 28}},
-    {"Brow", true, false, false, 0, {3.0, 3.0, 0}, {2.2, 0.7, 0}, {0, 4, 12, 31}},
-    {"UpperLid", true, false, false, 0, {3.2, 1.6, 0}, {1.5, 0.35, 0}, {1, 5, 14, 40}},
-    {"LowerLid", true, false, false, 0, {3.2, 0.4, 0}, {1.5, 0.35, 0}, {1, 4, 12, 36}},
-    {"Eye", true, true, false, 0, kLeftEye.center, {0.5, 0.5, 0.5}, {1, 1, 3, 10}},
-    {"Nose", false, false, false, 1, {0, -1.5, 0}, {1.4, 2.2, 0}, {0, 4, 14, 44}},
-    {"Cheek", true, false, false, 1, {4.8, -2.0, 0}, {1.6, 1.8, 0}, {0, 5, 16, 38}},
-    {"UpperLip", false, false, false, 1, {0, -5.2, 0}, {2.2, 0.6, 0}, {0, 5, 16, 60}},
-    {"LowerLip", false, false, true, 2, {0, -6.6, 0}, {2.2, 0.6, 0}, {1, 5, 16, 60}},
-    {"MouthCorner", true, false, false, 1, {2.9, -5.9, 0}, {0.6, 1.0, 0}, {1, 3, 10, 34}},
-    {"Chin", false, false, true, 2, {0, -9.0, 0}, {2.4, 1.4, 0}, {0, 4, 12, 36}},
-    {"Side", true, false, false, 2, {6.0, -4.0, 0}, {1.0, 3.5, 0}, {0, 2, 8, 16}},
-    {"Tongue", false, true, true, 2, {0, -6.2, 5.0}, {0.9, 0.3, 1.6}, {0, 2, 5, 12}},
-    {"Teeth", false, true, false, 2, {0, -5.8, 6.3}, {1.8, 0.8, 0.6}, {0, 2, 3, 8}},
-    {"Neck", false, false, false, 2, {0, -13.5, 0}, {3.5, 1.8, 0}, {0, 2, 6, 12}},
+    {"Forehead", "Forehead", false, false, false, 0, {0, 6.5, 0}, {4.5, 1.8, 0}, {0, 5, 12, 28}},
+    {"Brow", "ForeheadMid", true, false, false, 0, {3.0, 3.0, 0}, {2.2, 0.7, 0}, {0, 4, 12, 31}},
+    {"UpperLid",
+     "EyelidUpperA",
+     true,
+     false,
+     false,
+     0,
+     {3.2, 1.6, 0},
+     {1.5, 0.35, 0},
+     {1, 5, 14, 40}},
+    {"LowerLid",
+     "EyelidLowerA",
+     true,
+     false,
+     false,
+     0,
+     {3.2, 0.4, 0},
+     {1.5, 0.35, 0},
+     {1, 4, 12, 36}},
+    {"Eye", "Eye", true, true, false, 0, kLeftEye.center, {0.5, 0.5, 0.5}, {1, 1, 3, 10}},
+    {"Nose", "Nose", false, false, false, 1, {0, -1.5, 0}, {1.4, 2.2, 0}, {0, 4, 14, 44}},
+    {"Cheek", "CheekInner", true, false, false, 1, {4.8, -2.0, 0}, {1.6, 1.8, 0}, {0, 5, 16, 38}},
+    {"UpperLip", "LipUpper", false, false, false, 1, {0, -5.2, 0}, {2.2, 0.6, 0}, {0, 5, 16, 60}},
+    {"LowerLip", "LipLower", false, false, true, 2, {0, -6.6, 0}, {2.2, 0.6, 0}, {1, 5, 16, 60}},
+    {"MouthCorner",
+     "LipCorner",
+     true,
+     false,
+     false,
+     1,
+     {2.9, -5.9, 0},
+     {0.6, 1.0, 0},
+     {1, 3, 10, 34}},
+    {"Chin", "Chin", false, false, true, 2, {0, -9.0, 0}, {2.4, 1.4, 0}, {0, 4, 12, 36}},
+    {"Side", "Sideburn", true, false, false, 2, {6.0, -4.0, 0}, {1.0, 3.5, 0}, {0, 2, 8, 16}},
+    {"Tongue", "Tongue", false, true, true, 2, {0, -6.2, 5.0}, {0.9, 0.3, 1.6}, {0, 2, 5, 12}},
+    {"Teeth", "TeethUpper", false, true, false, 2, {0, -5.8, 6.3}, {1.8, 0.8, 0.6}, {0, 2, 3, 8}},
+    {"Neck", "NeckA", false, false, false, 2, {0, -13.5, 0}, {3.5, 1.8, 0}, {0, 2, 6, 12}},
 };
 
 /// Depth of the skull's front at this place; a little below the skin, where bones are.
@@ -119,21 +146,24 @@ uint16_t joints_of_unit(const KindOfRegion& kind, uint32_t ordinal) {
 bool make_base_joints(Arena& arena, Head& head) {
   struct Base {
     const char* name;
+    const char* meta_human;
     uint16_t parent;
     Vec3 position;
   };
-  constexpr Base kBase[kBaseJointCount] = {{"root", kRoot, {0, 0, 0}},
-                                           {"neck", kRoot, {0, -15, -2}},
-                                           {"head", kNeckJoint, {0, -6, -1}},
-                                           {"face", kHeadJoint, {0, -6, -1}},
-                                           {"FACIAL_C_Jaw", kFaceJoint, {0, -1, 0.3}}};
+  constexpr Base kBase[kBaseJointCount] = {
+      {"root", "spine_05", kRoot, {0, 0, 0}},
+      {"neck", "neck_01", kRoot, {0, -15, -2}},
+      {"head", "head", kNeckJoint, {0, -6, -1}},
+      {"face", "FACIAL_C_FacialRoot", kHeadJoint, {0, -6, -1}},
+      {"FACIAL_C_Jaw", "FACIAL_C_Jaw", kFaceJoint, {0, -1, 0.3}}};
   Joint origin;
   for (int i = 0; i < 3; ++i) origin.axes[i * 4] = 1;
   for (uint16_t i = 0; i < kBaseJointCount; ++i) {
     Joint& joint = head.joints[i];
     joint.position = kBase[i].position;
     attach(joint, kBase[i].parent, i == kRoot ? origin : head.joints[kBase[i].parent], {});
-    if (!copy_text(arena, Text().add(kBase[i].name), joint.name)) return false;
+    const char* name = head.sizes->meta_human ? kBase[i].meta_human : kBase[i].name;
+    if (!copy_text(arena, Text().add(name), joint.name)) return false;
   }
   return true;
 }
@@ -189,7 +219,12 @@ bool make_unit(const Unit& unit, const Regions& regions, uint16_t (&roots)[kRegi
     attach(joint, parent, head.joints[parent], turns);
     Text name;
     name.add("FACIAL_").add(side > 0 ? "L_" : side < 0 ? "R_" : "C_");
-    name.add(kind.name).add(uint64_t{unit.ordinal} + 1);
+    if (head.sizes->meta_human) {
+      name.add(kind.meta_human);
+      if (unit.ordinal != 0) name.add(uint64_t{unit.ordinal});
+    } else {
+      name.add(kind.name).add(uint64_t{unit.ordinal} + 1);
+    }
     if (!copy_text(arena, name, joint.name)) return false;
   }
   return true;
@@ -197,10 +232,10 @@ bool make_unit(const Unit& unit, const Regions& regions, uint16_t (&roots)[kRegi
 
 /// Finer units come later: eyes, then one unit of each region, then evenly through all regions. So
 /// each LOD is a prefix, and no joint outlives its parent.
-void rank_units(Span<Unit> units, SyntheticPreset preset, Head& head) {
-  auto key = [preset](const Unit& unit) {
+void rank_units(Span<Unit> units, Head& head) {
+  auto key = [&head](const Unit& unit) {
     uint32_t stage = unit.ordinal > 0 ? 2 : unit.kind == kEye ? 0 : 1;
-    uint32_t of = kKinds[unit.kind].units[static_cast<uint32_t>(preset)];
+    uint32_t of = kKinds[unit.kind].units[head.sizes->detail];
     uint32_t share = stage < 2 ? 0 : (unit.ordinal * 2u + 1) * 10000 / of;
     return uint64_t{stage} << 60 | uint64_t{share} << 20 | unit.first_joint;
   };
@@ -249,9 +284,9 @@ void assign_groups(const Regions& regions, Head& head) {
   }
 }
 
-bool make_joints(SyntheticPreset preset, uint64_t seed, Arena& arena, Head& head) {
+bool make_joints(uint64_t seed, Arena& arena, Head& head) {
   Regions regions;
-  uint32_t p = static_cast<uint32_t>(preset), unit_count = 0;
+  uint32_t p = head.sizes->detail, unit_count = 0;
   for (const KindOfRegion& kind : kKinds) unit_count += kind.units[p];
   Span<Unit> units;
   if (!make(arena, unit_count, units)) return false;
@@ -274,7 +309,7 @@ bool make_joints(SyntheticPreset preset, uint64_t seed, Arena& arena, Head& head
   for (const Unit& unit : units) {
     if (!make_unit(unit, regions, roots, random, arena, head)) return false;
   }
-  rank_units(units, preset, head);
+  rank_units(units, head);
   assign_groups(regions, head);
   return true;
 }
@@ -304,11 +339,17 @@ uint32_t shrink(uint32_t count, uint32_t lod, uint32_t lod_count) {
   return count * kLadder[lod * (kMaxLodCount - 1) / (lod_count - 1)] / kLadder[0];
 }
 
+const Sizes& head_sizes_of(SyntheticPreset preset) {
+  assert(preset != SyntheticPreset::kBody && preset != SyntheticPreset::kMetaHumanBody);
+  if (preset == SyntheticPreset::kMetaHumanHead) return kSizes[4];
+  if (preset == SyntheticPreset::kArchetype) return kSizes[5];
+  return kSizes[static_cast<uint32_t>(preset)];
+}
+
 bool make_head(SyntheticPreset preset, uint64_t seed, Arena& arena, Head& out) {
-  assert(preset <= SyntheticPreset::kLarge);
   out = Head();
-  out.sizes = &kSizes[static_cast<uint32_t>(preset)];
-  return make_joints(preset, seed, arena, out) && make_controls(preset, seed, arena, out);
+  out.sizes = &head_sizes_of(preset);
+  return make_joints(seed, arena, out) && make_controls(seed, arena, out);
 }
 
 }  // namespace mien::synthetic

@@ -40,7 +40,17 @@ struct Sizes {
   uint32_t lod_count, raw_count, gui_count, psd_count, group_count, channel_count, map_count;
   uint32_t first_grid;   // into the table of mesh grids; the next one for each LOD
   double target_radius;  // of blend shape targets, on the skin
+  uint8_t detail;        // 0 ... 3: which families of controls and how many joints
+  bool
+      meta_human;  // with their names, quaternion inputs of the neck, and an RBF solver that reads them
 };
+
+const Sizes& head_sizes_of(SyntheticPreset preset);
+
+/// Raw controls of heads of characters behind those of families: quaternions of these joints.
+constexpr const char* kNeckInputs[] = {"neck_01", "neck_02", "head"};
+constexpr uint32_t kNeckInputCount = 3 * 4;
+constexpr uint32_t kNeckPoseCount = 18;  // one RBF pose control each
 
 /// What remains of `count` elements at a LOD: all at LOD 0, a twentieth at the last.
 uint32_t shrink(uint32_t count, uint32_t lod, uint32_t lod_count);
@@ -131,22 +141,33 @@ enum Stream : uint64_t {
   kGroupStream,
   kChannelStream,
   kMapStream,
+  kPoseControlStream,
   kFirstTargetStream = 1000  // and on, one per channel
 };
 
 struct Head {
   const Sizes* sizes = nullptr;
   Span<Joint> joints;
-  Span<Control> controls;  // raw, then correctives: numbered as in the file
+  Span<Control> controls;  // raw, correctives, RBF: numbered as in the file
   Span<dna::String> gui_names;
   uint16_t rank_limits[kMaxLodCount] = {};
 
   bool joint_in_lod(size_t joint, size_t lod) const {
     return joints[joint].rank < rank_limits[lod];
   }
-  /// Channels are taken evenly from all controls.
+  uint32_t input_count() const { return sizes->meta_human ? kNeckInputCount : 0; }
+  uint32_t pose_count() const { return sizes->meta_human ? kNeckPoseCount : 0; }
+  /// Raw controls of the file; the quaternion inputs are the last ones.
+  uint32_t raw_count() const { return sizes->raw_count + input_count(); }
+  bool is_input(size_t control) const {
+    return control >= sizes->raw_count && control < raw_count();
+  }
+
+  /// Channels are taken evenly from the controls of families and from correctives.
   size_t control_of_channel(size_t channel) const {
-    return channel * controls.count / sizes->channel_count;
+    const size_t count = size_t{sizes->raw_count} + sizes->psd_count;
+    const size_t control = channel * count / sizes->channel_count;
+    return control < sizes->raw_count ? control : control + input_count();
   }
   /// How much the control moves the joint, 0 to 1.
   double influence(const Control& control, const Joint& joint) const {
@@ -160,7 +181,10 @@ struct Head {
 bool make_head(SyntheticPreset preset, uint64_t seed, Arena& arena, Head& out);
 
 /// The part of make_head() that needs no joints.
-bool make_controls(SyntheticPreset preset, uint64_t seed, Arena& arena, Head& head);
+bool make_controls(uint64_t seed, Arena& arena, Head& head);
+
+/// The RBF solver that turns rotations of neck and head into pose controls. Nothing if the head has none.
+bool make_neck_solver(const Head& head, Arena& arena, dna::DnaView& out);
 
 /// Head meshes, one per LOD, then two eyes that all LODs share. `kept[c]`: channel c exists at LOD
 /// 1 too. Fills geom, and mesh names, LODs and channels of defn.

@@ -55,11 +55,12 @@ bool fill_joint_definition(const Head& head, Arena& arena, dna::Definition& out)
 }
 
 bool fill_control_names(const Head& head, Arena& arena, dna::Definition& out) {
-  size_t raw_count = head.sizes->raw_count;
+  const size_t raw_count = head.raw_count();
   if (!make(arena, raw_count, out.raw_control_names)) return false;
   for (size_t i = 0; i < raw_count; ++i) {
     Text name;
-    name.add("CTRL_expressions.").add(head.controls[i].name);
+    if (!head.is_input(i)) name.add("CTRL_expressions.");
+    name.add(head.controls[i].name);
     if (!copy_text(arena, name, out.raw_control_names[i])) return false;
   }
   out.gui_control_names = {head.gui_names.data, head.sizes->gui_count};
@@ -88,7 +89,7 @@ struct NewTable {
 };
 
 bool fill_controls(const Head& head, uint64_t seed, Arena& arena, dna::Controls& out) {
-  size_t raw_count = head.sizes->raw_count, ramps = 0, members = 0;
+  size_t raw_count = head.raw_count(), ramps = 0, members = 0;
   for (const Control& control : head.controls) {
     ramps += control.ramp_count;
     members += control.member_count;
@@ -162,7 +163,7 @@ struct GroupMaker {
       for (uint16_t j : joints) {
         reaches = reaches || head.influence(head.controls[c], head.joints[j]) > 0;
       }
-      if (!reaches && !random.chance(0.01)) continue;
+      if (!reaches && (head.is_input(c) || !random.chance(0.01))) continue;
       outlier[count] = !reaches;
       column_buffer[count++] = static_cast<uint16_t>(c);
     }
@@ -175,7 +176,7 @@ struct GroupMaker {
 
   float draw_delta(int attribute, uint16_t control, double influence_here) {
     double deviation = attribute < 3 ? 0.25 : attribute < 6 ? 4.0 : 0.05;  // cm, degrees, factor
-    if (control >= head.sizes->raw_count) deviation *= 0.5;
+    if (control >= head.raw_count()) deviation *= 0.5;
     return static_cast<float>(random.normal() * deviation * influence_here);
   }
 
@@ -337,7 +338,7 @@ bool fill_maps(const Head& head, uint64_t seed, Arena& arena, dna::DnaView& out)
     if (!copy_text(arena, name, out.defn.map_names[map])) return false;
     row_count += draw_pieces(control, map, random, rows.data + row_count);
     if (random.chance(0.3)) {
-      uint32_t corrective = sizes.raw_count + random.below(sizes.psd_count);
+      uint32_t corrective = head.raw_count() + random.below(sizes.psd_count);
       row_count += draw_pieces(corrective, map, random, rows.data + row_count);
     }
     end[n] = row_count;
@@ -371,15 +372,25 @@ bool make_head_rig(SyntheticPreset preset, uint64_t seed, bool learned, Arena& a
          fill_controls(head, seed, arena, out.bhvr.controls) &&
          fill_joints(head, seed, arena, out.bhvr.joints) &&
          fill_channels(head, seed, arena, out, kept) && fill_maps(head, seed, arena, out) &&
-         make_meshes(head, seed, kept, arena, out);
+         make_neck_solver(head, arena, out) && make_meshes(head, seed, kept, arena, out);
+}
+
+uint16_t version_of(SyntheticPreset preset) {
+  switch (preset) {
+    case SyntheticPreset::kMetaHumanHead:
+    case SyntheticPreset::kArchetype: return 5;
+    case SyntheticPreset::kMetaHumanBody: return 7;
+    default: return 8;
+  }
 }
 
 bool make_rig(SyntheticPreset preset, uint64_t seed, bool learned, Arena& arena,
               dna::DnaView& out) {
-  if (!fill_index(arena, out)) return false;
-  if (preset == SyntheticPreset::kBody) {
+  if (!fill_index(version_of(preset), arena, out)) return false;
+  if (preset == SyntheticPreset::kBody || preset == SyntheticPreset::kMetaHumanBody) {
     const uint32_t ml_count = learned ? ml_control_count_of(preset) : 0;
-    if (!fill_descriptor("body", kBodyLodCount, seed, learned, arena, out.desc) ||
+    const char* name = preset == SyntheticPreset::kBody ? "body" : "metahuman-body";
+    if (!fill_descriptor(name, kBodyLodCount, seed, learned, arena, out.desc) ||
         !make_body_rig(seed, ml_count, arena, out)) {
       return false;
     }

@@ -13,11 +13,23 @@
 
 namespace mien {
 
-enum class SyntheticPreset : uint32_t { kTiny = 0, kSmall = 1, kMedium = 2, kLarge = 3, kBody = 4 };
+enum class SyntheticPreset : uint32_t {
+  kTiny = 0,
+  kSmall = 1,
+  kMedium = 2,
+  kLarge = 3,
+  kBody = 4,
+  // With the counts, versions and names of exported characters.
+  kMetaHumanHead = 6,
+  kMetaHumanBody = 7,
+  kArchetype = 8,  // that head without blend shapes
+};
 
-/// A 2.8 file with all layers loaded. Heads have no RBF behavior and no twists and swings;
-/// networks are there if `learned`. Its arrays and lists lie in `arena`. Returns false if memory
-/// ran out; `out` is then empty and the arena holds what had been made.
+/// A file with all layers loaded; of version 2.8, but for kMetaHumanHead and kArchetype (2.5) and
+/// kMetaHumanBody (2.7). Heads have no twists and swings; those of characters have one RBF solver, the others
+/// none. Networks are there if `learned`, which the last three presets must not be. Its arrays and lists
+/// lie in `arena`. Returns false if memory ran out; `out` is then empty and the arena holds what had been
+/// made.
 bool make_synthetic_rig(SyntheticPreset preset, uint64_t seed, Arena& arena, dna::DnaView& out,
                         bool learned = false);
 

@@ -47,7 +47,8 @@ Command add_gen_command(CLI::App& app, const Session& session) {
   gen->add_option(
          "--preset", options->preset,
          "Heads: tiny (default), small, medium or large (870 joints), or a body\n(342 joints, RBF "
-         "solvers, twists and swings)")
+         "solvers, twists and swings). With the counts and names of\nexported characters: "
+         "metahuman-head (2.5), metahuman-body (2.7), archetype (that\nhead without blend shapes)")
       ->type_name("NAME");
   gen->add_flag("--ml", options->ml,
                 "Add machine-learned behavior: networks, their operations, joints that they move");
@@ -56,10 +57,14 @@ Command add_gen_command(CLI::App& app, const Session& session) {
       "  mien gen -o tiny.dna\n"
       "  mien gen -o head.dna --preset large --seed 7\n"
       "  mien gen -o body.dna --preset body --ml\n"
+      "  mien gen -o export.dna --preset metahuman-head\n"
       "  mien gen -o - | mien info -");
   return {gen, [options, &session] {
-            const size_t preset = parse_word("--preset", options->preset);
-            run(*options, MIEN_PRESET_TINY + static_cast<uint32_t>(preset), session);
+            constexpr uint32_t kPresets[] = {MIEN_PRESET_TINY,           MIEN_PRESET_SMALL,
+                                             MIEN_PRESET_MEDIUM,         MIEN_PRESET_LARGE,
+                                             MIEN_PRESET_BODY,           MIEN_PRESET_METAHUMAN_HEAD,
+                                             MIEN_PRESET_METAHUMAN_BODY, MIEN_PRESET_ARCHETYPE};
+            run(*options, kPresets[parse_word("--preset", options->preset)], session);
           }};
 }
 

@@ -572,13 +572,22 @@ class Preset(IntEnum):
     #: vertex colors: key "mien.colors.<mesh name>", value base64 of 3 bytes (sRGB) per vertex
     #: position of the mesh.
     HEAD = 5
+    #: a synthetic rig with the published counts of exported heads and names in MetaHuman's
+    #: conventions: version 2.5, 870 joints, 263 raw controls (251 expressions, 12 parts of
+    #: quaternions), 174 GUI controls, 545 correctives, 782 channels, an RBF solver with 18 poses,
+    #: 8 LODs
+    METAHUMAN_HEAD = 6
+    #: Preset.BODY in version 2.7
+    METAHUMAN_BODY = 7
+    #: Preset.METAHUMAN_HEAD without blend shapes
+    ARCHETYPE = 8
 
 
 class Generate(IntEnum):
     """Additions to a preset, combined with |."""
 
     #: machine-learned behavior: networks for mesh regions with all activation functions and
-    #: operations, and ML joints; not with Preset.HEAD
+    #: operations, and ML joints; not with Preset.HEAD and those after it
     ML = 1
 
 

@@ -557,13 +557,21 @@ export declare const Preset: {
    * a stylized head to look at: skin, eyes, teeth, tongue, hair; the 52 ARKit expressions as raw controls of the same names (0 to 1), correctives, wrinkle maps, 8 LODs. Seed 0 is the designed head; other seeds vary skull, nose, jaw, age, hair and colors. The metadata holds vertex colors: key "mien.colors.<mesh name>", value base64 of 3 bytes (sRGB) per vertex position of the mesh.
    */
   readonly HEAD: 5;
+  /**
+   * a synthetic rig with the published counts of exported heads and names in MetaHuman's conventions: version 2.5, 870 joints, 263 raw controls (251 expressions, 12 parts of quaternions), 174 GUI controls, 545 correctives, 782 channels, an RBF solver with 18 poses, 8 LODs
+   */
+  readonly METAHUMAN_HEAD: 6;
+  /** MIEN_PRESET_BODY in version 2.7 */
+  readonly METAHUMAN_BODY: 7;
+  /** MIEN_PRESET_METAHUMAN_HEAD without blend shapes */
+  readonly ARCHETYPE: 8;
 };
 export type Preset = (typeof Preset)[keyof typeof Preset];
 
 /** Additions to a preset, combined with |. */
 export declare const Generate: {
   /**
-   * machine-learned behavior: networks for mesh regions with all activation functions and operations, and ML joints; not with MIEN_PRESET_HEAD
+   * machine-learned behavior: networks for mesh regions with all activation functions and operations, and ML joints; not with MIEN_PRESET_HEAD and those after it
    */
   readonly ML: 1;
 };
@@ -2967,8 +2975,9 @@ export interface Exports {
    */
   mien_solver_state_undeclared(solver_state: number, out_name: number): number;
   /**
-   * Generates a rig and opens it: a file of version 2.8 with all layers, behavior of realistic size and
-   * sparsity, and simple geometry. Close with mien_dna_close().
+   * Generates a rig and opens it: a file of version 2.8, unless the preset states another one, with all layers
+   * of its version, behavior of realistic size and sparsity, and simple geometry. Close with
+   * mien_dna_close().
    */
   mien_dna_generate(desc: number, out_dna: number, error: number): number;
   /**

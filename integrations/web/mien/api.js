@@ -290,6 +290,9 @@ export const Preset = Object.freeze({
   LARGE: 3,
   BODY: 4,
   HEAD: 5,
+  METAHUMAN_HEAD: 6,
+  METAHUMAN_BODY: 7,
+  ARCHETYPE: 8,
 });
 
 export const Generate = Object.freeze({

@@ -421,10 +421,19 @@ pub const MIEN_PRESET_BODY: u32 = 4;
 /// colors: key "mien.colors.\<mesh name\>", value base64 of 3 bytes (sRGB) per vertex position of
 /// the mesh.
 pub const MIEN_PRESET_HEAD: u32 = 5;
+/// A synthetic rig with the published counts of exported heads and names in MetaHuman's
+/// conventions: version 2.5, 870 joints, 263 raw controls (251 expressions, 12 parts of
+/// quaternions), 174 GUI controls, 545 correctives, 782 channels, an RBF solver with 18 poses, 8
+/// LODs.
+pub const MIEN_PRESET_METAHUMAN_HEAD: u32 = 6;
+/// `MIEN_PRESET_BODY` in version 2.7.
+pub const MIEN_PRESET_METAHUMAN_BODY: u32 = 7;
+/// `MIEN_PRESET_METAHUMAN_HEAD` without blend shapes.
+pub const MIEN_PRESET_ARCHETYPE: u32 = 8;
 
 // enum MienGenerate
 /// machine-learned behavior: networks for mesh regions with all activation functions and
-/// operations, and ML joints; not with `MIEN_PRESET_HEAD`.
+/// operations, and ML joints; not with `MIEN_PRESET_HEAD` and those after it.
 pub const MIEN_GENERATE_ML: u32 = 1;
 
 // enum MienBoneKind
@@ -4203,8 +4212,9 @@ extern "C" {
     /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if MienSolverStackDesc.`check_writes` was 0.
     pub fn mien_solver_state_undeclared(solver_state: *const MienSolverState, out_name: *mut MienStringView) -> MienStatus;
 
-    /// Generates a rig and opens it: a file of version 2.8 with all layers, behavior of realistic
-    /// size and sparsity, and simple geometry. Close with `mien_dna_close()`.
+    /// Generates a rig and opens it: a file of version 2.8, unless the preset states another one,
+    /// with all layers of its version, behavior of realistic size and sparsity, and simple
+    /// geometry. Close with `mien_dna_close()`.
     pub fn mien_dna_generate(desc: *const MienGenerateDesc, out_dna: *mut *mut MienDna, error: *mut MienError) -> MienStatus;
 
     /// Creates a rig from a mesh, with or without expressions, and opens it as a file of version

@@ -875,9 +875,18 @@ impl Preset {
     /// vertex colors: key "mien.colors.\<mesh name\>", value base64 of 3 bytes (sRGB) per vertex
     /// position of the mesh.
     pub const HEAD: Self = Self(5);
+    /// A synthetic rig with the published counts of exported heads and names in MetaHuman's
+    /// conventions: version 2.5, 870 joints, 263 raw controls (251 expressions, 12 parts of
+    /// quaternions), 174 GUI controls, 545 correctives, 782 channels, an RBF solver with 18 poses,
+    /// 8 LODs.
+    pub const METAHUMAN_HEAD: Self = Self(6);
+    /// `Preset::BODY` in version 2.7.
+    pub const METAHUMAN_BODY: Self = Self(7);
+    /// `Preset::METAHUMAN_HEAD` without blend shapes.
+    pub const ARCHETYPE: Self = Self(8);
 }
 
-numbers!(Preset, u32, [(0, "TINY"), (1, "SMALL"), (2, "MEDIUM"), (3, "LARGE"), (4, "BODY"), (5, "HEAD")]);
+numbers!(Preset, u32, [(0, "TINY"), (1, "SMALL"), (2, "MEDIUM"), (3, "LARGE"), (4, "BODY"), (5, "HEAD"), (6, "METAHUMAN_HEAD"), (7, "METAHUMAN_BODY"), (8, "ARCHETYPE")]);
 
 /// Additions to a preset, combined with \|.
 ///
@@ -888,7 +897,7 @@ pub struct Generate(pub u32);
 
 impl Generate {
     /// machine-learned behavior: networks for mesh regions with all activation functions and
-    /// operations, and ML joints; not with `Preset::HEAD`.
+    /// operations, and ML joints; not with `Preset::HEAD` and those after it.
     pub const ML: Self = Self(1);
 }
 
