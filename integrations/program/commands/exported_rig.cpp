@@ -29,6 +29,7 @@ std::string millimeters(double meters) {
 
 const char* GlbOptions::named() const {
   return !influences.empty() ? "--influences"
+         : exact             ? "--exact"
          : quantize          ? "--quantize"
          : no_uvs            ? "--no-uvs"
          : no_morph_normals  ? "--no-morph-normals"
@@ -42,9 +43,15 @@ void add_glb_options(CLI::App& command, GlbOptions& options, const std::string& 
                   "fitted to its expressions; the loss is printed")
       ->type_name("N")
       ->group(group);
+  CLI::Option* exact =
+      command
+          .add_flag("--exact", options.exact,
+                    "Also moves too small to be seen; weights and texture coordinates as floats")
+          ->group(group);
   command
       .add_flag("--quantize", options.quantize,
                 "About half the size: integers of 8 and 16 bits (KHR_mesh_quantization)")
+      ->excludes(exact)
       ->group(group);
   command.add_flag("--no-uvs", options.no_uvs, "No texture coordinates")->group(group);
   command
@@ -123,6 +130,7 @@ gltf::SceneOptions ExportedRig::scene_options(const GlbOptions& options) const {
   scene.name = read_string(file, "desc.name");
   if (scene.name.empty()) scene.name = "rig";
   scene.first_lod = first_lod;
+  scene.exact = options.exact;
   if (!options.influences.empty()) {
     scene.influences =
         4 + 4 * static_cast<uint32_t>(parse_word("--influences", options.influences));
@@ -198,7 +206,9 @@ std::string glb_bytes(gltf::Scene& scene, const GlbOptions& options) {
       target.normal_vertices.clear();
     }
   }
-  return gltf::write_glb(scene, options.quantize);
+  return gltf::write_glb(scene, options.quantize ? gltf::Encoding::kQuantized
+                                : options.exact  ? gltf::Encoding::kFloat
+                                                 : gltf::Encoding::kShares);
 }
 
 void fail_export(const gltf::ExportError& error, const std::string& rig) {

@@ -12,7 +12,7 @@ namespace mien::cli {
 /// Options of commands that write GLB files.
 struct GlbOptions {
   std::string influences;  // 4, 8, 12 or empty
-  bool quantize = false, no_uvs = false, no_morph_normals = false;
+  bool exact = false, quantize = false, no_uvs = false, no_morph_normals = false;
 
   /// One of them that was given, or null.
   const char* named() const;

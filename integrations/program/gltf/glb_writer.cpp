@@ -55,7 +55,8 @@ struct Packing {
 
 /// The packings of a file.
 struct Packings {
-  bool quantized = false;
+  bool quantized = false;  // by the extension
+  bool shares = false;     // weights and texture coordinates are 16-bit shares of 1
   Packing positions, moves, normals, turns;
 };
 
@@ -228,7 +229,7 @@ Packings packings_of(const Scene& scene) {
     }
   }
   Packings packings;
-  packings.quantized = true;
+  packings.quantized = packings.shares = true;
   if (!box.empty()) {
     const math::Vec3d size = box.size();
     longest = std::max({longest, size.x / 2, size.y / 2, size.z / 2});
@@ -350,8 +351,8 @@ uint32_t normalized_weight(const Mesh& mesh, size_t vertex, uint32_t influence) 
 }
 
 /// Four influences of each vertex from `first` on: numbers and weights.
-void add_influences(Data& data, const Mesh& mesh, uint32_t first, size_t joint_count,
-                    bool quantized, json& attributes) {
+void add_influences(Data& data, const Mesh& mesh, uint32_t first, size_t joint_count, bool shares,
+                    json& attributes) {
   const ComponentType type = joint_count <= 256 ? kU8 : kU16;
   const std::string set = std::to_string(first / 4);
   const size_t count = mesh.positions.size();
@@ -363,12 +364,12 @@ void add_influences(Data& data, const Mesh& mesh, uint32_t first, size_t joint_c
   }
   data.end_view(kVertexData);
   data.begin_view();
-  json weights = data.accessor_here(quantized ? kU16 : kF32, count, "VEC4");
-  if (quantized) weights["normalized"] = true;
+  json weights = data.accessor_here(shares ? kU16 : kF32, count, "VEC4");
+  if (shares) weights["normalized"] = true;
   attributes["WEIGHTS_" + set] = data.add_accessor(std::move(weights));
   for (size_t v = 0; v < count; ++v) {
     for (uint32_t k = first; k < first + 4; ++k) {
-      if (quantized) {
+      if (shares) {
         data.put(normalized_weight(mesh, v, k), kU16);
       } else {
         data.put(mesh.weights[v * mesh.influences + k]);
@@ -385,8 +386,8 @@ bool are_shares(const std::vector<Float2>& uvs) {
   });
 }
 
-size_t add_uvs(Data& data, const Mesh& mesh, bool quantized) {
-  if (!quantized || !are_shares(mesh.uvs)) return data.add(mesh.uvs, kVertexData);
+size_t add_uvs(Data& data, const Mesh& mesh, bool shares) {
+  if (!shares || !are_shares(mesh.uvs)) return data.add(mesh.uvs, kVertexData);
   data.begin_view();
   json accessor = data.accessor_here(kU16, mesh.uvs.size(), "VEC2");
   accessor["normalized"] = true;
@@ -427,10 +428,10 @@ json mesh_json(Data& data, const Mesh& mesh, size_t joint_count, const Packings&
   if (!mesh.normals.empty()) {
     attributes["NORMAL"] = data.add_attribute(mesh.normals, packings.normals, false);
   }
-  if (!mesh.uvs.empty()) attributes["TEXCOORD_0"] = add_uvs(data, mesh, packings.quantized);
+  if (!mesh.uvs.empty()) attributes["TEXCOORD_0"] = add_uvs(data, mesh, packings.shares);
   if (!mesh.colors.empty()) attributes["COLOR_0"] = add_colors(data, mesh);
   for (uint32_t first = 0; first < mesh.influences; first += 4) {
-    add_influences(data, mesh, first, joint_count, packings.quantized, attributes);
+    add_influences(data, mesh, first, joint_count, packings.shares, attributes);
   }
   json primitive = {{"attributes", std::move(attributes)}};
   primitive["indices"] = add_triangles(data, mesh);
@@ -620,9 +621,11 @@ std::string pack(std::string text, const std::string& binary) {
 
 }  // namespace
 
-std::string write_glb(const Scene& scene, bool quantized) {
+std::string write_glb(const Scene& scene, Encoding encoding) {
   Data data;
-  const Packings packings = quantized ? packings_of(scene) : Packings{};
+  const bool quantized = encoding == Encoding::kQuantized;
+  Packings packings = quantized ? packings_of(scene) : Packings{};
+  packings.shares = encoding != Encoding::kFloat;
   json root;
   root["asset"] = {{"version", "2.0"}, {"generator", "Mien " + version_text()}};
   if (quantized) {

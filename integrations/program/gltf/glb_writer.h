@@ -8,6 +8,14 @@
 
 namespace mien::gltf {
 
+/// How numbers are stored.
+enum class Encoding {
+  kFloat,
+  kShares,  // weights, and texture coordinates from 0 to 1, in 16 bits: no extension is needed
+  kQuantized,  // besides positions and what targets move them in 16 bits (of the longest side of the box,
+               // for a head 5 micrometers), normals in 8, by KHR_mesh_quantization
+};
+
 /// A binary glTF 2.0 file; the same scene gives the same bytes everywhere.
 ///
 ///   nodes       first one that holds the skeleton (named as the scene), then the joints, then one
@@ -18,11 +26,7 @@ namespace mien::gltf {
 ///               a product in mesh.extras.correctives: [{"target": 52, "product": [17, 23]}, ...]
 ///   animation   joint channels for what moves, weights for each mesh with targets
 ///
-/// `quantized`: positions and what targets move them in 16 bits (of the longest side of the box, for
-/// a head 5 micrometers), normals in 8, weights and texture coordinates in 16, by
-/// KHR_mesh_quantization.
-///
 /// Throws ExportError for numbers that are not finite and for more than 4 GiB.
-std::string write_glb(const Scene& scene, bool quantized = false);
+std::string write_glb(const Scene& scene, Encoding encoding = Encoding::kFloat);
 
 }  // namespace mien::gltf

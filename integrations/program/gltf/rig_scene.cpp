@@ -130,24 +130,30 @@ std::vector<float> channel_deltas(const RigSource& source, uint32_t rig_mesh, co
   return sum;
 }
 
-// Turns of a normal below this, half a degree, are not worth their bytes.
-constexpr double kLeastTurn = 1e-2;
+/// What is not worth its bytes: moves of up to `move` (meters), and turns of normals of up to `turn`
+/// (radians).
+struct Least {
+  double move, turn;
+};
+constexpr double kHalfDegree = 1e-2, kDegree = 1.75e-2;
+// Of the diagonal: a sixth of a pixel where the face fills a screen of 2160 lines.
+constexpr double kUnseenMove = 7e-5;
 
-/// What moves further than `least`, and normals that turn. `deltas` are per position, the normals per vertex.
+/// What moves and turns further than `least`. `deltas` are per position, the normals per vertex.
 MorphTarget make_target(const RigSource& source, const MienMesh& mesh,
                         const std::vector<float>& deltas, const std::vector<float>& normals,
-                        const std::vector<float>& neutral_normals, double least) {
+                        const std::vector<float>& neutral_normals, const Least& least) {
   MorphTarget target;
   for (uint32_t v = 0; v < mesh.vertex_count; ++v) {
     const size_t n = size_t{3} * v, p = size_t{3} * mesh.vertex_position_indices.data[v];
     const float turn[3] = {normals[n] - neutral_normals[n], normals[n + 1] - neutral_normals[n + 1],
                            normals[n + 2] - neutral_normals[n + 2]};
     const Vec3d move = source.point(deltas.data() + p), bend = source.direction(turn);
-    if (dot(move, move) > least * least) {
+    if (dot(move, move) > least.move * least.move) {
       target.vertices.push_back(v);
       target.positions.push_back(floats(move));
     }
-    if (dot(bend, bend) > kLeastTurn * kLeastTurn) {
+    if (dot(bend, bend) > least.turn * least.turn) {
       target.normal_vertices.push_back(v);
       target.normals.push_back(floats(bend));
     }
@@ -156,7 +162,7 @@ MorphTarget make_target(const RigSource& source, const MienMesh& mesh,
 }
 
 void add_targets(const RigSource& source, uint32_t rig_mesh, const MienMesh& from,
-                 MienDeformerInstance* pose, RigScene& result, Mesh& mesh) {
+                 MienDeformerInstance* pose, const Least& least, RigScene& result, Mesh& mesh) {
   std::vector<uint16_t>& channels = result.channels.back();
   const std::vector<bool> driven = driven_channels(source, from.lods);
   for (size_t t = 0; t < from.target_channels.count; ++t) {
@@ -174,7 +180,7 @@ void add_targets(const RigSource& source, uint32_t rig_mesh, const MienMesh& fro
     weights[channel] = 0;
     mesh.targets.push_back(make_target(source, from,
                                        channel_deltas(source, rig_mesh, from, channel), normals,
-                                       neutral_normals, 0));
+                                       neutral_normals, least));
     mesh.targets.back().name = source.name(MIEN_KIND_BLEND_SHAPE_CHANNEL, channel);
   }
 }
@@ -248,11 +254,17 @@ RigScene make_rig_scene(const RigSource& source, const SceneOptions& options) {
   const cli::DeformerInstance pose = make_deformer_instance(source);
   result.scene.joints = neutral_joints(source);
   add_skin(source, options, result);
+  math::Boxd box;
+  for (const Mesh& mesh : result.scene.meshes) {
+    for (const Float3& p : mesh.positions) box.add({p[0], p[1], p[2]});
+  }
+  const Least least =
+      options.exact ? Least{0, kHalfDegree} : Least{kUnseenMove * length(box.size()), kDegree};
   for (size_t i = 0; i < result.scene.meshes.size(); ++i) {
     const uint32_t rig_mesh = result.rig_meshes[i];
     const MienMesh from = source.mesh(rig_mesh);
     result.channels.emplace_back();
-    add_targets(source, rig_mesh, from, pose.get(), result, result.scene.meshes[i]);
+    add_targets(source, rig_mesh, from, pose.get(), least, result, result.scene.meshes[i]);
   }
   return result;
 }
@@ -278,7 +290,7 @@ MorphTarget difference(const RigSource& source, uint32_t rig_mesh, const MienDef
   std::vector<float> deltas = copied(positions);
   for (size_t i = 0; i < deltas.size(); ++i) deltas[i] -= neutral_positions[i];
   return make_target(source, source.mesh(rig_mesh), deltas, copied(normals), neutral_normals,
-                     least);
+                     {least, kHalfDegree});
 }
 
 // Animation ---------------------------------------------------------------------------------------

@@ -16,6 +16,7 @@ struct SceneOptions {
   std::string name;                            // of the scene
   uint32_t first_lod = 0;                      // number to show for the first LOD that was opened
   uint32_t influences = 4;                     // per vertex, 4, 8 or 12
+  bool exact = false;                          // also moves that cannot be seen
   std::function<void(double share)> progress;  // called now and then; may be empty
 };
 

@@ -89,9 +89,11 @@ def size_of(points):
 
 class ExportTest(ProgramTest):
     def glb(self, rig, *options, **more):
-        """With all influences, unless the options say otherwise."""
+        """With all influences and moves, unless the options say otherwise."""
         if not {"--influences", "--bake-arkit"} & set(options):
             options += ("--influences", "12")
+        if not {"--quantize", "--bake-arkit"} & set(options):
+            options += ("--exact",)
         return Glb(self.ok("export", rig, "-o", "-", *options, **more).stdout)
 
     def obj(self, rig, *options):
@@ -436,8 +438,9 @@ class Sizes(ExportTest):
             primitive, = mesh["primitives"]
             self.assertNotIn("TEXCOORD_0", primitive["attributes"])
             self.assertFalse(any("NORMAL" in target for target in primitive.get("targets", [])))
-        for option in ("--quantize", "--no-uvs", "--no-morph-normals"):
+        for option in ("--exact", "--quantize", "--no-uvs", "--no-morph-normals"):
             self.fails(USAGE, "export", rig, "-o", path("x.obj"), option, says=option)
+        self.fails(USAGE, "export", rig, "-o", path("x.glb"), "--exact", "--quantize", says=("--exact", "--quantize"))
 
 
 class Settings(ExportTest):
@@ -585,6 +588,22 @@ class ProceduralHead(ExportTest):
         worst = self.worst(self.glb(rig, *settings), self.obj(rig, *settings))
         say("procedural head: %.2g of the size" % worst)
         self.assertLess(worst, 1e-5)
+
+    def test_small_by_default_and_as_good(self):
+        """What the README says: 6 MB at most, and what is left out cannot be seen. glTF without extensions."""
+        rig, largest = path("head.dna"), 0
+        self.ok("export", rig, "-o", path("default.glb"), "-q", "--force")
+        size = os.path.getsize(path("default.glb"))
+        self.assertLess(size, 6e6)
+        self.assertNotIn("extensionsUsed", Glb(read("default.glb")).json)
+        for seed in range(3):
+            settings, _ = self.random_pose(rig, seed)
+            small, exact = (Glb(self.ok("export", rig, "-o", "-", *options, *settings).stdout)
+                            for options in ([], ["--exact"]))
+            for number in exact.mesh_nodes(0):
+                largest = max(largest, max(map(distance, small.deformed(number), exact.deformed(number))))
+        say("procedural head: %.2f MB, off by %.2f mm at most" % (size / 1e6, largest * 1000))
+        self.assertLess(largest, 0.2e-3)
 
     def test_faces_the_front_with_its_left_side_on_the_left(self):
         glb = self.glb(path("head.dna"), "--lod", "3")

@@ -93,7 +93,7 @@ MorphTarget target_of(size_t count) {
 TEST(GlbWriter, NodesUndoTheQuantizationOfMeshesWithoutSkin) {
   Mesh mesh = fan(9);  // x from 0 to 8, y from 0 to 6
   mesh.targets.push_back(target_of(2));
-  const Parts parts = read(write_glb(scene_of(std::move(mesh)), true));
+  const Parts parts = read(write_glb(scene_of(std::move(mesh)), Encoding::kQuantized));
   EXPECT_EQ(parts.text["extensionsRequired"], json::array({"KHR_mesh_quantization"}));
   const json& node = parts.text["nodes"][0];
   EXPECT_EQ(node["translation"], json::array({4.0, 3.0, 0.0}));
