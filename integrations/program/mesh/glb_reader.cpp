@@ -24,6 +24,8 @@ constexpr int kMaxDepth = 256;
 constexpr size_t kMaxTargets = 4096;  // each takes memory for all positions
 // Nodes and targets may name the same data again and again. Of real files none has a fraction of this.
 constexpr size_t kMaxNumbers = size_t{1} << 22, kMaxNumbersPerByte = 32;
+// What looking at one of them takes, in numbers that are read in the same time.
+constexpr size_t kNodeNumbers = 128, kPrimitiveNumbers = 256, kTargetNumbers = 64;
 
 Matrix product(const Matrix& a, const Matrix& b) {
   Matrix out;
@@ -119,6 +121,7 @@ class Glb {
   void take_numbers(size_t count);
   Matrix local_matrix(const Json& node) const;
   void add_node(size_t index, const Matrix& parent, int depth);
+  std::string new_object_name(const Json& mesh);
   void add_primitive(const Json& mesh, const Json& primitive, const Matrix& place);
 
   const std::string& path_;
@@ -127,6 +130,7 @@ class Glb {
   MeshFile out_;
   std::map<std::string, size_t> shape_of_;
   std::set<std::string> object_names_;
+  std::map<std::string, size_t> next_numbers_;  // of objects with the same name
   std::set<size_t> visited_;
   bool all_have_uvs_ = true;
   size_t numbers_left_;
@@ -219,6 +223,7 @@ std::vector<double> Glb::numbers(size_t index, size_t width, const char* what) {
     fail("accessor " + std::to_string(index), "its sparse part is incomplete");
   }
   const size_t changed = whole(*sparse, "count", 0);
+  take_numbers(changed * (width + 1));
   const Json &places = (*sparse)["indices"], &values = (*sparse)["values"];
   std::vector<double> at, with;
   copy(whole(places, "bufferView", 0), whole(places, "byteOffset", 0),
@@ -282,7 +287,20 @@ Matrix Glb::local_matrix(const Json& node) const {
   return out;
 }
 
+/// The mesh's name, with a number if there is an object of this name.
+std::string Glb::new_object_name(const Json& mesh) {
+  const std::string name = text(mesh, "name").empty() ? "mesh" : text(mesh, "name");
+  take_numbers(name.size());
+  if (object_names_.insert(name).second) return name;
+  size_t& number = next_numbers_.try_emplace(name, 2).first->second;
+  for (;;) {
+    const std::string numbered = name + "_" + std::to_string(number++);
+    if (object_names_.insert(numbered).second) return numbered;
+  }
+}
+
 void Glb::add_primitive(const Json& mesh, const Json& primitive, const Matrix& place) {
+  take_numbers(kPrimitiveNumbers);
   if (!primitive.is_object() || !primitive.contains("attributes")) fail("", "a primitive is wrong");
   if (whole(primitive, "mode", 4) != 4) return;  // points and lines have no surface
   const Json& attributes = primitive["attributes"];
@@ -319,20 +337,14 @@ void Glb::add_primitive(const Json& mesh, const Json& primitive, const Matrix& p
   } else {
     all_have_uvs_ = false;
   }
-  MeshObject object;
-  const std::string name = text(mesh, "name").empty() ? "mesh" : text(mesh, "name");
-  object.name = name;
-  for (size_t n = 2; !object_names_.insert(object.name).second; ++n) {
-    object.name = name + "_" + std::to_string(n);
-  }
-  object.first_face = static_cast<uint32_t>(out_.face_sizes.size());
-  object.face_count = static_cast<uint32_t>(corners.size() / 3);
+  const auto first_face = static_cast<uint32_t>(out_.face_sizes.size());
+  const auto face_count = static_cast<uint32_t>(corners.size() / 3);
   for (const uint32_t corner : corners) {
     out_.corners.push_back(static_cast<uint32_t>(first) + corner);
     out_.corner_uvs.push_back(first_uv + corner);
   }
-  out_.face_sizes.insert(out_.face_sizes.end(), object.face_count, 3);
-  if (object.face_count > 0) out_.objects.push_back(object);
+  out_.face_sizes.insert(out_.face_sizes.end(), face_count, 3);
+  if (face_count > 0) out_.objects.push_back({new_object_name(mesh), first_face, face_count});
 
   const Json& targets = list(primitive, "targets");
   const Json& names =
@@ -342,6 +354,7 @@ void Glb::add_primitive(const Json& mesh, const Json& primitive, const Matrix& p
                                  ? names[t].get<std::string>()
                                  : "target_" + std::to_string(t);
     if (shape_name.empty()) shape_name = "target_" + std::to_string(t);
+    take_numbers(kTargetNumbers + shape_name.size());
     const auto [it, added] = shape_of_.emplace(shape_name, out_.shapes.size());
     if (added) {
       if (out_.shapes.size() == kMaxTargets) {
@@ -366,6 +379,7 @@ void Glb::add_primitive(const Json& mesh, const Json& primitive, const Matrix& p
 
 void Glb::add_node(size_t index, const Matrix& parent, int depth) {
   const Json& node = element("nodes", index);
+  take_numbers(kNodeNumbers);
   // A node that comes back would never end.
   if (depth > kMaxDepth || !visited_.insert(index).second) {
     fail("node " + std::to_string(index), "it has several parents or over 256 ancestors");

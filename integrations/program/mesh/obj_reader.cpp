@@ -17,6 +17,7 @@ namespace {
 
 constexpr size_t kMaxPositions = size_t{1} << 26;
 constexpr size_t kMaxFaceCorners = 65535;
+constexpr size_t kMaxNameBytes = 255;  // an object's comes back with each of its groups
 
 /// Goes through a file line by line, words separated by blanks. A backslash at the end continues a line.
 class Lines {
@@ -171,9 +172,11 @@ MeshFile read_obj(const std::string& bytes, const std::string& path) {
       }
       faces.sizes.push_back(size);
     } else if (keyword == "o" || keyword == "g") {
-      (keyword == "o" ? object : group) = lines.name();
+      std::string& name = keyword == "o" ? object : group;
+      name = lines.name();
+      if (name.size() > kMaxNameBytes) lines.fail("the name is longer than 255 bytes");
       if (keyword == "o") group.clear();
-      enter();
+      current = std::numeric_limits<size_t>::max();
     } else if (keyword == "curv" || keyword == "surf" || keyword == "cstype") {
       lines.fail("curves and surfaces are not supported");
     }

@@ -19,7 +19,7 @@ import unittest
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..", "tests", "support"))
 import program  # noqa: E402
 from picture import Picture  # noqa: E402
-from program import (DONE, USAGE, INVALID, FILE, INTERNAL, ProgramTest,  # noqa: E402
+from program import (DONE, USAGE, INVALID, FILE, INTERNAL, ProgramTest, cost,  # noqa: E402
                      main, make_folder, path, read, run, write)
 
 SHARED = os.path.join(os.environ.get("MIEN_SHARED", os.path.join(
@@ -99,6 +99,10 @@ def glb(positions, faces, shapes, edit=None, scale=0.01):
                         "extras": {"targetNames": list(shapes)}}]}
     if edit:
         edit(root)
+    return pack_glb(root, blocks)
+
+
+def pack_glb(root, blocks):
     text = json.dumps(root).encode()
     text += b" " * (-len(text) % 4)
     return struct.pack("<4sII", b"glTF", 2, 20 + len(text) + 8 + len(blocks)) + \
@@ -542,13 +546,57 @@ class AuthorTest(ProgramTest):
         def nodes(root):
             root["nodes"] = [{"mesh": 0}] * 5000
             root["scenes"] = [{"nodes": list(range(5000))}]
-        for edit in (targets, nodes):
-            source = write("again.glb", glb(POSITIONS, FACES, SHAPES, edit))
+
+        def empty_primitives(root):
+            mesh = root["meshes"][0]
+            root["accessors"].append({"componentType": 5126, "count": 0, "type": "VEC3"})
+            mesh["primitives"] = [{"attributes": {"POSITION": len(root["accessors"]) - 1}}] * 300
+            root["nodes"] = [{"mesh": 0}] * 300
+            root["scenes"] = [{"nodes": list(range(300))}]
+
+        def empty_targets(root):
+            mesh = root["meshes"][0]
+            root["accessors"].append({"componentType": 5126, "count": 0, "type": "VEC3"})
+            empty = {"POSITION": len(root["accessors"]) - 1}
+            mesh["primitives"] = [{"attributes": empty, "targets": [empty] * 4000}]
+            root["nodes"] = [{"mesh": 0}] * 2000
+            root["scenes"] = [{"nodes": list(range(2000))}]
+
+        # One vertex, changed by 5000 sparse values, in 4000 targets.
+        view = {"bufferView": 0}
+        sparse = {"count": 5000, "indices": {**view, "componentType": 5121}, "values": view}
+        point = {"componentType": 5126, "count": 1, "type": "VEC3"}
+        zeros = {"asset": {"version": "2.0"}, "nodes": [{"mesh": 0}], "buffers": [{"byteLength": 60000}],
+                 "bufferViews": [{"buffer": 0, "byteLength": 60000}],
+                 "accessors": [point, {**point, "sparse": sparse}],
+                 "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "targets": [{"POSITION": 1}] * 4000}]}]}
+        edits = (targets, nodes, empty_primitives, empty_targets)
+        files = {edit.__name__: glb(POSITIONS, FACES, SHAPES, edit) for edit in edits}
+        for name, data in {**files, "sparse": pack_glb(zeros, b"\0" * 60000)}.items():
+            source = write("again.glb", data)
             self.fails(INVALID, "author", source, "-o", path("no.dna"), says="too often")
+            self.assertLess(cost("author", source, "-o", path("no.dna"))[0], 1, name)
         data = bytearray(mshp(POSITIONS, SHAPES))
         data[12:16] = struct.pack("<I", 4097)
         self.fails(INVALID, "author", path("head.obj"), "--shapes", write("many.mshp", bytes(data)), "-o",
                    path("no.dna"), says="4097 shapes")
+
+    def test_objects_of_one_name_get_numbers(self):
+        """As many as are allowed take no more than their time."""
+        corner = {"attributes": {"POSITION": 0}}
+        root = {"asset": {"version": "2.0"}, "nodes": [{"mesh": 0}] * 120, "bufferViews": [{"byteLength": 36}],
+                "buffers": [{"byteLength": 36}],
+                "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+                "meshes": [{"name": "a", "primitives": [corner] * 100}]}
+        source = write("names.glb", pack_glb(root, struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)))
+        done = run("author", source, "-o", path("no.dna"))
+        self.assertNotIn("too often", done.stderr)
+        self.assertLess(cost("author", source, "-o", path("no.dna"))[0], 2)
+
+    def test_long_names_of_objects_are_refused(self):
+        """Each group repeats the name of its object."""
+        self.fails(INVALID, "author", write("long.obj", "o " + "x" * 256 + "\nv 0 0 0\nf 1 1 1\n"), "-o",
+                   path("no.dna"), says=("line 1", "255 bytes"))
 
     @unittest.skipUnless(hasattr(os, "mkfifo"), "no pipes with names")
     def test_an_interrupt_ends_with_130_and_leaves_nothing(self):
