@@ -26,6 +26,7 @@ VIEWS = {
 }
 ARRAYS = {"i8": "Int8Array", "u8": "Uint8Array", "i16": "Int16Array", "u16": "Uint16Array",
           "i32": "Int32Array", "u32": "Uint32Array", "f32": "Float32Array", "f64": "Float64Array"}
+LETTERS = {"u32": "u", "i32": "i", "u64": "U", "i64": "I", "f32": "f", "f64": "f"}
 # What JavaScript neither gives nor gets: memory and files are the module's.
 HIDDEN = {"struct_size", "reserved", "allocator", "file_access"}
 # Numbers for "none"; classes take null or nothing instead, so types do not have them.
@@ -114,6 +115,14 @@ def write_script(api):
                 entry.append(camel(field["count"]))
             yield f"    {camel(field['name'])}: {json.dumps(entry)},\n"
         yield "  } },\n"
+    yield "};\n"
+    yield "\n// Parameters of each function that has numbers: p addresses, u and i of 32 bits, U and I of 64, f.\n"
+    yield "export const calls = {\n"
+    for function in api["functions"]:
+        letters = "".join(LETTERS[KINDS[kind["name"]]] if "name" in kind and kind["name"] in KINDS else "p"
+                          for kind in (plain(p["type"]) for p in function["parameters"]))
+        if letters.strip("p") and not function["name"].endswith("_file"):
+            yield f'  {function["name"]}: "{letters}",\n'
     yield "};\n"
 
 

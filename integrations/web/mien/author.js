@@ -128,10 +128,10 @@ export function authorRig(memory, mesh, { progress, ...options } = {}) {
     desc.progressUser = memory.addFunction(progress);
   }
   try {
-    return memory.withFunctions((scratch) => {
+    return memory.withScratch((scratch) => {
       const [dna, report, error] = [scratch.take(4), scratch.take(4), scratch.out("Error")];
-      memory.check(exports.mien_author_rig(scratch.struct("AuthorMesh", givenMesh), scratch.struct("AuthorDesc", desc),
-        dna, report, error), error);
+      const given = [scratch.struct("AuthorMesh", givenMesh), scratch.struct("AuthorDesc", desc), dna, report, error];
+      memory.withFunctions([], () => memory.check(exports.mien_author_rig(...given), error));
       const made = new Dna(memory, memory.data.getUint32(dna, true));
       const handle = memory.data.getUint32(report, true);
       try {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Clips: curves of named channels, played and bound to rigs.
 import { layouts, TICKS_PER_SECOND } from "./api.js";
-import { Handle, makeHandle } from "./memory.js";
+import { Handle, makeHandle } from "./handle.js";
 
 export class Clip extends Handle {
   #info;
@@ -73,7 +73,9 @@ export class Clip extends Handle {
     const { memory } = this;
     return memory.withScratch((scratch) => {
       const error = scratch.out("Error");
-      const count = Math.max(0, frameCount) * this.info.channelCount;
+      const { frameCount: frames, channelCount } = this.info;
+      if (frameCount > frames) throw new RangeError(`${frameCount} frames of ${frames}`);
+      const count = Math.max(0, frameCount) * channelCount;
       const out = scratch.take(Math.max(1, count) * 4);
       memory.check(memory.exports.mien_clip_read(this.handle, firstFrame, frameCount, out, 0, error), error);
       return memory.array("f32", out, count).slice();
@@ -98,7 +100,7 @@ export class Clip extends Handle {
 export class ClipPlayer extends Handle {
   constructor(memory, clip, desc) {
     super(memory, makeHandle(memory, (out, error, scratch) =>
-      memory.exports.mien_clip_player_create(clip.handle, scratch.struct("ClipPlayerDesc", desc), out, error)),
+      memory.exports.mien_clip_player_create(memory.handleOf(clip), scratch.struct("ClipPlayerDesc", desc), out, error)),
     "mien_clip_player_destroy");
   }
 
@@ -150,7 +152,7 @@ export class ClipBinding extends Handle {
 
   constructor(memory, clip, rig, desc) {
     super(memory, makeHandle(memory, (out, error, scratch) =>
-      memory.exports.mien_clip_binding_create(clip.handle, rig.handle, scratch.struct("ClipBindingDesc", desc), out, error)),
+      memory.exports.mien_clip_binding_create(memory.handleOf(clip), memory.handleOf(rig), scratch.struct("ClipBindingDesc", desc), out, error)),
     "mien_clip_binding_destroy");
   }
 
@@ -168,8 +170,10 @@ export class ClipBinding extends Handle {
   apply(values, instance) {
     const { memory } = this;
     memory.withScratch((scratch) => {
-      const inside = values.buffer === memory.buffer ? values.byteOffset : scratch.array("f32", values);
+      memory.handleOf(instance); // of this module
       const raw = instance.rawControls;
+      const isInside = values instanceof Float32Array && values.buffer === memory.buffer;
+      const inside = isInside ? values.byteOffset : scratch.array("f32", values);
       this.call("mien_clip_binding_apply", inside, values.length, raw.byteOffset, raw.length);
     });
   }
@@ -182,7 +186,7 @@ export class ClipBinding extends Handle {
       const count = this.info.channelCount;
       const out = scratch.take(Math.max(1, count) * 4);
       memory.check(memory.exports.mien_clip_binding_snaps(
-        this.handle, deformer.handle, tolerance, out, count, error), error);
+        this.handle, memory.handleOf(deformer), tolerance, out, count, error), error);
       return memory.array("f32", out, count).slice();
     });
   }

@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: MIT
 // Meshes: the deformer of a rig, its neutral meshes, and the deformed ones of a character.
-import { Normals } from "./api.js";
-import { Handle, makeHandle } from "./memory.js";
+import { Normals, Status } from "./api.js";
+import { errorOf } from "./errors.js";
+import { Handle, makeHandle } from "./handle.js";
 import { findMirror, Gaze } from "./mix.js";
 import { SolverStack } from "./solve.js";
 
 export class Deformer extends Handle {
   #info;
+  #vertexCounts;
 
   static create(memory, dna, rig, desc = {}) {
     return new Deformer(memory, makeHandle(memory, (out, error, scratch) =>
-      memory.exports.mien_deformer_create(dna.handle, rig.handle, scratch.struct("DeformerDesc", desc), out, error)));
+      memory.exports.mien_deformer_create(memory.handleOf(dna), memory.handleOf(rig), scratch.struct("DeformerDesc", desc), out, error)));
   }
 
   static fromBaked(memory, baked, rig, desc) {
     return new Deformer(memory, makeHandle(memory, (out, error, scratch) =>
-      memory.exports.mien_deformer_from_baked(baked.handle, rig.handle,
+      memory.exports.mien_deformer_from_baked(memory.handleOf(baked), memory.handleOf(rig),
         scratch.struct("BakedDeformerDesc", desc), out, error)));
   }
 
@@ -30,6 +32,11 @@ export class Deformer extends Handle {
   /** A neutral mesh. Its arrays are views until memory grows: ask again, or copy what is kept. */
   mesh(index) {
     return this.struct("mien_deformer_mesh", "Mesh", index);
+  }
+
+  /** The vertices of each mesh. */
+  get vertexCounts() {
+    return (this.#vertexCounts ??= Array.from({ length: this.info.meshCount }, (_, i) => this.mesh(i).vertexCount));
   }
 
   /** Joints and weights of a position. */
@@ -82,26 +89,28 @@ export class Deformer extends Handle {
 
 export class DeformerInstance extends Handle {
   #jointCount;
+  #vertexCounts;
   #output = 0;
   #outputBytes = 0;
 
   constructor(memory, deformer, desc) {
     super(memory, makeHandle(memory, (out, error, scratch) =>
-      memory.exports.mien_deformer_instance_create(deformer.handle,
+      memory.exports.mien_deformer_instance_create(memory.handleOf(deformer),
         scratch.struct("DeformerInstanceDesc", desc), out, error)),
     "mien_deformer_instance_destroy");
     this.#jointCount = deformer.info.jointCount;
+    this.#vertexCounts = deformer.vertexCounts;
   }
 
   dispose() {
+    super.dispose();
     this.memory.exports.free(this.#output);
     this.#output = this.#outputBytes = 0;
-    super.dispose();
   }
 
   /** Takes over the results of an instance and computes all matrices. */
   update(instance) {
-    this.call("mien_deformer_instance_update", instance.handle);
+    this.call("mien_deformer_instance_update", this.memory.handleOf(instance));
   }
 
   updateFromValues(jointValues = [], channelWeights = []) {
@@ -144,26 +153,33 @@ export class DeformerInstance extends Handle {
   }
 
   /** Deforms a mesh and copies the positions of its vertices, and their normals, to arrays of three
-   * floats per vertex, such as those of buffer attributes. `vertexCount` is that of the mesh. */
-  writeVertices(mesh, vertexCount, positions, normals = null, kind = Normals.DEFAULT) {
+   * floats per vertex, such as those of buffer attributes. */
+  writeVertices(mesh, positions, normals = null, kind = Normals.DEFAULT) {
     const { memory } = this;
+    const vertexCapacity = this.#vertexCounts[mesh];
+    if (vertexCapacity === undefined) throw errorOf(Status.INDEX, `mesh ${mesh} of ${this.#vertexCounts.length}`);
+    const count = 3 * vertexCapacity;
+    for (const array of normals ? [positions, normals] : [positions]) {
+      if (!(array instanceof Float32Array)) throw new TypeError("vertices are written to a Float32Array");
+      if (array.length < count) throw new RangeError(`${array.length} floats for ${vertexCapacity} vertices`);
+    }
     // Memory of the module, kept from frame to frame.
-    const size = vertexCount * 12;
+    const size = 4 * count;
     if (this.#outputBytes < 2 * size) {
       memory.exports.free(this.#output);
-      this.#output = memory.exports.malloc(2 * size);
-      this.#outputBytes = this.#output ? 2 * size : 0;
-      if (!this.#output) memory.check(10);
+      this.#output = this.#outputBytes = 0;
+      this.#output = memory.allocate(2 * size);
+      this.#outputBytes = 2 * size;
     }
     memory.withScratch((scratch) => {
       const output = scratch.struct("VertexOutput", {
-        vertexCapacity: vertexCount,
+        vertexCapacity,
         positions: { data: this.#output, stride: 12 },
         normals: normals ? { data: this.#output + size, stride: 12 } : undefined,
       });
       this.call("mien_deformer_instance_write_vertices", mesh, kind, output, memory.parallel);
     });
-    positions.set(memory.array("f32", this.#output, 3 * vertexCount));
-    normals?.set(memory.array("f32", this.#output + size, 3 * vertexCount));
+    positions.set(memory.array("f32", this.#output, count));
+    normals?.set(memory.array("f32", this.#output + size, count));
   }
 }

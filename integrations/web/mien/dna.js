@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // An open DNA file: properties, fields by path, writing; and what a validation found.
 import { FieldType, Severity } from "./api.js";
-import { Handle, makeHandle } from "./memory.js";
+import { Handle, makeHandle } from "./handle.js";
 
 export class Dna extends Handle {
   #info;

@@ -314,6 +314,8 @@ export interface Deformer extends Handle {
   readonly info: DeformerInfo;
   /** A neutral mesh. */
   mesh(index: number): Mesh;
+  /** The number of vertices of each mesh. */
+  readonly vertexCounts: readonly number[];
   influences(mesh: number, position: number): { joints: Uint16Array; weights: Float32Array };
   /** A copy of a blend shape target: three floats per position. */
   target(mesh: number, target: number): Float32Array;
@@ -348,9 +350,9 @@ export interface DeformerInstance extends Handle {
   positions(mesh: number): Float32Array;
   /** Three floats per vertex. */
   normals(mesh: number): Float32Array;
-  /** Deforms a mesh and copies positions and normals of its vertices, three floats each, to these arrays. */
-  writeVertices(mesh: number, vertexCount: number, positions: Float32Array, normals?: Float32Array | null,
-    kind?: Normals): void;
+  /** Deforms a mesh and copies positions and normals of its vertices, three floats each, to these arrays, which
+   * have room for all of them: 3 * `deformer.vertexCounts[mesh]` floats. */
+  writeVertices(mesh: number, positions: Float32Array, normals?: Float32Array | null, kind?: Normals): void;
 }
 export const DeformerInstance: { readonly prototype: DeformerInstance };
 

@@ -28,7 +28,6 @@ const isNode = typeof process === "object" && !!process.versions?.node && proces
 
 /** Bytes of a source: an address, a file of a browser, a response, or bytes as they are. */
 async function bytesOf(source) {
-  if (source instanceof Uint8Array) return source;
   if (source instanceof ArrayBuffer) return new Uint8Array(source);
   if (ArrayBuffer.isView(source)) return new Uint8Array(source.buffer, source.byteOffset, source.byteLength);
   if (typeof Blob === "function" && source instanceof Blob) return new Uint8Array(await source.arrayBuffer());

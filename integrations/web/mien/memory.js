@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The WebAssembly module and its memory: calls, structs, text and arrays. When memory grows, its buffer
 // is a new one and typed arrays over the old one are empty, so they are made anew where they are used.
-import { layouts, Status } from "./api.js";
+import { calls, layouts, Status } from "./api.js";
+import { checked, checkLong, checkNumber, checkNumbers, checkSize } from "./checks.js";
 import { errorOf } from "./errors.js";
 import { importsOf, sharedMemory } from "./system.js";
 import { startThreads } from "./threads.js";
@@ -40,16 +41,23 @@ function getNumber(data, kind, at) {
   }
 }
 
-function setNumber(data, kind, at, value) {
+function setNumber(data, kind, at, value, what) {
+  if (kind === "bool") return data.setUint32(at, value ? 1 : 0, true);
+  if (SIZES[kind] === 8 && kind !== "f64") return data.setBigInt64(at, checkLong(value, kind, what), true);
+  checkNumber(value, kind, what);
   switch (kind) {
     case "i8": case "u8": return data.setUint8(at, value);
-    case "bool": return data.setUint32(at, value ? 1 : 0, true);
     case "i16": case "u16": return data.setUint16(at, value, true);
     case "i32": case "u32": return data.setUint32(at, value, true);
     case "f32": return data.setFloat32(at, value, true);
-    case "f64": return data.setFloat64(at, value, true);
-    default: return data.setBigInt64(at, BigInt(value), true);
+    default: return data.setFloat64(at, value, true);
   }
+}
+
+/** What a function of the caller returned, which has to be done by then. */
+function notLater(result) {
+  if (typeof result?.then === "function") throw new TypeError("functions that the module calls must not be async");
+  return result;
 }
 
 export class Memory {
@@ -78,7 +86,10 @@ export class Memory {
       mien_web_progress: (progress, step, share) => memory.#progress(progress, step, share),
     });
     const { exports } = await WebAssembly.instantiate(module, imports);
-    memory.exports = shared ? { ...exports, memory: shared } : exports;
+    memory.exports = { ...exports, memory: shared ?? exports.memory };
+    for (const [name, letters] of Object.entries(calls)) {
+      if (exports[name]) memory.exports[name] = checked(name, exports[name], letters);
+    }
     memory.#isShared = shared !== null;
     (exports._initialize ?? exports.__wasm_call_ctors)?.();
     return memory;
@@ -176,25 +187,42 @@ export class Memory {
       const call = this.read("SolverCall", address);
       const { size } = layouts.SolverPose;
       const poses = Array.from({ length: call.poseCount }, (_, i) => this.read("SolverPose", call.poses + i * size));
-      this.#functions.get(solver)({ ...call, poses });
+      notLater(this.#functions.get(solver)({ ...call, poses }));
     });
   }
 
   #progress(progress, step, share) {
-    return this.#guarded(() => (this.#functions.get(progress)(this.terminatedText(step), share) ? 1 : 0), 1);
+    return this.#guarded(() => (notLater(this.#functions.get(progress)(this.terminatedText(step), share)) ? 1 : 0), 1);
   }
 
-  /** As withScratch(), for calls of functions of the caller; throws what they threw. */
-  withFunctions(run) {
+  /** The handle of an object, for a function of this module. */
+  handleOf(object) {
+    if (typeof object?.handle !== "number") throw new TypeError(`${String(object)} is no object of the library`);
+    if (object.memory !== this) throw new TypeError(`this ${object.constructor.name} is of another module`);
+    return object.handle;
+  }
+
+  /** A block of the module's heap. */
+  allocate(size) {
+    const address = this.exports.malloc(checkSize(size));
+    if (!address) throw errorOf(Status.MEMORY, `${size} bytes of memory are not available`);
+    return address;
+  }
+
+  /** Runs a call that calls functions of the caller; throws what they threw. Until it is over, they can
+   * neither use nor dispose of `objects`. */
+  withFunctions(objects, call) {
     const thrown = [];
     this.#thrown.push(thrown);
+    for (const object of objects) object.lock(true);
     try {
-      const result = this.withScratch(run);
+      const result = call();
       if (thrown.length) throw thrown[0];
       return result;
     } catch (error) {
       throw thrown.length ? thrown[0] : error;
     } finally {
+      for (const object of objects) object.lock(false);
       this.#thrown.pop();
     }
   }
@@ -262,12 +290,11 @@ class Scratch {
   take(size) {
     const { exports } = this.#memory;
     let address;
-    if (size <= STACK_BLOCK && size <= this.#stackLeft) {
+    if (checkSize(size) <= STACK_BLOCK && size <= this.#stackLeft) {
       this.#stackLeft -= size;
       address = exports.stackAlloc(size);
     } else {
-      address = exports.malloc(size);
-      if (!address) throw errorOf(Status.MEMORY, `${size} bytes of memory are not available`);
+      address = this.#memory.allocate(size);
       this.#blocks.push(address);
     }
     new Uint8Array(this.#memory.buffer, address, size).fill(0);
@@ -276,6 +303,7 @@ class Scratch {
 
   /** UTF-8, terminated: [address, bytes without the end]. */
   text(text) {
+    if (typeof text !== "string") throw new TypeError(`${String(text)} is no text`);
     const bytes = encoder.encode(text);
     const address = this.take(bytes.length + 1);
     new Uint8Array(this.#memory.buffer).set(bytes, address);
@@ -283,9 +311,10 @@ class Scratch {
   }
 
   /** A copy of numbers. */
-  array(kind, values) {
-    const address = this.take(Math.max(1, values.length) * SIZES[kind]);
-    this.#memory.array(kind, address, values.length).set(values);
+  array(kind, values, { length } = values) {
+    const address = this.take(Math.max(1, length) * SIZES[kind]);
+    checkNumbers(values, kind, length);
+    this.#memory.array(kind, address, length).set(values);
     return address;
   }
 
@@ -313,39 +342,55 @@ class Scratch {
 
   #fill(name, address, values) {
     const { fields } = layouts[name];
+    const lengths = new Map(); // of what a field of the struct counts
     for (const [key, value] of Object.entries(values)) {
       const field = Object.hasOwn(fields, key) ? fields[key] : undefined;
       if (!field) throw new TypeError(`${name} has no "${key}"; it has ${Object.keys(fields).join(", ")}`);
       if (value === undefined || value === null) continue;
-      this.#setField(fields, address, field, value);
+      const length = this.#setField(address, field, value, key);
+      const counter = field[2];
+      if (length === undefined || counter === undefined) continue;
+      if (lengths.has(counter) && lengths.get(counter) !== length) {
+        throw new RangeError(`${name}: "${key}" and another list have different lengths`);
+      }
+      lengths.set(counter, length);
+    }
+    for (const [counter, length] of lengths) {
+      const told = values[counter] ?? length; // fewer than there are may be meant
+      if (told > length) throw new RangeError(`${name}: "${counter}" is ${told}, and there are ${length}`);
+      setNumber(this.#memory.data, fields[counter][1], address + fields[counter][0], told, counter);
     }
   }
 
-  #setField(fields, address, [offset, kind, count], value) {
+  /** Returns the length of a list whose pointer it set. */
+  #setField(address, [offset, kind, count], value, key) {
     const memory = this.#memory;
     const at = address + offset;
     if (kind.startsWith("*")) {
       const [pointer, length] = this.#pointed(kind.slice(1), value, count !== undefined);
       memory.data.setUint32(at, pointer, true);
-      if (count !== undefined) memory.data.setUint32(address + fields[count][0], length, true);
+      return length;
     } else if (kind === "string") {
       const [pointer, length] = this.text(value);
       memory.data.setUint32(at, pointer, true);
       memory.data.setUint32(at + 4, length, true);
     } else if (kind === "handle") {
-      memory.data.setUint32(at, value.handle, true);
+      memory.data.setUint32(at, memory.handleOf(value), true);
     } else if (layouts[kind]) {
       this.#fill(kind, at, value);
     } else if (count !== undefined) {
-      for (let i = 0; i < count; ++i) setNumber(memory.data, kind, at + i * SIZES[kind], value[i]);
+      if (value.length !== count) throw new RangeError(`"${key}" has ${value.length} numbers, not ${count}`);
+      for (let i = 0; i < count; ++i) setNumber(memory.data, kind, at + i * SIZES[kind], value[i], key);
     } else {
-      setNumber(memory.data, kind, at, value);
+      setNumber(memory.data, kind, at, value, key);
     }
+    return undefined;
   }
 
   #pointed(kind, value, isList) {
     if (kind === "text") return this.text(value);
     if (kind === "string") {
+      value = Array.from(value);
       const address = this.take(Math.max(1, value.length) * 8);
       value.forEach((text, i) => {
         const [pointer, length] = this.text(text);
@@ -354,135 +399,12 @@ class Scratch {
       });
       return [address, value.length];
     }
-    if (layouts[kind]) return isList ? [this.structs(kind, value), value.length] : [this.struct(kind, value), 1];
-    return [this.array(kind, value), value.length];
+    if (!layouts[kind]) {
+      const { length } = value;
+      return [this.array(kind, value, { length }), length];
+    }
+    if (!isList) return [this.struct(kind, value), 1];
+    const list = Array.from(value);
+    return [this.structs(kind, list), list.length];
   }
-}
-
-/** An object of the C interface. Its memory is released by dispose(), never by itself. */
-export class Handle {
-  #handle;
-  #destroy;
-  #afterwards;
-  #isDisposed = false;
-  #users = 0;
-  #views = new Map();
-
-  /** `destroy` is the function that releases the object; `afterwards` is called after it. */
-  constructor(memory, handle, destroy, afterwards) {
-    this.memory = memory;
-    this.#handle = handle;
-    this.#destroy = destroy;
-    this.#afterwards = afterwards;
-    // Not a property for those who print an object.
-    Object.defineProperty(this, "memory", { enumerable: false });
-  }
-
-  /** The address of the object, for functions of Mien.exports. */
-  get handle() {
-    if (this.#isDisposed) throw errorOf(Status.HANDLE, `this ${this.constructor.name} was disposed`);
-    return this.#handle;
-  }
-
-  get isDisposed() {
-    return this.#isDisposed;
-  }
-
-  dispose() {
-    if (this.#isDisposed) return;
-    this.#isDisposed = true;
-    this.#views.clear();
-    if (!this.#users) this.#release();
-  }
-
-  #release() {
-    this.memory.exports[this.#destroy](this.#handle);
-    this.#handle = 0;
-    this.#afterwards?.();
-  }
-
-  /** Keeps the object in memory, disposed or not, until drop(): another one reads it. */
-  keep() {
-    ++this.#users;
-    return this;
-  }
-
-  drop() {
-    if (!--this.#users && this.#isDisposed) this.#release();
-  }
-
-  /** Calls a function with this object and further arguments. */
-  call(name, ...rest) {
-    this.memory.check(this.memory.exports[name](this.handle, ...rest), 0, name);
-  }
-
-  /** A struct that a function returns. */
-  struct(name, struct, ...rest) {
-    return this.memory.withScratch((scratch) => {
-      const out = scratch.out(struct);
-      this.call(name, ...rest, out);
-      return this.memory.read(struct, out);
-    });
-  }
-
-  /** A number that a function returns. */
-  number(name, ...rest) {
-    return this.memory.withScratch((scratch) => {
-      const out = scratch.take(4);
-      this.call(name, ...rest, out);
-      return this.memory.data.getUint32(out, true);
-    });
-  }
-
-  /** The typed array that a function returns as a view: the same one until memory grows. */
-  view(kind, name, ...rest) {
-    const key = rest.length ? `${name} ${rest}` : name;
-    const known = this.#views.get(key);
-    const { memory } = this;
-    // Growth of the memory empties arrays.
-    if (known?.length && !this.#isDisposed) return known;
-    const made = memory.withScratch((scratch) => {
-      const out = scratch.take(8);
-      this.call(name, ...rest, out);
-      return memory.array(kind, memory.data.getUint32(out, true), memory.data.getUint32(out + 4, true));
-    });
-    this.#views.set(key, made);
-    return made;
-  }
-
-  /** Bytes of which a function tells the size first: call(buffer, capacity, out_size, error). */
-  bytes(call) {
-    const { memory } = this;
-    return memory.withScratch((scratch) => {
-      const size = scratch.take(4);
-      const error = scratch.out("Error");
-      memory.check(call(0, 0, size, error, scratch), error);
-      const capacity = memory.data.getUint32(size, true);
-      const buffer = scratch.take(Math.max(1, capacity));
-      memory.check(call(buffer, capacity, size, error, scratch), error);
-      return memory.array("u8", buffer, capacity).slice();
-    });
-  }
-}
-
-if (Symbol.dispose) {
-  Handle.prototype[Symbol.dispose] = function () {
-    this.dispose();
-  };
-}
-
-/** The handles of objects, none of which may occur twice. */
-export function handlesOf(scratch, objects) {
-  if (new Set(objects).size !== objects.length) throw errorOf(Status.INVALID_ARGUMENT, "an object occurs twice");
-  return scratch.array("u32", objects.map((object) => object.handle));
-}
-
-/** Calls make(out, error, scratch) and returns the handle that it wrote. */
-export function makeHandle(memory, make) {
-  return memory.withScratch((scratch) => {
-    const out = scratch.take(4);
-    const error = scratch.out("Error");
-    memory.check(make(out, error, scratch), error);
-    return memory.data.getUint32(out, true);
-  });
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Mixes: layers, reactions and guards of one rig; mixers: one character each; gazes.
 import { Kind, layouts, Status, TICKS_PER_SECOND, Transition } from "./api.js";
+import { checkNumber } from "./checks.js";
 import { errorOf } from "./errors.js";
-import { Handle, handlesOf, makeHandle } from "./memory.js";
+import { Handle, handlesOf, makeHandle } from "./handle.js";
 import { Curves, Parts } from "./mix_parts.js";
 
 /** Copies of the arrays in a struct: views of memory that may be released. */
@@ -36,13 +37,13 @@ export class Mix extends Handle {
       variableCount: variables.length,
     };
     return new Mix(memory, makeHandle(memory, (out, error, scratch) =>
-      memory.exports.mien_mix_create(rig.handle, scratch.struct("MixDesc", desc), out, error)), variables);
+      memory.exports.mien_mix_create(memory.handleOf(rig), scratch.struct("MixDesc", desc), out, error)), variables);
   }
 
   /** Opens bytes that write() gave. */
   static open(memory, bytes, rig, { variables = [] } = {}) {
     const mix = new Mix(memory, makeHandle(memory, (out, error, scratch) =>
-      memory.exports.mien_mix_open_memory(scratch.array("u8", bytes), bytes.length, rig ? rig.handle : 0,
+      memory.exports.mien_mix_open_memory(scratch.array("u8", bytes), bytes.length, rig ? memory.handleOf(rig) : 0,
         scratch.struct("MixOpenDesc"), out, error)), variables);
     const { variableCount } = mix.info;
     if (variables.length && variables.length !== variableCount) {
@@ -119,7 +120,7 @@ export class Mixer extends Handle {
 
   constructor(memory, mix, desc) {
     super(memory, makeHandle(memory, (out, error, scratch) =>
-      memory.exports.mien_mixer_create(mix.handle, scratch.struct("MixerDesc", desc), out, error)),
+      memory.exports.mien_mixer_create(memory.handleOf(mix), scratch.struct("MixerDesc", desc), out, error)),
     "mien_mixer_destroy");
     this.#mix = mix;
   }
@@ -151,7 +152,7 @@ export class Mixer extends Handle {
       const error = scratch.out("Error");
       const given = scratch.struct("PlayDesc", { transition: Transition.INERTIAL, transitionTicks, ...desc });
       memory.check(
-        memory.exports.mien_mixer_play(this.handle, layer, clip.handle, binding.handle, given, error), error);
+        memory.exports.mien_mixer_play(this.handle, layer, memory.handleOf(clip), memory.handleOf(binding), given, error), error);
     });
     if (!this.#playing.has(layer)) this.#playing.set(layer, []);
     this.#playing.get(layer).push(clip.keep(), binding.keep());
@@ -205,7 +206,7 @@ export class Mixer extends Handle {
   }
 
   step(ticks, instance = null) {
-    this.call("mien_mixer_step", BigInt(ticks), instance ? instance.handle : 0);
+    this.call("mien_mixer_step", BigInt(ticks), instance ? this.memory.handleOf(instance) : 0);
     this.#stepped();
   }
 
@@ -216,7 +217,7 @@ export class Mixer extends Handle {
     }
     const { memory } = mixers[0];
     memory.withScratch((scratch) => {
-      memory.check(memory.exports.mien_mixer_step_batch(handlesOf(scratch, mixers), instances ? handlesOf(scratch, instances) : 0,
+      memory.check(memory.exports.mien_mixer_step_batch(handlesOf(memory, scratch, mixers), instances ? handlesOf(memory, scratch, instances) : 0,
         mixers.length, BigInt(ticks)), 0, "mien_mixer_step_batch");
     });
     for (const mixer of mixers) mixer.#stepped();
@@ -276,7 +277,7 @@ export class Mixer extends Handle {
 export class Gaze extends Handle {
   static create(memory, deformer, desc) {
     return new Gaze(memory, makeHandle(memory, (out, error, scratch) =>
-      memory.exports.mien_gaze_create(deformer.handle, scratch.struct("GazeDesc", desc), out, error)));
+      memory.exports.mien_gaze_create(memory.handleOf(deformer), scratch.struct("GazeDesc", desc), out, error)));
   }
 
   constructor(memory, handle) {
@@ -290,6 +291,7 @@ export class Gaze extends Handle {
   lookAt(target, instance) {
     const { memory } = this;
     return memory.withScratch((scratch) => {
+      memory.handleOf(instance); // of this module
       const row = instance.rawControls;
       const rest = scratch.out("GazeRest");
       this.call("mien_gaze_look_at", scratch.struct("GazeTarget", target), row.byteOffset, row.length, rest);
@@ -303,7 +305,7 @@ export function findAntagonists(memory, rig) {
   return memory.withScratch((scratch) => {
     const find = (pairs, capacity) => {
       const out = scratch.take(4);
-      memory.check(memory.exports.mien_mix_antagonists(rig.handle, pairs, capacity, out), 0, "mien_mix_antagonists");
+      memory.check(memory.exports.mien_mix_antagonists(memory.handleOf(rig), pairs, capacity, out), 0, "mien_mix_antagonists");
       return memory.data.getUint32(out, true);
     };
     const { size } = layouts.MixAntagonists;
@@ -318,8 +320,8 @@ export function findAntagonists(memory, rig) {
 export function findMirror(memory, deformer, curveCount) {
   return memory.withScratch((scratch) => {
     const error = scratch.out("Error");
-    const out = scratch.take(Math.max(1, curveCount) * 2);
-    memory.check(memory.exports.mien_mix_mirror(deformer.handle, out, curveCount, error), error);
+    const out = scratch.take(Math.max(1, checkNumber(curveCount, "u16", "curveCount")) * 2);
+    memory.check(memory.exports.mien_mix_mirror(memory.handleOf(deformer), out, curveCount, error), error);
     return memory.array("u16", out, curveCount).slice();
   });
 }
@@ -328,8 +330,8 @@ export function findMirror(memory, deformer, curveCount) {
 export function findMask(memory, rig, groups, { otherwise = 0, curveCount = rig.count(Kind.RAW_CONTROL) } = {}) {
   return memory.withScratch((scratch) => {
     const error = scratch.out("Error");
-    const out = scratch.take(Math.max(1, curveCount) * 4);
-    memory.check(memory.exports.mien_mix_mask(rig.handle, scratch.array("u32", groups), groups.length, otherwise, out,
+    const out = scratch.take(Math.max(1, checkNumber(curveCount, "u16", "curveCount")) * 4);
+    memory.check(memory.exports.mien_mix_mask(memory.handleOf(rig), scratch.array("u32", groups), groups.length, otherwise, out,
       curveCount, error), error);
     return memory.array("f32", out, curveCount).slice();
   });

@@ -106,6 +106,10 @@ export class Parts {
   layer({ poses = [], curves, mask, weight = 1, ...rest }) {
     const firstPose = this.poses.length;
     for (const pose of poses) this.#pose(pose);
+    // The library takes as many amounts as curves, and says so of other sources.
+    if (rest.amounts && rest.amounts.length < (curves?.length ?? 0)) {
+      throw new RangeError(`${rest.amounts.length} amounts for ${curves.length} curves`);
+    }
     return {
       ...rest, weight, firstPose, poseCount: poses.length, mask: this.curves.mask(mask),
       curves: curves?.map((curve) => this.curves.index(curve)),

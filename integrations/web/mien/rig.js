@@ -3,7 +3,7 @@
 import { Kind, Stage, Status } from "./api.js";
 import { Deformer } from "./deformer.js";
 import { errorOf } from "./errors.js";
-import { Handle, makeHandle } from "./memory.js";
+import { Handle, makeHandle } from "./handle.js";
 import { findAntagonists, findMask, Mix } from "./mix.js";
 
 const MAGIC = "MIENBAKE";
@@ -24,7 +24,7 @@ export class Rig extends Handle {
 
   static create(memory, dna, desc = {}) {
     return new Rig(memory, makeHandle(memory, (out, error, scratch) =>
-      memory.exports.mien_rig_create(dna.handle, scratch.struct("RigDesc", desc), out, error)));
+      memory.exports.mien_rig_create(memory.handleOf(dna), scratch.struct("RigDesc", desc), out, error)));
   }
 
   /** The rig of a baked file, and its deformer if it has one. */
@@ -36,7 +36,7 @@ export class Rig extends Handle {
     let rig;
     try {
       rig = new Rig(memory, makeHandle(memory, (out, error, scratch) =>
-        memory.exports.mien_rig_from_baked(baked.handle, scratch.struct("BakedRigDesc", { isa, reuse }), out, error)));
+        memory.exports.mien_rig_from_baked(memory.handleOf(baked), scratch.struct("BakedRigDesc", { isa, reuse }), out, error)));
       if (deformer && baked.struct("mien_baked_info", "BakedInfo").deformerBytes) {
         rig.deformer = Deformer.fromBaked(memory, baked, rig, { isa, normals });
       }
@@ -186,7 +186,7 @@ export class Rig extends Handle {
   /** The bytes of a baked file with this rig and a deformer. */
   bake(deformer = this.deformer) {
     return this.bytes((buffer, capacity, size, error) =>
-      this.memory.exports.mien_bake_memory(this.handle, deformer ? deformer.handle : 0, buffer, capacity, size, error));
+      this.memory.exports.mien_bake_memory(this.handle, deformer ? this.memory.handleOf(deformer) : 0, buffer, capacity, size, error));
   }
 }
 
@@ -218,7 +218,7 @@ export class Instance extends Handle {
 
   constructor(memory, rig) {
     super(memory, makeHandle(memory, (out, error, scratch) =>
-      memory.exports.mien_instance_create(rig.handle, scratch.struct("InstanceDesc"), out, error)),
+      memory.exports.mien_instance_create(memory.handleOf(rig), scratch.struct("InstanceDesc"), out, error)),
     "mien_instance_destroy");
     this.#rig = rig;
     /** Raw controls by name. */
@@ -281,7 +281,7 @@ export class Instance extends Handle {
 
   #run(name, ...rest) {
     const { memory } = this;
-    memory.check(memory.exports[name](this.#rig.handle, this.handle, ...rest), 0, name);
+    memory.check(memory.exports[name](memory.handleOf(this.#rig), this.handle, ...rest), 0, name);
   }
 
   mapGuiToRaw() {
@@ -297,8 +297,8 @@ export class Instance extends Handle {
     const { memory } = this;
     const { exports } = memory;
     const status = stages === Stage.ALL
-      ? exports.mien_rig_evaluate(this.#rig.handle, this.handle, lod)
-      : exports.mien_rig_evaluate_stages(this.#rig.handle, this.handle, lod, stages);
+      ? exports.mien_rig_evaluate(memory.handleOf(this.#rig), this.handle, lod)
+      : exports.mien_rig_evaluate_stages(memory.handleOf(this.#rig), this.handle, lod, stages);
     if (status !== Status.OK) memory.check(status, 0, "mien_rig_evaluate");
   }
 
@@ -320,7 +320,7 @@ export class Batch extends Handle {
 
   constructor(memory, rig, desc) {
     super(memory, makeHandle(memory, (out, error, scratch) =>
-      memory.exports.mien_batch_create(rig.handle, scratch.struct("BatchDesc", { tasks: memory.threads, ...desc }), out, error)),
+      memory.exports.mien_batch_create(memory.handleOf(rig), scratch.struct("BatchDesc", { tasks: memory.threads, ...desc }), out, error)),
     "mien_batch_destroy");
     this.#rig = rig;
   }
@@ -329,9 +329,9 @@ export class Batch extends Handle {
   evaluate(instances, lods = 0, stages = Stage.ALL) {
     const { memory } = this;
     memory.withScratch((scratch) => {
-      const handles = scratch.array("u32", instances.map((instance) => instance.handle));
+      const handles = scratch.array("u32", Array.from(instances, (instance) => memory.handleOf(instance)));
       const each = scratch.array("u32", instances.map((_, i) => (typeof lods === "number" ? lods : lods[i])));
-      memory.check(memory.exports.mien_rig_evaluate_batch(this.#rig.handle, this.handle, handles, each,
+      memory.check(memory.exports.mien_rig_evaluate_batch(memory.handleOf(this.#rig), this.handle, handles, each,
         instances.length, stages, memory.parallel), 0, "mien_rig_evaluate_batch");
     });
   }

@@ -2,7 +2,7 @@
 // Solvers: what moves joints after the rig has posed them.
 import { NO_JOINT, Status } from "./api.js";
 import { errorOf } from "./errors.js";
-import { Handle, handlesOf, makeHandle } from "./memory.js";
+import { Handle, handlesOf, makeHandle } from "./handle.js";
 
 const KINDS = ["aim", "space", "spring", "twist", "copy", "custom"];
 
@@ -48,7 +48,7 @@ export class SolverStack extends Handle {
     try {
       const given = solvers.map((solver) => describe(memory, solver, curveCount, functions));
       const handle = makeHandle(memory, (out, error, scratch) => memory.exports.mien_solver_stack_create(
-        deformer.handle, scratch.struct("SolverStackDesc", { ...desc, curveCount, solvers: given }), out, error));
+        memory.handleOf(deformer), scratch.struct("SolverStackDesc", { ...desc, curveCount, solvers: given }), out, error));
       return new SolverStack(memory, handle, functions);
     } catch (error) {
       for (const user of functions) memory.removeFunction(user);
@@ -75,15 +75,18 @@ export class SolverStack extends Handle {
 export class SolverState extends Handle {
   constructor(memory, stack) {
     super(memory, makeHandle(memory, (out, error, scratch) =>
-      memory.exports.mien_solver_state_create(stack.handle, scratch.struct("SolverStateDesc"), out, error)),
+      memory.exports.mien_solver_state_create(memory.handleOf(stack), scratch.struct("SolverStateDesc"), out, error)),
     "mien_solver_state_destroy", () => stack.drop());
     stack.keep();
   }
 
   step(pose, ticks, input = {}) {
     const { memory } = this;
-    memory.withFunctions((scratch) =>
-      this.call("mien_solver_state_step", pose.handle, scratch.struct("SolverInput", input), BigInt(ticks)));
+    memory.withScratch((scratch) => {
+      const given = [this.handle, memory.handleOf(pose), scratch.struct("SolverInput", input), BigInt(ticks)];
+      memory.withFunctions([this, pose], () =>
+        memory.check(memory.exports.mien_solver_state_step(...given), 0, "mien_solver_state_step"));
+    });
   }
 
   static stepAll(states, poses, ticks, inputs = null) {
@@ -92,10 +95,11 @@ export class SolverState extends Handle {
       throw errorOf(Status.MISMATCH, `${states.length} states need as many poses and inputs`);
     }
     const { memory } = states[0];
-    memory.withFunctions((scratch) => {
-      memory.check(memory.exports.mien_solver_state_step_batch(handlesOf(scratch, states), handlesOf(scratch, poses),
-        inputs ? scratch.structs("SolverInput", inputs) : 0, states.length, BigInt(ticks)), 0,
-      "mien_solver_state_step_batch");
+    memory.withScratch((scratch) => {
+      const given = [handlesOf(memory, scratch, states), handlesOf(memory, scratch, poses),
+        inputs ? scratch.structs("SolverInput", inputs) : 0, states.length, BigInt(ticks)];
+      memory.withFunctions([...states, ...poses], () =>
+        memory.check(memory.exports.mien_solver_state_step_batch(...given), 0, "mien_solver_state_step_batch"));
     });
   }
 

@@ -269,7 +269,7 @@ export class FaceObject extends Group {
       }
       const { position, normal } = mesh.geometry.attributes;
       const wanted = this.normals === Normals.NONE ? null : normal.array;
-      this.deformed.writeVertices(index, vertexCount, position.array, wanted, this.normals);
+      this.deformed.writeVertices(index, position.array, wanted, this.normals);
       position.needsUpdate = true;
       normal.needsUpdate = true;
     }

@@ -41,7 +41,7 @@ test("batches and meshes have the bits of one thread", () => {
     const [positions, normals] = [new Float32Array(3 * vertexCount), new Float32Array(3 * vertexCount)];
     const rows = faces.map((face) => {
       pose.update(face);
-      pose.writeVertices(skin, vertexCount, positions, normals);
+      pose.writeVertices(skin, positions, normals);
       return [face.joints.slice(), positions.slice(), normals.slice()];
     });
     for (const object of [...faces, batch, pose]) object.dispose();

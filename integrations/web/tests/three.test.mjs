@@ -44,7 +44,7 @@ function deformed(rig, face, mesh) {
   pose.update(face);
   const { vertexCount } = rig.deformer.mesh(mesh);
   const positions = new Float32Array(3 * vertexCount);
-  pose.writeVertices(mesh, vertexCount, positions);
+  pose.writeVertices(mesh, positions);
   pose.dispose();
   return positions;
 }

@@ -52,7 +52,7 @@ function sample(model, meshes, { names, set }) {
     pose.update(probe);
     return meshes.map(({ userData: { index, vertexCount } }, i) => {
       const positions = new Float32Array(3 * vertexCount);
-      pose.writeVertices(index, vertexCount, positions, normals?.[i], normals ? undefined : Normals.NONE);
+      pose.writeVertices(index, positions, normals?.[i], normals ? undefined : Normals.NONE);
       return positions;
     });
   };
