@@ -326,6 +326,19 @@ def write_all():
         file.write_text(text, encoding="utf-8")
 
 
+def dump(value, indent=""):
+    """JSON with a line for each row."""
+    line = json.dumps(value, separators=(",", ":"))
+    inner = value.values() if isinstance(value, dict) else value if isinstance(value, list) else []
+    if not any(isinstance(item, (dict, list)) for item in inner):
+        return line
+    deeper = indent + " "
+    if isinstance(value, list):
+        return "[\n" + ",\n".join(deeper + dump(item, deeper) for item in value) + "\n" + indent + "]"
+    return "{\n" + ",\n".join(f"{deeper}{json.dumps(key)}: {dump(item, deeper)}"
+                              for key, item in value.items()) + f"\n{indent}}}"
+
+
 def record(files):
     runs, others, measured = [], [], {}
     for file in files:
@@ -340,8 +353,8 @@ def record(files):
         sys.exit(__doc__)
     name = re.sub(r"[^a-z0-9]+", "-", runs[0]["cpu"].lower()).strip("-") or "unknown"
     RESULTS.mkdir(exist_ok=True)
-    (RESULTS / f"{name}.json").write_text(json.dumps({"runs": runs, "others": others, "parts": measured},
-                                                     indent=1) + "\n", encoding="utf-8")
+    text = dump({"runs": runs, "others": others, "parts": measured}) + "\n"
+    (RESULTS / f"{name}.json").write_text(text, encoding="utf-8")
     write_all()
     print(f"wrote bench/results/{name}.json, its chart, docs/speed.md and README.md")
 

@@ -46,16 +46,14 @@ def read(change=lambda name, text: text):
     }
 
 
-def dump(data, indent=""):
-    """JSON in which whatever fits on a line has one, so that a change shows as what it is."""
-    line = json.dumps(data, ensure_ascii=False)
-    if not isinstance(data, (dict, list)) or not data or len(indent) + len(line) <= 118:
-        return line
-    inner = indent + " "
-    if isinstance(data, list):
-        return "[\n" + ",\n".join(inner + dump(item, inner) for item in data) + f"\n{indent}]"
-    return "{\n" + ",\n".join(f"{inner}{json.dumps(key)}: {dump(item, inner)}"
-                              for key, item in data.items()) + f"\n{indent}}}"
+def dump(data):
+    """JSON with a line for each function, struct and other entry, so that a change shows as what it is."""
+    def entry(key, value):
+        if not isinstance(value, list):
+            return f"{json.dumps(key)}: {json.dumps(value, ensure_ascii=False)}"
+        lines = ",\n".join("  " + json.dumps(item, ensure_ascii=False, separators=(",", ":")) for item in value)
+        return f"{json.dumps(key)}: [\n{lines}\n ]"
+    return "{\n" + ",\n".join(" " + entry(key, value) for key, value in data.items()) + "\n}\n"
 
 
 def main():
@@ -65,7 +63,7 @@ def main():
     args = parser.parse_args()
 
     try:
-        text = dump(read()) + "\n"
+        text = dump(read())
     except HeaderError as error:
         sys.exit(str(error))
     if args.print:

@@ -195,24 +195,32 @@ def layout(api):
 use std::mem::{align_of, size_of, MaybeUninit};
 use std::ptr::addr_of;
 
-macro_rules! offset {
-    ($type:ty, $field:ident) => {{
-        let place = MaybeUninit::<$type>::uninit();
-        // SAFETY: the address of a field is taken, nothing is read.
-        unsafe { addr_of!((*place.as_ptr()).$field) as usize - place.as_ptr() as usize }
-    }};
+/// Of each struct its name, size and alignment, then its fields and where they begin.
+macro_rules! layouts {
+    ($($type:ident $size:literal $alignment:literal: $($field:ident $offset:literal)*;)*) => {$({
+        use mien_sys::$type as S;
+        let name = stringify!($type);
+        assert_eq!((size_of::<S>(), align_of::<S>()), ($size, $alignment), "{name}");
+        let place = MaybeUninit::<S>::uninit();
+        let start = place.as_ptr();
+        $(
+            // SAFETY: the address of a field is taken, nothing is read.
+            let at = unsafe { addr_of!((*start).$field) as usize - start as usize };
+            assert_eq!(at, $offset, "{name}.{}", stringify!($field));
+        )*
+        let _ = start;
+    })*};
 }
+
+#[test]
+fn structs_are_laid_out_as_in_c() {
+    layouts! {
 """
     for struct in api["structs"]:
-        name = struct["name"]
-        test = re.sub(r"(?<!^)(?=[A-Z])", "_", name).lower()
-        out += f"\n#[test]\nfn {test}() {{\n    use mien_sys::{name} as S;\n"
-        out += f"    assert_eq!(size_of::<S>(), {struct['size']});\n"
-        out += f"    assert_eq!(align_of::<S>(), {struct['alignment']});\n"
-        for field in struct["fields"]:
-            out += f"    assert_eq!(offset!(S, {word(field['name'])}), {field['offset']});\n"
-        out += "}\n"
-    return out
+        fields = "".join(f" {word(field['name'])} {field['offset']}" for field in struct["fields"])
+        text = f"{struct['name']} {struct['size']} {struct['alignment']}:{fields};"
+        out += textwrap.fill(text, 100, initial_indent=" " * 8, subsequent_indent=" " * 12) + "\n"
+    return out + "    }\n}\n"
 
 
 # ---- mien ----------------------------------------------------------------------------------------------

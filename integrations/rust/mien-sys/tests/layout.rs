@@ -6,1166 +6,161 @@
 use std::mem::{align_of, size_of, MaybeUninit};
 use std::ptr::addr_of;
 
-macro_rules! offset {
-    ($type:ty, $field:ident) => {{
-        let place = MaybeUninit::<$type>::uninit();
-        // SAFETY: the address of a field is taken, nothing is read.
-        unsafe { addr_of!((*place.as_ptr()).$field) as usize - place.as_ptr() as usize }
-    }};
-}
-
-#[test]
-fn mien_error() {
-    use mien_sys::MienError as S;
-    assert_eq!(size_of::<S>(), 256);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, byte_offset), 8);
-    assert_eq!(offset!(S, status), 16);
-    assert_eq!(offset!(S, message), 20);
-}
-
-#[test]
-fn mien_allocator() {
-    use mien_sys::MienAllocator as S;
-    assert_eq!(size_of::<S>(), 24);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, user), 0);
-    assert_eq!(offset!(S, allocate), 8);
-    assert_eq!(offset!(S, release), 16);
-}
-
-#[test]
-fn mien_parallel_for() {
-    use mien_sys::MienParallelFor as S;
-    assert_eq!(size_of::<S>(), 16);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, user), 0);
-    assert_eq!(offset!(S, run), 8);
-}
-
-#[test]
-fn mien_string_view() {
-    use mien_sys::MienStringView as S;
-    assert_eq!(size_of::<S>(), 16);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, data), 0);
-    assert_eq!(offset!(S, count), 8);
-}
-
-#[test]
-fn mien_float_view() {
-    use mien_sys::MienFloatView as S;
-    assert_eq!(size_of::<S>(), 16);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, data), 0);
-    assert_eq!(offset!(S, count), 8);
-}
-
-#[test]
-fn mien_mutable_float_view() {
-    use mien_sys::MienMutableFloatView as S;
-    assert_eq!(size_of::<S>(), 16);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, data), 0);
-    assert_eq!(offset!(S, count), 8);
-}
-
-#[test]
-fn mien_index16_view() {
-    use mien_sys::MienIndex16View as S;
-    assert_eq!(size_of::<S>(), 16);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, data), 0);
-    assert_eq!(offset!(S, count), 8);
-}
-
-#[test]
-fn mien_index32_view() {
-    use mien_sys::MienIndex32View as S;
-    assert_eq!(size_of::<S>(), 16);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, data), 0);
-    assert_eq!(offset!(S, count), 8);
-}
-
-#[test]
-fn mien_stream() {
-    use mien_sys::MienStream as S;
-    assert_eq!(size_of::<S>(), 24);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, user), 0);
-    assert_eq!(offset!(S, size), 8);
-    assert_eq!(offset!(S, read), 16);
-}
-
-#[test]
-fn mien_coordinate_system() {
-    use mien_sys::MienCoordinateSystem as S;
-    assert_eq!(size_of::<S>(), 56);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, axes), 8);
-    assert_eq!(offset!(S, translation_unit), 20);
-    assert_eq!(offset!(S, rotation_unit), 24);
-    assert_eq!(offset!(S, rotation_rule), 28);
-    assert_eq!(offset!(S, rotation_sequence), 32);
-    assert_eq!(offset!(S, rotation_signs), 36);
-    assert_eq!(offset!(S, face_winding), 48);
-    assert_eq!(offset!(S, reserved), 52);
-}
-
-#[test]
-fn mien_dna_desc() {
-    use mien_sys::MienDnaDesc as S;
-    assert_eq!(size_of::<S>(), 48);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, layers), 8);
-    assert_eq!(offset!(S, skip_blend_shape_targets), 12);
-    assert_eq!(offset!(S, unknown_layers), 16);
-    assert_eq!(offset!(S, file_access), 20);
-    assert_eq!(offset!(S, lods), 24);
-    assert_eq!(offset!(S, system), 32);
-    assert_eq!(offset!(S, allocator), 40);
-}
-
-#[test]
-fn mien_dna_info() {
-    use mien_sys::MienDnaInfo as S;
-    assert_eq!(size_of::<S>(), 160);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, generation), 8);
-    assert_eq!(offset!(S, version), 12);
-    assert_eq!(offset!(S, layers), 16);
-    assert_eq!(offset!(S, has_blend_shape_targets), 20);
-    assert_eq!(offset!(S, file_bytes), 24);
-    assert_eq!(offset!(S, memory_bytes), 32);
-    assert_eq!(offset!(S, is_mapped), 40);
-    assert_eq!(offset!(S, layer_count), 44);
-    assert_eq!(offset!(S, translation_unit), 48);
-    assert_eq!(offset!(S, rotation_unit), 52);
-    assert_eq!(offset!(S, axes), 56);
-    assert_eq!(offset!(S, rotation_sequence), 68);
-    assert_eq!(offset!(S, rotation_signs), 72);
-    assert_eq!(offset!(S, face_winding), 84);
-    assert_eq!(offset!(S, lod_count), 88);
-    assert_eq!(offset!(S, max_lod), 92);
-    assert_eq!(offset!(S, gui_control_count), 96);
-    assert_eq!(offset!(S, raw_control_count), 100);
-    assert_eq!(offset!(S, psd_control_count), 104);
-    assert_eq!(offset!(S, ml_control_count), 108);
-    assert_eq!(offset!(S, rbf_control_count), 112);
-    assert_eq!(offset!(S, joint_count), 116);
-    assert_eq!(offset!(S, joint_group_count), 120);
-    assert_eq!(offset!(S, blend_shape_channel_count), 124);
-    assert_eq!(offset!(S, animated_map_count), 128);
-    assert_eq!(offset!(S, mesh_count), 132);
-    assert_eq!(offset!(S, neural_network_count), 136);
-    assert_eq!(offset!(S, rbf_solver_count), 140);
-    assert_eq!(offset!(S, rbf_pose_count), 144);
-    assert_eq!(offset!(S, twist_count), 148);
-    assert_eq!(offset!(S, swing_count), 152);
-    assert_eq!(offset!(S, metadata_count), 156);
-}
-
-#[test]
-fn mien_dna_layer() {
-    use mien_sys::MienDnaLayer as S;
-    assert_eq!(size_of::<S>(), 48);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, layer), 8);
-    assert_eq!(offset!(S, version_major), 12);
-    assert_eq!(offset!(S, version_minor), 16);
-    assert_eq!(offset!(S, is_loaded), 20);
-    assert_eq!(offset!(S, byte_offset), 24);
-    assert_eq!(offset!(S, byte_count), 32);
-    assert_eq!(offset!(S, code), 40);
-}
-
-#[test]
-fn mien_dna_field() {
-    use mien_sys::MienDnaField as S;
-    assert_eq!(size_of::<S>(), 32);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, r#type), 8);
-    assert_eq!(offset!(S, is_array), 12);
-    assert_eq!(offset!(S, count), 16);
-    assert_eq!(offset!(S, byte_offset), 24);
-}
-
-#[test]
-fn mien_write_desc() {
-    use mien_sys::MienWriteDesc as S;
-    assert_eq!(size_of::<S>(), 16);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, version), 8);
-    assert_eq!(offset!(S, unknown_layers), 12);
-}
-
-#[test]
-fn mien_finding() {
-    use mien_sys::MienFinding as S;
-    assert_eq!(size_of::<S>(), 56);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, severity), 8);
-    assert_eq!(offset!(S, status), 12);
-    assert_eq!(offset!(S, byte_offset), 16);
-    assert_eq!(offset!(S, field), 24);
-    assert_eq!(offset!(S, message), 40);
-}
-
-#[test]
-fn mien_validate_desc() {
-    use mien_sys::MienValidateDesc as S;
-    assert_eq!(size_of::<S>(), 16);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, allocator), 8);
-}
-
-#[test]
-fn mien_rig_desc() {
-    use mien_sys::MienRigDesc as S;
-    assert_eq!(size_of::<S>(), 40);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, isa), 8);
-    assert_eq!(offset!(S, rotation_output), 12);
-    assert_eq!(offset!(S, ml_masks), 16);
-    assert_eq!(offset!(S, storage), 20);
-    assert_eq!(offset!(S, reuse), 24);
-    assert_eq!(offset!(S, arithmetic), 28);
-    assert_eq!(offset!(S, allocator), 32);
-}
-
-#[test]
-fn mien_rig_info() {
-    use mien_sys::MienRigInfo as S;
-    assert_eq!(size_of::<S>(), 88);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, isa), 8);
-    assert_eq!(offset!(S, lod_count), 12);
-    assert_eq!(offset!(S, translation_unit), 16);
-    assert_eq!(offset!(S, rotation_unit), 20);
-    assert_eq!(offset!(S, axes), 24);
-    assert_eq!(offset!(S, rotation_sequence), 36);
-    assert_eq!(offset!(S, rotation_signs), 40);
-    assert_eq!(offset!(S, control_count), 52);
-    assert_eq!(offset!(S, joint_value_count), 56);
-    assert_eq!(offset!(S, rotation_output), 60);
-    assert_eq!(offset!(S, storage), 64);
-    assert_eq!(offset!(S, arithmetic), 68);
-    assert_eq!(offset!(S, rig_bytes), 72);
-    assert_eq!(offset!(S, instance_bytes), 80);
-}
-
-#[test]
-fn mien_rig_statistics() {
-    use mien_sys::MienRigStatistics as S;
-    assert_eq!(size_of::<S>(), 56);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, lod), 8);
-    assert_eq!(offset!(S, psd_count), 12);
-    assert_eq!(offset!(S, joint_count), 16);
-    assert_eq!(offset!(S, joint_row_count), 20);
-    assert_eq!(offset!(S, blend_shape_count), 24);
-    assert_eq!(offset!(S, animated_map_row_count), 28);
-    assert_eq!(offset!(S, rbf_solver_count), 32);
-    assert_eq!(offset!(S, quaternion_joint_count), 36);
-    assert_eq!(offset!(S, joint_entry_count), 40);
-    assert_eq!(offset!(S, joint_byte_count), 48);
-}
-
-#[test]
-fn mien_instance_desc() {
-    use mien_sys::MienInstanceDesc as S;
-    assert_eq!(size_of::<S>(), 16);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, allocator), 8);
-}
-
-#[test]
-fn mien_instance_statistics() {
-    use mien_sys::MienInstanceStatistics as S;
-    assert_eq!(size_of::<S>(), 40);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, lod), 8);
-    assert_eq!(offset!(S, control_count), 12);
-    assert_eq!(offset!(S, active_control_count), 16);
-    assert_eq!(offset!(S, joint_column_count), 20);
-    assert_eq!(offset!(S, joint_entry_count), 24);
-    assert_eq!(offset!(S, joint_byte_count), 32);
-}
-
-#[test]
-fn mien_batch_desc() {
-    use mien_sys::MienBatchDesc as S;
-    assert_eq!(size_of::<S>(), 24);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, capacity), 8);
-    assert_eq!(offset!(S, tasks), 12);
-    assert_eq!(offset!(S, allocator), 16);
-}
-
-#[test]
-fn mien_deformer_desc() {
-    use mien_sys::MienDeformerDesc as S;
-    assert_eq!(size_of::<S>(), 40);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, isa), 8);
-    assert_eq!(offset!(S, compose), 12);
-    assert_eq!(offset!(S, weights), 16);
-    assert_eq!(offset!(S, normals), 20);
-    assert_eq!(offset!(S, with_tangents), 24);
-    assert_eq!(offset!(S, reserved), 28);
-    assert_eq!(offset!(S, allocator), 32);
-}
-
-#[test]
-fn mien_deformer_info() {
-    use mien_sys::MienDeformerInfo as S;
-    assert_eq!(size_of::<S>(), 56);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, isa), 8);
-    assert_eq!(offset!(S, compose), 12);
-    assert_eq!(offset!(S, weights), 16);
-    assert_eq!(offset!(S, normals), 20);
-    assert_eq!(offset!(S, lod_count), 24);
-    assert_eq!(offset!(S, joint_count), 28);
-    assert_eq!(offset!(S, channel_count), 32);
-    assert_eq!(offset!(S, mesh_count), 36);
-    assert_eq!(offset!(S, deformer_bytes), 40);
-    assert_eq!(offset!(S, instance_bytes), 48);
-}
-
-#[test]
-fn mien_mesh() {
-    use mien_sys::MienMesh as S;
-    assert_eq!(size_of::<S>(), 152);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, position_count), 8);
-    assert_eq!(offset!(S, vertex_count), 12);
-    assert_eq!(offset!(S, triangle_count), 16);
-    assert_eq!(offset!(S, max_influences), 20);
-    assert_eq!(offset!(S, target_count), 24);
-    assert_eq!(offset!(S, delta_count), 28);
-    assert_eq!(offset!(S, lods), 32);
-    assert_eq!(offset!(S, positions), 40);
-    assert_eq!(offset!(S, normals), 56);
-    assert_eq!(offset!(S, tangents), 72);
-    assert_eq!(offset!(S, texture_coordinates), 88);
-    assert_eq!(offset!(S, vertex_position_indices), 104);
-    assert_eq!(offset!(S, triangles), 120);
-    assert_eq!(offset!(S, target_channels), 136);
-}
-
-#[test]
-fn mien_deformer_instance_desc() {
-    use mien_sys::MienDeformerInstanceDesc as S;
-    assert_eq!(size_of::<S>(), 24);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, lods), 8);
-    assert_eq!(offset!(S, allocator), 16);
-}
-
-#[test]
-fn mien_vertex_stream() {
-    use mien_sys::MienVertexStream as S;
-    assert_eq!(size_of::<S>(), 16);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, data), 0);
-    assert_eq!(offset!(S, stride), 8);
-    assert_eq!(offset!(S, format), 12);
-}
-
-#[test]
-fn mien_vertex_output() {
-    use mien_sys::MienVertexOutput as S;
-    assert_eq!(size_of::<S>(), 64);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, vertex_capacity), 8);
-    assert_eq!(offset!(S, positions), 16);
-    assert_eq!(offset!(S, normals), 32);
-    assert_eq!(offset!(S, tangents), 48);
-}
-
-#[test]
-fn mien_baked_desc() {
-    use mien_sys::MienBakedDesc as S;
-    assert_eq!(size_of::<S>(), 24);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, file_access), 8);
-    assert_eq!(offset!(S, check), 12);
-    assert_eq!(offset!(S, allocator), 16);
-}
-
-#[test]
-fn mien_baked_info() {
-    use mien_sys::MienBakedInfo as S;
-    assert_eq!(size_of::<S>(), 48);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, file_bytes), 8);
-    assert_eq!(offset!(S, memory_bytes), 16);
-    assert_eq!(offset!(S, rig_bytes), 24);
-    assert_eq!(offset!(S, deformer_bytes), 32);
-    assert_eq!(offset!(S, part_count), 40);
-    assert_eq!(offset!(S, is_mapped), 44);
-}
-
-#[test]
-fn mien_baked_rig_desc() {
-    use mien_sys::MienBakedRigDesc as S;
-    assert_eq!(size_of::<S>(), 24);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, isa), 8);
-    assert_eq!(offset!(S, reuse), 12);
-    assert_eq!(offset!(S, allocator), 16);
-}
-
-#[test]
-fn mien_baked_deformer_desc() {
-    use mien_sys::MienBakedDeformerDesc as S;
-    assert_eq!(size_of::<S>(), 24);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, isa), 8);
-    assert_eq!(offset!(S, normals), 12);
-    assert_eq!(offset!(S, allocator), 16);
-}
-
-#[test]
-fn mien_clip_event() {
-    use mien_sys::MienClipEvent as S;
-    assert_eq!(size_of::<S>(), 32);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, tick), 0);
-    assert_eq!(offset!(S, name), 8);
-    assert_eq!(offset!(S, value), 24);
-    assert_eq!(offset!(S, reserved), 28);
-}
-
-#[test]
-fn mien_clip_desc() {
-    use mien_sys::MienClipDesc as S;
-    assert_eq!(size_of::<S>(), 88);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, rate_numerator), 8);
-    assert_eq!(offset!(S, rate_denominator), 12);
-    assert_eq!(offset!(S, frame_count), 16);
-    assert_eq!(offset!(S, channel_count), 20);
-    assert_eq!(offset!(S, names), 24);
-    assert_eq!(offset!(S, values), 32);
-    assert_eq!(offset!(S, frame_stride), 40);
-    assert_eq!(offset!(S, snaps), 48);
-    assert_eq!(offset!(S, snap), 56);
-    assert_eq!(offset!(S, looping), 60);
-    assert_eq!(offset!(S, is_delta), 64);
-    assert_eq!(offset!(S, event_count), 68);
-    assert_eq!(offset!(S, events), 72);
-    assert_eq!(offset!(S, allocator), 80);
-}
-
-#[test]
-fn mien_clip_open_desc() {
-    use mien_sys::MienClipOpenDesc as S;
-    assert_eq!(size_of::<S>(), 24);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, file_access), 8);
-    assert_eq!(offset!(S, reserved), 12);
-    assert_eq!(offset!(S, allocator), 16);
-}
-
-#[test]
-fn mien_clip_info() {
-    use mien_sys::MienClipInfo as S;
-    assert_eq!(size_of::<S>(), 88);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, rate_numerator), 8);
-    assert_eq!(offset!(S, rate_denominator), 12);
-    assert_eq!(offset!(S, frame_count), 16);
-    assert_eq!(offset!(S, channel_count), 20);
-    assert_eq!(offset!(S, changing_channel_count), 24);
-    assert_eq!(offset!(S, event_count), 28);
-    assert_eq!(offset!(S, looping), 32);
-    assert_eq!(offset!(S, is_delta), 36);
-    assert_eq!(offset!(S, snap), 40);
-    assert_eq!(offset!(S, is_mapped), 44);
-    assert_eq!(offset!(S, ticks_per_frame), 48);
-    assert_eq!(offset!(S, length), 56);
-    assert_eq!(offset!(S, file_bytes), 64);
-    assert_eq!(offset!(S, memory_bytes), 72);
-    assert_eq!(offset!(S, player_bytes), 80);
-}
-
-#[test]
-fn mien_clip_channel() {
-    use mien_sys::MienClipChannel as S;
-    assert_eq!(size_of::<S>(), 64);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, name), 8);
-    assert_eq!(offset!(S, rest), 24);
-    assert_eq!(offset!(S, is_changing), 28);
-    assert_eq!(offset!(S, zero_blocks), 32);
-    assert_eq!(offset!(S, constant_blocks), 36);
-    assert_eq!(offset!(S, grid_blocks), 40);
-    assert_eq!(offset!(S, float_blocks), 44);
-    assert_eq!(offset!(S, bits), 48);
-    assert_eq!(offset!(S, max_error), 56);
-    assert_eq!(offset!(S, reserved), 60);
-}
-
-#[test]
-fn mien_clip_player_desc() {
-    use mien_sys::MienClipPlayerDesc as S;
-    assert_eq!(size_of::<S>(), 48);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, looping), 8);
-    assert_eq!(offset!(S, interpolation), 12);
-    assert_eq!(offset!(S, speed_numerator), 16);
-    assert_eq!(offset!(S, speed_denominator), 20);
-    assert_eq!(offset!(S, start_tick), 24);
-    assert_eq!(offset!(S, reverse), 32);
-    assert_eq!(offset!(S, reserved), 36);
-    assert_eq!(offset!(S, allocator), 40);
-}
-
-#[test]
-fn mien_clip_player_info() {
-    use mien_sys::MienClipPlayerInfo as S;
-    assert_eq!(size_of::<S>(), 32);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, tick), 8);
-    assert_eq!(offset!(S, loops), 16);
-    assert_eq!(offset!(S, looping), 24);
-    assert_eq!(offset!(S, is_damaged), 28);
-}
-
-#[test]
-fn mien_matrix_entry() {
-    use mien_sys::MienMatrixEntry as S;
-    assert_eq!(size_of::<S>(), 40);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, channel), 0);
-    assert_eq!(offset!(S, control), 16);
-    assert_eq!(offset!(S, weight), 32);
-    assert_eq!(offset!(S, reserved), 36);
-}
-
-#[test]
-fn mien_clip_binding_desc() {
-    use mien_sys::MienClipBindingDesc as S;
-    assert_eq!(size_of::<S>(), 32);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, matrix), 8);
-    assert_eq!(offset!(S, matrix_count), 16);
-    assert_eq!(offset!(S, allocator), 24);
-}
-
-#[test]
-fn mien_clip_binding_info() {
-    use mien_sys::MienClipBindingInfo as S;
-    assert_eq!(size_of::<S>(), 72);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, channel_count), 8);
-    assert_eq!(offset!(S, raw_control_count), 12);
-    assert_eq!(offset!(S, missing_entry_count), 16);
-    assert_eq!(offset!(S, reserved), 20);
-    assert_eq!(offset!(S, controls), 24);
-    assert_eq!(offset!(S, extra_controls), 40);
-    assert_eq!(offset!(S, missing_channels), 56);
-}
-
-#[test]
-fn mien_mix_layer() {
-    use mien_sys::MienMixLayer as S;
-    assert_eq!(size_of::<S>(), 88);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, period), 0);
-    assert_eq!(offset!(S, delay), 8);
-    assert_eq!(offset!(S, mask), 16);
-    assert_eq!(offset!(S, curves), 24);
-    assert_eq!(offset!(S, amounts), 32);
-    assert_eq!(offset!(S, mask_count), 40);
-    assert_eq!(offset!(S, curve_count), 44);
-    assert_eq!(offset!(S, group), 48);
-    assert_eq!(offset!(S, mode), 52);
-    assert_eq!(offset!(S, source), 56);
-    assert_eq!(offset!(S, after_guards), 60);
-    assert_eq!(offset!(S, weight), 64);
-    assert_eq!(offset!(S, first_pose), 68);
-    assert_eq!(offset!(S, pose_count), 72);
-    assert_eq!(offset!(S, generator), 76);
-    assert_eq!(offset!(S, stream_frames), 80);
-    assert_eq!(offset!(S, reserved), 84);
-}
-
-#[test]
-fn mien_mix_pose() {
-    use mien_sys::MienMixPose as S;
-    assert_eq!(size_of::<S>(), 24);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, curves), 0);
-    assert_eq!(offset!(S, values), 8);
-    assert_eq!(offset!(S, count), 16);
-}
-
-#[test]
-fn mien_mix_stroke() {
-    use mien_sys::MienMixStroke as S;
-    assert_eq!(size_of::<S>(), 56);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, delay), 0);
-    assert_eq!(offset!(S, attack), 8);
-    assert_eq!(offset!(S, hold), 16);
-    assert_eq!(offset!(S, release), 24);
-    assert_eq!(offset!(S, pose), 32);
-    assert_eq!(offset!(S, mode), 36);
-    assert_eq!(offset!(S, is_held), 40);
-    assert_eq!(offset!(S, is_lag), 44);
-    assert_eq!(offset!(S, is_scaled), 48);
-    assert_eq!(offset!(S, reserved), 52);
-}
-
-#[test]
-fn mien_mix_reaction() {
-    use mien_sys::MienMixReaction as S;
-    assert_eq!(size_of::<S>(), 64);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, cooldown), 0);
-    assert_eq!(offset!(S, adapt_ticks), 8);
-    assert_eq!(offset!(S, recover_ticks), 16);
-    assert_eq!(offset!(S, strokes), 24);
-    assert_eq!(offset!(S, stroke_count), 32);
-    assert_eq!(offset!(S, retrigger), 40);
-    assert_eq!(offset!(S, after_guards), 44);
-    assert_eq!(offset!(S, adapted), 48);
-    assert_eq!(offset!(S, level_on), 52);
-    assert_eq!(offset!(S, level_off), 56);
-    assert_eq!(offset!(S, reserved), 60);
-}
-
-#[test]
-fn mien_mix_antagonists() {
-    use mien_sys::MienMixAntagonists as S;
-    assert_eq!(size_of::<S>(), 8);
-    assert_eq!(align_of::<S>(), 4);
-    assert_eq!(offset!(S, first), 0);
-    assert_eq!(offset!(S, second), 2);
-    assert_eq!(offset!(S, stiffness), 4);
-}
-
-#[test]
-fn mien_landmark() {
-    use mien_sys::MienLandmark as S;
-    assert_eq!(size_of::<S>(), 16);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, points), 0);
-    assert_eq!(offset!(S, point_count), 8);
-    assert_eq!(offset!(S, mesh), 12);
-}
-
-#[test]
-fn mien_mix_guard() {
-    use mien_sys::MienMixGuard as S;
-    assert_eq!(size_of::<S>(), 48);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, upper), 0);
-    assert_eq!(offset!(S, lower), 16);
-    assert_eq!(offset!(S, closed_by), 32);
-    assert_eq!(offset!(S, needs_speech), 36);
-    assert_eq!(offset!(S, tolerance), 40);
-    assert_eq!(offset!(S, f_on), 44);
-}
-
-#[test]
-fn mien_mix_desc() {
-    use mien_sys::MienMixDesc as S;
-    assert_eq!(size_of::<S>(), 168);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, layers), 8);
-    assert_eq!(offset!(S, layer_count), 16);
-    assert_eq!(offset!(S, poses), 24);
-    assert_eq!(offset!(S, pose_count), 32);
-    assert_eq!(offset!(S, reactions), 40);
-    assert_eq!(offset!(S, reaction_count), 48);
-    assert_eq!(offset!(S, antagonists), 56);
-    assert_eq!(offset!(S, antagonist_count), 64);
-    assert_eq!(offset!(S, mirror), 72);
-    assert_eq!(offset!(S, lower), 80);
-    assert_eq!(offset!(S, upper), 88);
-    assert_eq!(offset!(S, custom_guards), 96);
-    assert_eq!(offset!(S, custom_guard_count), 104);
-    assert_eq!(offset!(S, gaze), 112);
-    assert_eq!(offset!(S, deformer), 120);
-    assert_eq!(offset!(S, guards), 128);
-    assert_eq!(offset!(S, variable_count), 132);
-    assert_eq!(offset!(S, player_count), 136);
-    assert_eq!(offset!(S, max_channels), 140);
-    assert_eq!(offset!(S, max_changing_channels), 144);
-    assert_eq!(offset!(S, max_events), 148);
-    assert_eq!(offset!(S, reverse), 152);
-    assert_eq!(offset!(S, reserved), 156);
-    assert_eq!(offset!(S, allocator), 160);
-}
-
-#[test]
-fn mien_mix_open_desc() {
-    use mien_sys::MienMixOpenDesc as S;
-    assert_eq!(size_of::<S>(), 16);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, allocator), 8);
-}
-
-#[test]
-fn mien_mix_info() {
-    use mien_sys::MienMixInfo as S;
-    assert_eq!(size_of::<S>(), 48);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, raw_control_count), 8);
-    assert_eq!(offset!(S, variable_count), 12);
-    assert_eq!(offset!(S, curve_count), 16);
-    assert_eq!(offset!(S, layer_count), 20);
-    assert_eq!(offset!(S, stage_count), 24);
-    assert_eq!(offset!(S, guard_count), 28);
-    assert_eq!(offset!(S, mixer_bytes), 32);
-    assert_eq!(offset!(S, snapshot_bytes), 40);
-}
-
-#[test]
-fn mien_mix_guard_info() {
-    use mien_sys::MienMixGuardInfo as S;
-    assert_eq!(size_of::<S>(), 64);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, curves), 8);
-    assert_eq!(offset!(S, gains), 24);
-    assert_eq!(offset!(S, pair_count), 40);
-    assert_eq!(offset!(S, needs_speech), 44);
-    assert_eq!(offset!(S, rest), 48);
-    assert_eq!(offset!(S, tolerance), 52);
-    assert_eq!(offset!(S, f_on), 56);
-    assert_eq!(offset!(S, fit_error), 60);
-}
-
-#[test]
-fn mien_gaze_desc() {
-    use mien_sys::MienGazeDesc as S;
-    assert_eq!(size_of::<S>(), 32);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, left_eye), 8);
-    assert_eq!(offset!(S, right_eye), 16);
-    assert_eq!(offset!(S, allocator), 24);
-}
-
-#[test]
-fn mien_gaze_target() {
-    use mien_sys::MienGazeTarget as S;
-    assert_eq!(size_of::<S>(), 12);
-    assert_eq!(align_of::<S>(), 4);
-    assert_eq!(offset!(S, left), 0);
-    assert_eq!(offset!(S, up), 4);
-    assert_eq!(offset!(S, front), 8);
-}
-
-#[test]
-fn mien_gaze_info() {
-    use mien_sys::MienGazeInfo as S;
-    assert_eq!(size_of::<S>(), 40);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, left_eye), 8);
-    assert_eq!(offset!(S, right_eye), 20);
-    assert_eq!(offset!(S, fit_error), 32);
-    assert_eq!(offset!(S, reserved), 36);
-}
-
-#[test]
-fn mien_gaze_rest() {
-    use mien_sys::MienGazeRest as S;
-    assert_eq!(size_of::<S>(), 8);
-    assert_eq!(align_of::<S>(), 4);
-    assert_eq!(offset!(S, left), 0);
-    assert_eq!(offset!(S, up), 4);
-}
-
-#[test]
-fn mien_mixer_desc() {
-    use mien_sys::MienMixerDesc as S;
-    assert_eq!(size_of::<S>(), 32);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, seed), 8);
-    assert_eq!(offset!(S, stages), 16);
-    assert_eq!(offset!(S, reserved), 20);
-    assert_eq!(offset!(S, allocator), 24);
-}
-
-#[test]
-fn mien_play_desc() {
-    use mien_sys::MienPlayDesc as S;
-    assert_eq!(size_of::<S>(), 56);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, clip_id), 8);
-    assert_eq!(offset!(S, start_tick), 16);
-    assert_eq!(offset!(S, transition_ticks), 24);
-    assert_eq!(offset!(S, transition), 32);
-    assert_eq!(offset!(S, looping), 36);
-    assert_eq!(offset!(S, interpolation), 40);
-    assert_eq!(offset!(S, speed_numerator), 44);
-    assert_eq!(offset!(S, speed_denominator), 48);
-    assert_eq!(offset!(S, mirrored), 52);
-}
-
-#[test]
-fn mien_guard_state() {
-    use mien_sys::MienGuardState as S;
-    assert_eq!(size_of::<S>(), 64);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, name), 8);
-    assert_eq!(offset!(S, controls), 24);
-    assert_eq!(offset!(S, kind), 40);
-    assert_eq!(offset!(S, activation), 44);
-    assert_eq!(offset!(S, protected_distance), 48);
-    assert_eq!(offset!(S, wanted), 52);
-    assert_eq!(offset!(S, limit), 56);
-    assert_eq!(offset!(S, distance), 60);
-}
-
-#[test]
-fn mien_mixer_info() {
-    use mien_sys::MienMixerInfo as S;
-    assert_eq!(size_of::<S>(), 24);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, tick), 8);
-    assert_eq!(offset!(S, event_count), 16);
-    assert_eq!(offset!(S, lost_events), 20);
-}
-
-#[test]
-fn mien_mixer_clip() {
-    use mien_sys::MienMixerClip as S;
-    assert_eq!(size_of::<S>(), 24);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, clip_id), 0);
-    assert_eq!(offset!(S, clip), 8);
-    assert_eq!(offset!(S, clip_binding), 16);
-}
-
-#[test]
-fn mien_aim_solver() {
-    use mien_sys::MienAimSolver as S;
-    assert_eq!(size_of::<S>(), 56);
-    assert_eq!(align_of::<S>(), 4);
-    assert_eq!(offset!(S, joint), 0);
-    assert_eq!(offset!(S, target_joint), 4);
-    assert_eq!(offset!(S, target_curve), 8);
-    assert_eq!(offset!(S, axis), 12);
-    assert_eq!(offset!(S, up_axis), 24);
-    assert_eq!(offset!(S, up), 36);
-    assert_eq!(offset!(S, cone_degrees), 48);
-    assert_eq!(offset!(S, weight), 52);
-}
-
-#[test]
-fn mien_space_solver() {
-    use mien_sys::MienSpaceSolver as S;
-    assert_eq!(size_of::<S>(), 32);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, ease_ticks), 0);
-    assert_eq!(offset!(S, spaces), 8);
-    assert_eq!(offset!(S, space_count), 16);
-    assert_eq!(offset!(S, curve), 20);
-    assert_eq!(offset!(S, joint), 24);
-    assert_eq!(offset!(S, reserved), 28);
-}
-
-#[test]
-fn mien_spring_solver() {
-    use mien_sys::MienSpringSolver as S;
-    assert_eq!(size_of::<S>(), 32);
-    assert_eq!(align_of::<S>(), 4);
-    assert_eq!(offset!(S, joint), 0);
-    assert_eq!(offset!(S, frequency), 4);
-    assert_eq!(offset!(S, damping), 8);
-    assert_eq!(offset!(S, rest_offset), 12);
-    assert_eq!(offset!(S, stretch), 24);
-    assert_eq!(offset!(S, teleport), 28);
-}
-
-#[test]
-fn mien_twist_solver() {
-    use mien_sys::MienTwistSolver as S;
-    assert_eq!(size_of::<S>(), 40);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, joints), 0);
-    assert_eq!(offset!(S, shares), 8);
-    assert_eq!(offset!(S, joint_count), 16);
-    assert_eq!(offset!(S, source), 20);
-    assert_eq!(offset!(S, axis), 24);
-    assert_eq!(offset!(S, reserved), 36);
-}
-
-#[test]
-fn mien_copy_solver() {
-    use mien_sys::MienCopySolver as S;
-    assert_eq!(size_of::<S>(), 28);
-    assert_eq!(align_of::<S>(), 4);
-    assert_eq!(offset!(S, source), 0);
-    assert_eq!(offset!(S, joint), 4);
-    assert_eq!(offset!(S, is_mirrored), 8);
-    assert_eq!(offset!(S, mirror_axis), 12);
-    assert_eq!(offset!(S, weight), 24);
-}
-
-#[test]
-fn mien_solver_pose() {
-    use mien_sys::MienSolverPose as S;
-    assert_eq!(size_of::<S>(), 56);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, locals), 0);
-    assert_eq!(offset!(S, models), 8);
-    assert_eq!(offset!(S, previous), 16);
-    assert_eq!(offset!(S, row), 24);
-    assert_eq!(offset!(S, outputs), 32);
-    assert_eq!(offset!(S, state), 40);
-    assert_eq!(offset!(S, lod), 48);
-    assert_eq!(offset!(S, is_reset), 52);
-}
-
-#[test]
-fn mien_solver_call() {
-    use mien_sys::MienSolverCall as S;
-    assert_eq!(size_of::<S>(), 32);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, poses), 0);
-    assert_eq!(offset!(S, parents), 8);
-    assert_eq!(offset!(S, ticks), 16);
-    assert_eq!(offset!(S, pose_count), 24);
-    assert_eq!(offset!(S, joint_count), 28);
-}
-
-#[test]
-fn mien_user_solver() {
-    use mien_sys::MienUserSolver as S;
-    assert_eq!(size_of::<S>(), 64);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, user), 0);
-    assert_eq!(offset!(S, solve), 8);
-    assert_eq!(offset!(S, reads), 16);
-    assert_eq!(offset!(S, writes), 24);
-    assert_eq!(offset!(S, previous_joints), 32);
-    assert_eq!(offset!(S, read_count), 40);
-    assert_eq!(offset!(S, write_count), 44);
-    assert_eq!(offset!(S, previous_joint_count), 48);
-    assert_eq!(offset!(S, state_bytes), 52);
-    assert_eq!(offset!(S, output_count), 56);
-    assert_eq!(offset!(S, reserved), 60);
-}
-
-#[test]
-fn mien_solver() {
-    use mien_sys::MienSolver as S;
-    assert_eq!(size_of::<S>(), 64);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, name), 0);
-    assert_eq!(offset!(S, aim), 8);
-    assert_eq!(offset!(S, space), 16);
-    assert_eq!(offset!(S, spring), 24);
-    assert_eq!(offset!(S, twist), 32);
-    assert_eq!(offset!(S, copy), 40);
-    assert_eq!(offset!(S, custom), 48);
-    assert_eq!(offset!(S, lods), 56);
-}
-
-#[test]
-fn mien_solver_stack_desc() {
-    use mien_sys::MienSolverStackDesc as S;
-    assert_eq!(size_of::<S>(), 40);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, solvers), 8);
-    assert_eq!(offset!(S, solver_count), 16);
-    assert_eq!(offset!(S, curve_count), 24);
-    assert_eq!(offset!(S, check_writes), 28);
-    assert_eq!(offset!(S, allocator), 32);
-}
-
-#[test]
-fn mien_solver_stack_info() {
-    use mien_sys::MienSolverStackInfo as S;
-    assert_eq!(size_of::<S>(), 32);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, solver_count), 8);
-    assert_eq!(offset!(S, curve_count), 12);
-    assert_eq!(offset!(S, output_count), 16);
-    assert_eq!(offset!(S, joint_count), 20);
-    assert_eq!(offset!(S, state_bytes), 24);
-}
-
-#[test]
-fn mien_solver_state_desc() {
-    use mien_sys::MienSolverStateDesc as S;
-    assert_eq!(size_of::<S>(), 16);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, allocator), 8);
-}
-
-#[test]
-fn mien_solver_input() {
-    use mien_sys::MienSolverInput as S;
-    assert_eq!(size_of::<S>(), 24);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, row), 0);
-    assert_eq!(offset!(S, row_count), 8);
-    assert_eq!(offset!(S, lod), 16);
-    assert_eq!(offset!(S, is_reset), 20);
-}
-
-#[test]
-fn mien_generate_desc() {
-    use mien_sys::MienGenerateDesc as S;
-    assert_eq!(size_of::<S>(), 32);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, preset), 8);
-    assert_eq!(offset!(S, flags), 12);
-    assert_eq!(offset!(S, seed), 16);
-    assert_eq!(offset!(S, allocator), 24);
-}
-
-#[test]
-fn mien_author_object() {
-    use mien_sys::MienAuthorObject as S;
-    assert_eq!(size_of::<S>(), 24);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, name), 0);
-    assert_eq!(offset!(S, first_face), 16);
-    assert_eq!(offset!(S, face_count), 20);
-}
-
-#[test]
-fn mien_author_shape() {
-    use mien_sys::MienAuthorShape as S;
-    assert_eq!(size_of::<S>(), 40);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, name), 0);
-    assert_eq!(offset!(S, positions), 16);
-    assert_eq!(offset!(S, position_count), 24);
-    assert_eq!(offset!(S, displacements), 32);
-}
-
-#[test]
-fn mien_author_mesh() {
-    use mien_sys::MienAuthorMesh as S;
-    assert_eq!(size_of::<S>(), 112);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, positions), 8);
-    assert_eq!(offset!(S, position_count), 16);
-    assert_eq!(offset!(S, face_sizes), 24);
-    assert_eq!(offset!(S, face_count), 32);
-    assert_eq!(offset!(S, corners), 40);
-    assert_eq!(offset!(S, corner_count), 48);
-    assert_eq!(offset!(S, uvs), 56);
-    assert_eq!(offset!(S, uv_count), 64);
-    assert_eq!(offset!(S, corner_uvs), 72);
-    assert_eq!(offset!(S, objects), 80);
-    assert_eq!(offset!(S, object_count), 88);
-    assert_eq!(offset!(S, shapes), 96);
-    assert_eq!(offset!(S, shape_count), 104);
-}
-
-#[test]
-fn mien_author_bone() {
-    use mien_sys::MienAuthorBone as S;
-    assert_eq!(size_of::<S>(), 48);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, name), 0);
-    assert_eq!(offset!(S, position), 16);
-    assert_eq!(offset!(S, parent), 40);
-    assert_eq!(offset!(S, kind), 44);
-}
-
-#[test]
-fn mien_author_lod() {
-    use mien_sys::MienAuthorLod as S;
-    assert_eq!(size_of::<S>(), 24);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, corners), 0);
-    assert_eq!(offset!(S, corner_count), 8);
-    assert_eq!(offset!(S, corner_uvs), 16);
-}
-
-#[test]
-fn mien_author_desc() {
-    use mien_sys::MienAuthorDesc as S;
-    assert_eq!(size_of::<S>(), 224);
-    assert_eq!(align_of::<S>(), 8);
-    assert_eq!(offset!(S, struct_size), 0);
-    assert_eq!(offset!(S, facial_joints), 8);
-    assert_eq!(offset!(S, influences), 12);
-    assert_eq!(offset!(S, lods), 16);
-    assert_eq!(offset!(S, groups), 20);
-    assert_eq!(offset!(S, seed), 24);
-    assert_eq!(offset!(S, unit), 32);
-    assert_eq!(offset!(S, up), 40);
-    assert_eq!(offset!(S, front), 44);
-    assert_eq!(offset!(S, symmetry), 48);
-    assert_eq!(offset!(S, flags), 52);
-    assert_eq!(offset!(S, name), 56);
-    assert_eq!(offset!(S, face_object), 72);
-    assert_eq!(offset!(S, bones), 88);
-    assert_eq!(offset!(S, bone_count), 96);
-    assert_eq!(offset!(S, weight_joints), 104);
-    assert_eq!(offset!(S, weights), 112);
-    assert_eq!(offset!(S, parallel), 120);
-    assert_eq!(offset!(S, progress_user), 128);
-    assert_eq!(offset!(S, progress), 136);
-    assert_eq!(offset!(S, allocator), 144);
-    assert_eq!(offset!(S, depth_groups), 152);
-    assert_eq!(offset!(S, mask), 160);
-    assert_eq!(offset!(S, lod_joints), 168);
-    assert_eq!(offset!(S, bone_groups), 176);
-    assert_eq!(offset!(S, bone_motions), 184);
-    assert_eq!(offset!(S, joint_groups), 192);
-    assert_eq!(offset!(S, overlap_correctives), 196);
-    assert_eq!(offset!(S, lod_triangles), 200);
-    assert_eq!(offset!(S, lod_meshes), 208);
-    assert_eq!(offset!(S, lod_mesh_count), 216);
+/// Of each struct its name, size and alignment, then its fields and where they begin.
+macro_rules! layouts {
+    ($($type:ident $size:literal $alignment:literal: $($field:ident $offset:literal)*;)*) => {$({
+        use mien_sys::$type as S;
+        let name = stringify!($type);
+        assert_eq!((size_of::<S>(), align_of::<S>()), ($size, $alignment), "{name}");
+        let place = MaybeUninit::<S>::uninit();
+        let start = place.as_ptr();
+        $(
+            // SAFETY: the address of a field is taken, nothing is read.
+            let at = unsafe { addr_of!((*start).$field) as usize - start as usize };
+            assert_eq!(at, $offset, "{name}.{}", stringify!($field));
+        )*
+        let _ = start;
+    })*};
+}
+
+#[test]
+fn structs_are_laid_out_as_in_c() {
+    layouts! {
+        MienError 256 8: struct_size 0 byte_offset 8 status 16 message 20;
+        MienAllocator 24 8: user 0 allocate 8 release 16;
+        MienParallelFor 16 8: user 0 run 8;
+        MienStringView 16 8: data 0 count 8;
+        MienFloatView 16 8: data 0 count 8;
+        MienMutableFloatView 16 8: data 0 count 8;
+        MienIndex16View 16 8: data 0 count 8;
+        MienIndex32View 16 8: data 0 count 8;
+        MienStream 24 8: user 0 size 8 read 16;
+        MienCoordinateSystem 56 8: struct_size 0 axes 8 translation_unit 20 rotation_unit 24
+            rotation_rule 28 rotation_sequence 32 rotation_signs 36 face_winding 48 reserved 52;
+        MienDnaDesc 48 8: struct_size 0 layers 8 skip_blend_shape_targets 12 unknown_layers 16
+            file_access 20 lods 24 system 32 allocator 40;
+        MienDnaInfo 160 8: struct_size 0 generation 8 version 12 layers 16 has_blend_shape_targets
+            20 file_bytes 24 memory_bytes 32 is_mapped 40 layer_count 44 translation_unit 48
+            rotation_unit 52 axes 56 rotation_sequence 68 rotation_signs 72 face_winding 84
+            lod_count 88 max_lod 92 gui_control_count 96 raw_control_count 100 psd_control_count 104
+            ml_control_count 108 rbf_control_count 112 joint_count 116 joint_group_count 120
+            blend_shape_channel_count 124 animated_map_count 128 mesh_count 132 neural_network_count
+            136 rbf_solver_count 140 rbf_pose_count 144 twist_count 148 swing_count 152
+            metadata_count 156;
+        MienDnaLayer 48 8: struct_size 0 layer 8 version_major 12 version_minor 16 is_loaded 20
+            byte_offset 24 byte_count 32 code 40;
+        MienDnaField 32 8: struct_size 0 r#type 8 is_array 12 count 16 byte_offset 24;
+        MienWriteDesc 16 8: struct_size 0 version 8 unknown_layers 12;
+        MienFinding 56 8: struct_size 0 severity 8 status 12 byte_offset 16 field 24 message 40;
+        MienValidateDesc 16 8: struct_size 0 allocator 8;
+        MienRigDesc 40 8: struct_size 0 isa 8 rotation_output 12 ml_masks 16 storage 20 reuse 24
+            arithmetic 28 allocator 32;
+        MienRigInfo 88 8: struct_size 0 isa 8 lod_count 12 translation_unit 16 rotation_unit 20 axes
+            24 rotation_sequence 36 rotation_signs 40 control_count 52 joint_value_count 56
+            rotation_output 60 storage 64 arithmetic 68 rig_bytes 72 instance_bytes 80;
+        MienRigStatistics 56 8: struct_size 0 lod 8 psd_count 12 joint_count 16 joint_row_count 20
+            blend_shape_count 24 animated_map_row_count 28 rbf_solver_count 32
+            quaternion_joint_count 36 joint_entry_count 40 joint_byte_count 48;
+        MienInstanceDesc 16 8: struct_size 0 allocator 8;
+        MienInstanceStatistics 40 8: struct_size 0 lod 8 control_count 12 active_control_count 16
+            joint_column_count 20 joint_entry_count 24 joint_byte_count 32;
+        MienBatchDesc 24 8: struct_size 0 capacity 8 tasks 12 allocator 16;
+        MienDeformerDesc 40 8: struct_size 0 isa 8 compose 12 weights 16 normals 20 with_tangents 24
+            reserved 28 allocator 32;
+        MienDeformerInfo 56 8: struct_size 0 isa 8 compose 12 weights 16 normals 20 lod_count 24
+            joint_count 28 channel_count 32 mesh_count 36 deformer_bytes 40 instance_bytes 48;
+        MienMesh 152 8: struct_size 0 position_count 8 vertex_count 12 triangle_count 16
+            max_influences 20 target_count 24 delta_count 28 lods 32 positions 40 normals 56
+            tangents 72 texture_coordinates 88 vertex_position_indices 104 triangles 120
+            target_channels 136;
+        MienDeformerInstanceDesc 24 8: struct_size 0 lods 8 allocator 16;
+        MienVertexStream 16 8: data 0 stride 8 format 12;
+        MienVertexOutput 64 8: struct_size 0 vertex_capacity 8 positions 16 normals 32 tangents 48;
+        MienBakedDesc 24 8: struct_size 0 file_access 8 check 12 allocator 16;
+        MienBakedInfo 48 8: struct_size 0 file_bytes 8 memory_bytes 16 rig_bytes 24 deformer_bytes
+            32 part_count 40 is_mapped 44;
+        MienBakedRigDesc 24 8: struct_size 0 isa 8 reuse 12 allocator 16;
+        MienBakedDeformerDesc 24 8: struct_size 0 isa 8 normals 12 allocator 16;
+        MienClipEvent 32 8: tick 0 name 8 value 24 reserved 28;
+        MienClipDesc 88 8: struct_size 0 rate_numerator 8 rate_denominator 12 frame_count 16
+            channel_count 20 names 24 values 32 frame_stride 40 snaps 48 snap 56 looping 60 is_delta
+            64 event_count 68 events 72 allocator 80;
+        MienClipOpenDesc 24 8: struct_size 0 file_access 8 reserved 12 allocator 16;
+        MienClipInfo 88 8: struct_size 0 rate_numerator 8 rate_denominator 12 frame_count 16
+            channel_count 20 changing_channel_count 24 event_count 28 looping 32 is_delta 36 snap 40
+            is_mapped 44 ticks_per_frame 48 length 56 file_bytes 64 memory_bytes 72 player_bytes 80;
+        MienClipChannel 64 8: struct_size 0 name 8 rest 24 is_changing 28 zero_blocks 32
+            constant_blocks 36 grid_blocks 40 float_blocks 44 bits 48 max_error 56 reserved 60;
+        MienClipPlayerDesc 48 8: struct_size 0 looping 8 interpolation 12 speed_numerator 16
+            speed_denominator 20 start_tick 24 reverse 32 reserved 36 allocator 40;
+        MienClipPlayerInfo 32 8: struct_size 0 tick 8 loops 16 looping 24 is_damaged 28;
+        MienMatrixEntry 40 8: channel 0 control 16 weight 32 reserved 36;
+        MienClipBindingDesc 32 8: struct_size 0 matrix 8 matrix_count 16 allocator 24;
+        MienClipBindingInfo 72 8: struct_size 0 channel_count 8 raw_control_count 12
+            missing_entry_count 16 reserved 20 controls 24 extra_controls 40 missing_channels 56;
+        MienMixLayer 88 8: period 0 delay 8 mask 16 curves 24 amounts 32 mask_count 40 curve_count
+            44 group 48 mode 52 source 56 after_guards 60 weight 64 first_pose 68 pose_count 72
+            generator 76 stream_frames 80 reserved 84;
+        MienMixPose 24 8: curves 0 values 8 count 16;
+        MienMixStroke 56 8: delay 0 attack 8 hold 16 release 24 pose 32 mode 36 is_held 40 is_lag 44
+            is_scaled 48 reserved 52;
+        MienMixReaction 64 8: cooldown 0 adapt_ticks 8 recover_ticks 16 strokes 24 stroke_count 32
+            retrigger 40 after_guards 44 adapted 48 level_on 52 level_off 56 reserved 60;
+        MienMixAntagonists 8 4: first 0 second 2 stiffness 4;
+        MienLandmark 16 8: points 0 point_count 8 mesh 12;
+        MienMixGuard 48 8: upper 0 lower 16 closed_by 32 needs_speech 36 tolerance 40 f_on 44;
+        MienMixDesc 168 8: struct_size 0 layers 8 layer_count 16 poses 24 pose_count 32 reactions 40
+            reaction_count 48 antagonists 56 antagonist_count 64 mirror 72 lower 80 upper 88
+            custom_guards 96 custom_guard_count 104 gaze 112 deformer 120 guards 128 variable_count
+            132 player_count 136 max_channels 140 max_changing_channels 144 max_events 148 reverse
+            152 reserved 156 allocator 160;
+        MienMixOpenDesc 16 8: struct_size 0 allocator 8;
+        MienMixInfo 48 8: struct_size 0 raw_control_count 8 variable_count 12 curve_count 16
+            layer_count 20 stage_count 24 guard_count 28 mixer_bytes 32 snapshot_bytes 40;
+        MienMixGuardInfo 64 8: struct_size 0 curves 8 gains 24 pair_count 40 needs_speech 44 rest 48
+            tolerance 52 f_on 56 fit_error 60;
+        MienGazeDesc 32 8: struct_size 0 left_eye 8 right_eye 16 allocator 24;
+        MienGazeTarget 12 4: left 0 up 4 front 8;
+        MienGazeInfo 40 8: struct_size 0 left_eye 8 right_eye 20 fit_error 32 reserved 36;
+        MienGazeRest 8 4: left 0 up 4;
+        MienMixerDesc 32 8: struct_size 0 seed 8 stages 16 reserved 20 allocator 24;
+        MienPlayDesc 56 8: struct_size 0 clip_id 8 start_tick 16 transition_ticks 24 transition 32
+            looping 36 interpolation 40 speed_numerator 44 speed_denominator 48 mirrored 52;
+        MienGuardState 64 8: struct_size 0 name 8 controls 24 kind 40 activation 44
+            protected_distance 48 wanted 52 limit 56 distance 60;
+        MienMixerInfo 24 8: struct_size 0 tick 8 event_count 16 lost_events 20;
+        MienMixerClip 24 8: clip_id 0 clip 8 clip_binding 16;
+        MienAimSolver 56 4: joint 0 target_joint 4 target_curve 8 axis 12 up_axis 24 up 36
+            cone_degrees 48 weight 52;
+        MienSpaceSolver 32 8: ease_ticks 0 spaces 8 space_count 16 curve 20 joint 24 reserved 28;
+        MienSpringSolver 32 4: joint 0 frequency 4 damping 8 rest_offset 12 stretch 24 teleport 28;
+        MienTwistSolver 40 8: joints 0 shares 8 joint_count 16 source 20 axis 24 reserved 36;
+        MienCopySolver 28 4: source 0 joint 4 is_mirrored 8 mirror_axis 12 weight 24;
+        MienSolverPose 56 8: locals 0 models 8 previous 16 row 24 outputs 32 state 40 lod 48
+            is_reset 52;
+        MienSolverCall 32 8: poses 0 parents 8 ticks 16 pose_count 24 joint_count 28;
+        MienUserSolver 64 8: user 0 solve 8 reads 16 writes 24 previous_joints 32 read_count 40
+            write_count 44 previous_joint_count 48 state_bytes 52 output_count 56 reserved 60;
+        MienSolver 64 8: name 0 aim 8 space 16 spring 24 twist 32 copy 40 custom 48 lods 56;
+        MienSolverStackDesc 40 8: struct_size 0 solvers 8 solver_count 16 curve_count 24
+            check_writes 28 allocator 32;
+        MienSolverStackInfo 32 8: struct_size 0 solver_count 8 curve_count 12 output_count 16
+            joint_count 20 state_bytes 24;
+        MienSolverStateDesc 16 8: struct_size 0 allocator 8;
+        MienSolverInput 24 8: row 0 row_count 8 lod 16 is_reset 20;
+        MienGenerateDesc 32 8: struct_size 0 preset 8 flags 12 seed 16 allocator 24;
+        MienAuthorObject 24 8: name 0 first_face 16 face_count 20;
+        MienAuthorShape 40 8: name 0 positions 16 position_count 24 displacements 32;
+        MienAuthorMesh 112 8: struct_size 0 positions 8 position_count 16 face_sizes 24 face_count
+            32 corners 40 corner_count 48 uvs 56 uv_count 64 corner_uvs 72 objects 80 object_count
+            88 shapes 96 shape_count 104;
+        MienAuthorBone 48 8: name 0 position 16 parent 40 kind 44;
+        MienAuthorLod 24 8: corners 0 corner_count 8 corner_uvs 16;
+        MienAuthorDesc 224 8: struct_size 0 facial_joints 8 influences 12 lods 16 groups 20 seed 24
+            unit 32 up 40 front 44 symmetry 48 flags 52 name 56 face_object 72 bones 88 bone_count
+            96 weight_joints 104 weights 112 parallel 120 progress_user 128 progress 136 allocator
+            144 depth_groups 152 mask 160 lod_joints 168 bone_groups 176 bone_motions 184
+            joint_groups 192 overlap_correctives 196 lod_triangles 200 lod_meshes 208 lod_mesh_count
+            216;
+    }
 }
