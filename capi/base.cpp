@@ -7,7 +7,7 @@ using namespace mien;
 using namespace mien::capi;
 
 static_assert(MIEN_ISA_NEON == int(Isa::kNeon) && MIEN_ISA_BEST == int(Isa::kBest),
-              "kernels.h and mien.h number the same instruction sets");
+              "simd/isa.h and mien.h number the same instruction sets");
 
 uint32_t mien_version(void) { return MIEN_VERSION; }
 

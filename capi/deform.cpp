@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "capi/handles.h"
+#include "simd/kernels.h"
 
 using namespace mien;
 using namespace mien::capi;

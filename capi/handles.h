@@ -15,6 +15,7 @@
 #include "runtime/eval/instance.h"
 #include "runtime/mix/gaze.h"
 #include "runtime/mix/mixer.h"
+#include "simd/isa.h"
 
 // Tags stand first in every object and tell kinds apart. Destroyed handles are not detected: a table
 // of ids with generations takes 0.2 to 0.6 ns more per handle than a tag (1.8 ns), but the object may

@@ -4,6 +4,7 @@
 
 #include "capi/handles.h"
 #include "runtime/eval/evaluate.h"
+#include "simd/kernels.h"
 
 using namespace mien;
 using namespace mien::capi;

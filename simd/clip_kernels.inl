@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "simd/clip_kernels.h"
 #include "simd/vec.inl"
 
 // Before a loop of few, known turns: g++ would unroll it completely, and then make no vectors.

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "simd/control_kernels.h"
 #include "simd/quad.inl"
 
 namespace mien::MIEN_KERNEL_ISA {

@@ -5,7 +5,7 @@
 
 namespace mien {
 
-/// What the CPU has and the operating system lets programs use, by instruction set of kernels.h.
+/// What the CPU has and the operating system lets programs use, by instruction set (Isa).
 /// Each covers every compiler flag its kernels are built with (simd/CMakeLists.txt).
 struct CpuFeatures {
   bool sse2;

@@ -5,6 +5,7 @@
 
 #include <utility>  // index_sequence, a mere type
 
+#include "simd/dense_kernels.h"
 #include "simd/math.inl"
 #include "simd/quad.inl"
 

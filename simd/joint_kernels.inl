@@ -5,6 +5,7 @@
 
 #include <utility>  // index_sequence, a mere type
 
+#include "simd/joint_kernels.h"
 #include "simd/quad.inl"
 
 namespace mien::MIEN_KERNEL_ISA {

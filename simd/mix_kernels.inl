@@ -4,6 +4,7 @@
 
 #pragma once
 
+#include "simd/mix_kernels.h"
 #include "simd/vec.inl"
 
 namespace mien::MIEN_KERNEL_ISA {

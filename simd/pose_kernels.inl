@@ -5,6 +5,7 @@
 #pragma once
 
 #include "simd/math.inl"
+#include "simd/pose_kernels.h"
 #include "simd/quad.inl"
 #include "simd/rotation_kernels.inl"
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "simd/math.inl"
+#include "simd/rbf_kernels.h"
 
 namespace mien::MIEN_KERNEL_ISA {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "simd/math.inl"
 #include "simd/quad.inl"
+#include "simd/rotation_kernels.h"
 
 namespace mien::MIEN_KERNEL_ISA {
 namespace {

@@ -64,15 +64,16 @@
 //   MIEN_KERNEL_AVX2   (or _SCALAR, _SSE2, _AVX512, _NEON) so that the preprocessor can ask
 //   xsimd              a name of its own, so that no two kernel objects share an inline function
 //
-// Everything is in an unnamed namespace for the same reason; kernel files use nothing but the .inl
-// files, kernels.h and C headers.
+// Everything is in an unnamed namespace for the same reason; kernel files use nothing but the files
+// of this folder and C headers.
 
 #pragma once
 
 #include <stddef.h>
 #include <stdint.h>
 
-#include "simd/kernels.h"
+#include "simd/isa.h"
+#include "simd/lanes.h"
 
 #if !defined(MIEN_KERNEL_SCALAR)
 #if !defined(xsimd)

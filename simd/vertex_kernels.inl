@@ -5,6 +5,7 @@
 
 #include "simd/math.inl"
 #include "simd/quad.inl"
+#include "simd/vertex_kernels.h"
 
 namespace mien::MIEN_KERNEL_ISA {
 namespace {

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Includes follow the graph of directories below, and the graph has no circle.
+"""Includes follow the graph of directories below, which has no circle and no edge that nobody uses.
 
 Every directory of the library with C or C++ files has to be named, so that none is forgotten.
 Usage: check_layers.py [PROJECT_DIRECTORY]
@@ -9,22 +9,22 @@ import re
 import sys
 from pathlib import Path
 
-# What each directory may include, beyond itself. A directory that is not a key is an error. Those that
-# call kernels have simd.
+# What each directory may include, beyond itself. A directory that is not a key is an error. simd is for
+# those that call kernels or have arrays in the layout that kernels read; each includes the headers of simd
+# that it uses itself.
 GRAPH = {
     "simd": [],
     "runtime/base": [],
     # The slim library: compiled data and what works on it. None of it knows DNA files or compilers.
     "runtime/rig": ["runtime/base", "simd"],
-    "runtime/pose": ["runtime/base", "runtime/rig"],
-    "runtime/eval": ["runtime/base", "runtime/rig"],
-    "runtime/deform": ["runtime/base", "simd", "runtime/rig", "runtime/eval", "runtime/pose"],
+    "runtime/pose": ["runtime/base", "simd", "runtime/rig"],
+    "runtime/eval": ["runtime/base", "simd", "runtime/rig"],
+    "runtime/deform": ["runtime/base", "simd", "runtime/pose"],
     "runtime/anim": ["runtime/base", "simd", "runtime/rig"],
     "runtime/mix": ["runtime/base", "simd", "runtime/rig", "runtime/anim"],
     "runtime/solve": ["runtime/base", "runtime/anim", "runtime/pose"],
     "runtime/probe": ["runtime/base", "runtime/eval", "runtime/anim", "runtime/mix", "runtime/deform"],
-    "runtime/baked": ["runtime/base", "simd", "runtime/rig", "runtime/eval", "runtime/pose",
-                      "runtime/deform"],
+    "runtime/baked": ["runtime/base", "simd", "runtime/rig", "runtime/deform"],
     # What the full library adds. DNA files: what a file is; what is wrong with it; what becomes of it; all
     # of it in order. Then DNA -> compiled data.
     "runtime/load/dna/format": ["runtime/base"],
@@ -32,7 +32,8 @@ GRAPH = {
     "runtime/load/dna/convert": ["runtime/base", "runtime/load/dna/format"],
     "runtime/load/dna": ["runtime/base", "runtime/load/dna/format", "runtime/load/dna/check",
                          "runtime/load/dna/convert"],
-    "runtime/load/compile": ["runtime/base", "runtime/load/dna/format", "runtime/rig", "runtime/deform"],
+    "runtime/load/compile": ["runtime/base", "simd", "runtime/load/dna/format", "runtime/rig",
+                             "runtime/deform"],
     # libmien-author makes DNA files: generated ones, and from a mesh to a rig. What its stages hand to
     # each other; bones; weights; motion; the file.
     "author/base": ["runtime/base", "runtime/load/dna/format"],
@@ -44,13 +45,14 @@ GRAPH = {
     "author/fit": ["runtime/base", "author/base", "author/mesh", "author/weights"],
     "author/rig_dna": ["runtime/load/dna/format", "author/base", "author/mesh", "author/fit"],
     "author/rigging": ["author/base", "author/mesh", "author/place", "author/weights", "author/rig_dna"],
-    # The C interface: the headers; what both libraries read their arguments with; each of them.
+    # The C interface: the headers; what both libraries read their arguments with; each of them. capi looks
+    # up the instruction set that a caller asks for: its simd.
     "capi/include": ["capi/include/mien"],
     "capi/include/mien": [],
     "capi/arguments": ["runtime/base", "capi/include"],
     "author/capi": ["capi/include", "capi/arguments", "runtime/base", "runtime/load/dna/format", "author/rigging",
                     "author/generate/head", "author/generate/synthetic"],
-    "capi": ["capi/include", "capi/arguments", "runtime/base", "runtime/eval", "runtime/anim", "runtime/mix",
+    "capi": ["capi/arguments", "runtime/base", "simd", "runtime/eval", "runtime/anim", "runtime/mix",
              "runtime/solve", "runtime/deform", "runtime/probe", "runtime/baked", "runtime/load/dna/format",
              "runtime/load/dna/check", "runtime/load/dna", "runtime/load/compile"],
 }
@@ -117,6 +119,11 @@ def is_kernel(path):
     return path.startswith("simd/") and (name.endswith(".inl") or name.startswith("kernels_"))
 
 
+def is_in_kernels(path):
+    """The same, and the headers that they include."""
+    return is_kernel(path) or (path.startswith("simd/") and path.endswith(".h"))
+
+
 def program_room(path):
     """The room of a file of the program, or None."""
     if not path.startswith(PROGRAM + "/"):
@@ -141,8 +148,8 @@ def check_include(path, quoted, target, resolved):
     if resolved is None:
         if quoted and not is_kernel(path):
             return "there is no such file in the project"
-        if is_kernel(path) and not (target.startswith("xsimd") or KERNEL_HEADERS.fullmatch(target)):
-            return "kernel files include C headers and xsimd only"
+        if is_in_kernels(path) and not (target.startswith("xsimd") or KERNEL_HEADERS.fullmatch(target)):
+            return "kernel files and headers of simd include C headers and xsimd only"
         if path.startswith("simd/") and not is_kernel(path) and target.startswith("xsimd"):
             return "only kernel files include xsimd"
         if path.startswith(("author/", "runtime/", "capi/")) and target.startswith("xsimd"):
@@ -197,6 +204,7 @@ def sources(root):
 def main():
     root = Path(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).parent.parent).resolve()
     problems = find_circles()
+    unused = {(own, other) for own in GRAPH for other in GRAPH[own]}
     count = 0
     for file in sources(root):
         path = file.relative_to(root).as_posix()
@@ -205,9 +213,12 @@ def main():
             problems.append(f"{path}: a directory that this check does not know")
             continue
         for number, quoted, target in includes(file):
-            reason = check_include(path, quoted, target, resolve(root, file, target))
+            resolved = resolve(root, file, target)
+            unused.discard((layer_of(path), layer_of(resolved) if resolved else None))
+            reason = check_include(path, quoted, target, resolved)
             if reason:
                 problems.append(f"{path}:{number}: includes {target}: {reason}")
+    problems += [f"GRAPH: no file of {own} includes one of {other}" for own, other in sorted(unused)]
     if count == 0:
         problems.append(f"{root}: no sources found")
     print("\n".join(problems) if problems else f"{count} files, includes in order")

@@ -3,6 +3,8 @@
 
 #include <cassert>
 
+#include "simd/kernels.h"
+
 namespace mien {
 namespace {
 

@@ -35,7 +35,8 @@
 
 #include "runtime/anim/clip.h"
 #include "runtime/base/bits.h"
-#include "simd/kernels.h"
+#include "simd/clip_kernels.h"
+#include "simd/isa.h"
 
 namespace mien {
 

@@ -4,6 +4,7 @@
 
 #include "runtime/baked/part.h"
 #include "runtime/deform/deformer.h"
+#include "simd/isa.h"
 
 namespace mien {
 

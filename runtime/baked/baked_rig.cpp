@@ -4,6 +4,8 @@
 
 #include "runtime/baked/baked_objects.h"
 #include "runtime/baked/part_check.h"
+#include "simd/joint_kernels.h"
+#include "simd/rbf_kernels.h"
 
 namespace mien {
 namespace {

@@ -6,6 +6,8 @@
 
 #include "runtime/baked/baked_objects.h"
 #include "runtime/baked/part_check.h"
+#include "simd/deform_kernels.h"
+#include "simd/pose_kernels.h"
 
 namespace mien {
 namespace {

@@ -8,6 +8,9 @@
 #include "runtime/baked/baked_objects.h"
 #include "runtime/baked/part_check.h"
 #include "runtime/rig/work.h"
+#include "simd/joint_kernels.h"
+#include "simd/rbf_kernels.h"
+#include "simd/rotation_kernels.h"
 
 namespace mien {
 namespace {

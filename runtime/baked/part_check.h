@@ -7,7 +7,7 @@
 
 #include "runtime/base/span.h"
 #include "runtime/base/status.h"
-#include "simd/kernels.h"
+#include "simd/lanes.h"
 
 namespace mien {
 

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <cstring>
 
+#include "simd/deform_kernels.h"
+#include "simd/kernels.h"
+
 namespace mien {
 namespace {
 

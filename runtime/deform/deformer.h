@@ -10,6 +10,7 @@
 #pragma once
 
 #include "runtime/pose/skeleton.h"
+#include "simd/isa.h"
 
 namespace mien {
 

@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-#include "simd/kernels.h"
+#include "simd/vertex_kernels.h"
 
 namespace mien {
 

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 
+#include "simd/lanes.h"
+#include "simd/rbf_kernels.h"
+
 namespace mien {
 namespace {
 

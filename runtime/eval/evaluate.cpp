@@ -7,6 +7,7 @@
 
 #include "runtime/eval/instance_packet.h"
 #include "runtime/eval/stages.h"
+#include "simd/lanes.h"
 
 namespace mien {
 namespace {

@@ -5,6 +5,7 @@
 
 #include "runtime/eval/evaluate.h"
 #include "runtime/eval/stages.h"
+#include "simd/kernels.h"
 
 namespace mien {
 namespace {

@@ -11,6 +11,7 @@
 #include "runtime/base/bits.h"
 #include "runtime/eval/instance_packet.h"
 #include "runtime/eval/stages.h"
+#include "simd/lanes.h"
 
 namespace mien {
 namespace {

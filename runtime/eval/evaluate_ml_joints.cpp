@@ -4,6 +4,8 @@
 #include <algorithm>
 
 #include "runtime/eval/stages.h"
+#include "simd/kernels.h"
+#include "simd/lanes.h"
 
 namespace mien {
 namespace {

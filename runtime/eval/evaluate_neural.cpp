@@ -8,6 +8,8 @@
 
 #include "runtime/eval/instance_packet.h"
 #include "runtime/eval/stages.h"
+#include "simd/dense_kernels.h"
+#include "simd/lanes.h"
 
 namespace mien {
 namespace {

@@ -4,6 +4,8 @@
 
 #include "runtime/eval/instance_packet.h"
 #include "runtime/eval/stages.h"
+#include "simd/lanes.h"
+#include "simd/rbf_kernels.h"
 
 namespace mien {
 namespace {

@@ -3,6 +3,7 @@
 // swings (docs/rig-evaluation.md, 4.6 to 4.8, 7).
 #include "runtime/eval/instance_packet.h"
 #include "runtime/eval/stages.h"
+#include "simd/lanes.h"
 
 namespace mien {
 namespace {

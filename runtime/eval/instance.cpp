@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "simd/lanes.h"
+
 namespace mien {
 namespace {
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "runtime/eval/stages.h"
+#include "simd/lanes.h"
 
 namespace mien {
 namespace {

@@ -11,6 +11,8 @@
 #pragma once
 
 #include "runtime/eval/instance.h"
+#include "simd/joint_kernels.h"
+#include "simd/kernels.h"
 
 namespace mien {
 

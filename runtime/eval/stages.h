@@ -6,6 +6,8 @@
 #include <cstring>
 
 #include "runtime/eval/instance.h"
+#include "simd/joint_kernels.h"
+#include "simd/rotation_kernels.h"
 
 namespace mien {
 

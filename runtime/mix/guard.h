@@ -9,6 +9,7 @@
 
 #include "runtime/base/arena.h"
 #include "simd/kernels.h"
+#include "simd/mix_kernels.h"
 
 namespace mien {
 

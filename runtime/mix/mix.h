@@ -24,7 +24,6 @@
 #include "runtime/mix/gaze.h"
 #include "runtime/mix/guard.h"
 #include "runtime/rig/rig.h"
-#include "simd/kernels.h"
 
 namespace mien {
 
@@ -41,7 +40,7 @@ constexpr uint32_t kMaxPoses = 1024;
 enum class LayerGroup : uint8_t { kBase, kSpeech, kEmotion, kReaction, kLife };
 constexpr uint32_t kLayerGroups = 5;
 
-/// BlendMode: simd/kernels.h. A layer does not change curves for which its source has no value.
+/// BlendMode: simd/mix_kernels.h. A layer does not change curves for which its source has no value.
 constexpr uint32_t kBlendModes = 5;
 
 /// Where the values of a layer come from.

@@ -52,7 +52,7 @@ constexpr uint16_t kNoPlayer = 0xFFFF;
 // ------------------------------------------------------------------------------------------------
 
 /// What a layer showed in its last two steps, and the offsets of a transition: the values of all curves,
-/// then their cover, which is 1 for curves that the source drives (BlendArgs in simd/kernels.h).
+/// then their cover, which is 1 for curves that the source drives (BlendArgs in simd/mix_kernels.h).
 enum LayerRow : uint32_t { kShown0, kShown1, kQuintic0, kQuintic1, kQuintic2, kQuinticRate };
 constexpr uint32_t kLayerRows = 6;
 

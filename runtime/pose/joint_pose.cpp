@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simd/kernels.h"
+#include "simd/pose_kernels.h"
+
 namespace mien {
 namespace {
 

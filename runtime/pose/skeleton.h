@@ -5,6 +5,8 @@
 
 #include "runtime/base/arena.h"
 #include "runtime/rig/rig.h"
+#include "simd/isa.h"
+#include "simd/lanes.h"
 
 namespace mien {
 

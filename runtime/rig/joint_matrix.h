@@ -29,7 +29,7 @@
 #pragma once
 
 #include "runtime/base/span.h"
-#include "simd/kernels.h"
+#include "simd/joint_kernels.h"
 
 namespace mien {
 

@@ -20,7 +20,9 @@
 #include "runtime/base/transform.h"
 #include "runtime/rig/joint_matrix.h"
 #include "runtime/rig/stage_access.h"
-#include "simd/kernels.h"
+#include "simd/isa.h"
+#include "simd/lanes.h"
+#include "simd/rbf_kernels.h"
 
 namespace mien {
 
@@ -106,7 +108,7 @@ struct GroupRotations {
   uint32_t first_turn, turn_count;                // into RotationTable::turns
 };
 
-/// The turns of all groups are packed into blocks of kBlockLanes, one lane each, as simd/kernels.h
+/// The turns of all groups are packed into blocks of kBlockLanes, one lane each, as simd/rotation_kernels.h
 /// draws them: turns used by more LODs first, then those with more steps. A step is a column of the
 /// lane's group that turns the joint; a LOD uses the first steps of a lane.
 struct RotationTable {
@@ -154,7 +156,7 @@ struct RbfTable {
   LodLists lod_solvers;
 };
 
-/// One layer of a neural network, in the layout of simd/kernels.h.
+/// One layer of a neural network, in the layout of simd/dense_kernels.h.
 struct NetworkLayer {
   uint64_t first_value;  // into MlTable::values
   uint32_t first_bias;   // into MlTable::biases
@@ -234,7 +236,7 @@ struct TwistSwing {
   uint32_t first_output, output_count;  // into TwistSwingTable::outputs
 };
 
-/// The outputs of all set-ups are packed into blocks of kBlockLanes, one lane each, as simd/kernels.h
+/// The outputs of all set-ups are packed into blocks of kBlockLanes, one lane each, as simd/rotation_kernels.h
 /// draws them, those used by more LODs first. They read controls only, so their order matters only
 /// where two of them write the same joint.
 struct TwistSwingTable {

@@ -5,6 +5,7 @@
 #include "runtime/base/status.h"
 #include "runtime/deform/deformer.h"
 #include "runtime/load/dna/format/dna_view.h"
+#include "simd/isa.h"
 
 namespace mien {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Strips of block rows (RowStrip in simd/kernels.h): the columns that are in use as a rule, once more by rows.
+// Strips of block rows (RowStrip in simd/joint_kernels.h): the columns that are in use as a rule, once more by rows.
 #include <algorithm>
 
 #include "runtime/load/compile/joint_blocks.h"

@@ -7,6 +7,7 @@
 
 #include "runtime/base/bits.h"
 #include "runtime/load/compile/joint_blocks.h"
+#include "simd/kernels.h"
 
 namespace mien {
 namespace {

@@ -7,6 +7,7 @@
 #include "runtime/load/compile/compile_rig.h"
 #include "runtime/load/dna/format/ml_joint_system.h"
 #include "runtime/rig/work.h"
+#include "simd/lanes.h"
 
 namespace mien {
 namespace {

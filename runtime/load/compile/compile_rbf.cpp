@@ -8,6 +8,9 @@
 #include "runtime/base/bits.h"
 #include "runtime/load/compile/compile_rig.h"
 #include "runtime/rig/work.h"
+#include "simd/lanes.h"
+#include "simd/rbf_kernels.h"
+#include "simd/rotation_kernels.h"
 
 namespace mien {
 namespace {
@@ -16,7 +19,7 @@ namespace {
 // memory with the square of it and more, so a file must not ask for any number.
 constexpr uint32_t kMaxPoses = 1024;
 constexpr float kMaxBlend = 1e9f;  // of a twist or swing: squares of rotations must not overflow
-constexpr float kMaxScale = 1e9f;  // of a pose, as kernels.h asks
+constexpr float kMaxScale = 1e9f;  // of a pose, as RbfArgs asks
 
 enum Function : uint16_t { kGaussian, kExponential, kLinear, kCubic, kQuintic };
 

@@ -7,6 +7,8 @@
 #include "runtime/base/status.h"
 #include "runtime/load/dna/format/dna_view.h"
 #include "runtime/rig/rig.h"
+#include "simd/isa.h"
+#include "simd/joint_kernels.h"
 
 namespace mien {
 

@@ -5,6 +5,7 @@
 
 #include "runtime/base/half.h"
 #include "runtime/load/compile/plan_block_rows.h"
+#include "simd/lanes.h"
 
 namespace mien {
 namespace {

@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "runtime/load/compile/compile_deformer.h"
+#include "simd/lanes.h"
+#include "simd/pose_kernels.h"
 
 namespace mien {
 namespace {

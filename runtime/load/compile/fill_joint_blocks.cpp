@@ -4,6 +4,8 @@
 
 #include "runtime/base/bits.h"
 #include "runtime/load/compile/joint_blocks.h"
+#include "simd/compile_kernels.h"
+#include "simd/kernels.h"
 
 namespace mien {
 namespace {

@@ -5,6 +5,7 @@
 
 #include "runtime/base/vector.h"
 #include "runtime/load/compile/compile_deformer.h"
+#include "simd/deform_kernels.h"
 
 namespace mien {
 namespace {

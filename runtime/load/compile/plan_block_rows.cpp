@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "runtime/base/bits.h"
+#include "simd/kernels.h"
 
 namespace mien {
 namespace {
