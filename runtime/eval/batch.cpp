@@ -50,12 +50,12 @@ void place_batch(const Rig& rig, uint32_t capacity, uint32_t tasks, Placer& plac
     block_count += joints.blocks_before(k, joints.panel_count());
   }
   placer.array<Batch>(1);
-  batch.block_list.starts = placer.array<uint32_t>(size_t{block_row_count(joints)} + 1);
-  batch.block_list.raw_ends = placer.array<uint32_t>(block_row_count(joints));
-  batch.block_list.blocks = placer.array<InputBlock>(block_count);
-  batch.lane_order.turns = placer.array<uint32_t>(rig.rotations.turns.count);
-  batch.lane_order.twists = placer.array<uint32_t>(rig.twist_swing.outputs.count);
-  batch.ml_values = placer.array<float>(rig.ml.halves.count, kBlockAlignment);
+  batch.tables.block_list.starts = placer.array<uint32_t>(size_t{block_row_count(joints)} + 1);
+  batch.tables.block_list.raw_ends = placer.array<uint32_t>(block_row_count(joints));
+  batch.tables.block_list.blocks = placer.array<InputBlock>(block_count);
+  batch.tables.lane_order.turns = placer.array<uint32_t>(rig.rotations.turns.count);
+  batch.tables.lane_order.twists = placer.array<uint32_t>(rig.twist_swing.outputs.count);
+  batch.tables.ml_values = placer.array<float>(rig.ml.halves.count, kBlockAlignment);
   batch.order = placer.array<Instance*>(capacity);
   batch.lods = placer.array<uint32_t>(capacity);
   batch.first_of_packet = placer.array<uint32_t>(max_packets(rig, capacity, tasks) + 1);
@@ -155,12 +155,17 @@ Batch* create_batch(const Rig& rig, uint32_t capacity, uint32_t tasks, const All
   batch->block_size = size;
   rig.owners.fetch_add(1, std::memory_order_relaxed);
 
-  fill_block_list(rig, batch->block_list);
-  // Layers fill whole blocks.
-  const size_t values = rig.ml.halves.count / kBlockLanes * kBlockLanes;
-  rig.kernels->floats_from_halves(rig.ml.halves.data, values, batch->ml_values.data);
-  order_lanes(rig.rotations.turns, batch->lane_order.turns);
-  order_lanes(rig.twist_swing.outputs, batch->lane_order.twists);
+  BatchTables& tables = batch->tables;
+  fill_block_list(rig, tables.block_list);
+  if (rig.half_storage) {
+    // Layers fill whole blocks.
+    const size_t values = rig.ml.halves.count / kBlockLanes * kBlockLanes;
+    rig.kernels->floats_from_halves(rig.ml.halves.data, values, tables.ml_values.data);
+  } else {
+    tables.ml_values = rig.ml.values;
+  }
+  order_lanes(rig.rotations.turns, tables.lane_order.turns);
+  order_lanes(rig.twist_swing.outputs, tables.lane_order.twists);
   return batch;
 }
 
@@ -203,10 +208,9 @@ void evaluate_batch(Batch& batch, Instance* const* instances, const uint32_t* lo
     const Batch& b = *static_cast<const Batch*>(context);
     for (uint32_t c = index; c < b.packet_count; c += b.task_count) {
       const uint32_t first = b.first_of_packet[c], end = b.first_of_packet[c + 1];
-      evaluate_packet(
-          {*b.rig, b.lods[first], b.order.data + first, end - first, &b.block_list, &b.lane_order,
-           b.rig->half_storage ? b.ml_values.data : b.rig->ml.values.data, &b.tasks[index]},
-          b.stages);
+      evaluate_packet(InstancePacket::of_batch(*b.rig, b.lods[first], b.order.data + first,
+                                               end - first, b.tables, b.tasks[index]),
+                      b.stages);
     }
   };
   run_tasks(parallel, batch.task_count, task, &batch);

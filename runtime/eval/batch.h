@@ -16,9 +16,7 @@ struct Batch {
   Allocator allocator;
   size_t block_size = 0;
 
-  BlockList block_list;
-  LaneOrder lane_order;
-  Span<float> ml_values;  // the halves of the rig's networks as floats: no packet converts them
+  BatchTables tables;
   Span<PacketScratch> tasks;
 
   // Of the current evaluation.

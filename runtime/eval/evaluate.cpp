@@ -161,7 +161,7 @@ void evaluate_packet(const InstancePacket& packet, uint32_t stages) {
 
 void evaluate(const Rig& rig, Instance& instance, uint32_t lod, uint32_t stages) {
   Instance* const one = &instance;
-  evaluate_packet({rig, lod, &one, 1, nullptr, nullptr, nullptr, nullptr}, stages);
+  evaluate_packet(InstancePacket::of_one(rig, lod, &one), stages);
 }
 
 // Parts of a stage leave the rest of it as it was: the whole stage is stale afterwards. ------------

@@ -288,7 +288,7 @@ void evaluate_joints(const Rig& rig, Instance& instance, uint32_t lod) {
   begin_joints(rig, instance, lod);
   evaluate_stale_rows(rig, instance, lod);
   Instance* const one = &instance;
-  finish_joints({rig, lod, &one, 1, nullptr, nullptr, nullptr, nullptr});
+  finish_joints(InstancePacket::of_one(rig, lod, &one));
 }
 
 }  // namespace mien

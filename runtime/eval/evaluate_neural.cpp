@@ -103,7 +103,7 @@ const float* run_layers(const InstancePacket& those, const MlStep& step, const f
   for (uint32_t l = 0; l < step.layer_count; ++l) {
     const NetworkLayer& layer = rig.ml.layers[step.first_layer + l];
     auto args = layer_args<DenseBatchArgs>(rig, layer);
-    args.values = those.ml_values + layer.first_value;
+    args.values = those.tables->ml_values.data + layer.first_value;
     args.inputs = in;
     args.outputs = out;
     args.lane_count = those.count;

@@ -219,7 +219,7 @@ void turn_together(const InstancePacket& packet) {
   args.rotations = packet.scratch->rotations.data;
   args.lane_count = packet.count;
   write_rotations_together(packet, table.blocks_at_lod[packet.lod], table.turns,
-                           packet.lane_order->turns, [&](uint32_t first, uint32_t count) {
+                           packet.tables->lane_order.turns, [&](uint32_t first, uint32_t count) {
                              args.first = first;
                              args.count = count;
                              rig.kernels->quaternion_batch(args);
@@ -229,7 +229,7 @@ void turn_together(const InstancePacket& packet) {
 void twist_together(const InstancePacket& packet) {
   const TwistSwingTable& table = packet.rig.twist_swing;
   write_rotations_together(
-      packet, table.blocks_at_lod[packet.lod], table.outputs, packet.lane_order->twists,
+      packet, table.blocks_at_lod[packet.lod], table.outputs, packet.tables->lane_order.twists,
       [&](uint32_t first, uint32_t count) {
         packet.rig.kernels->twist_swing_batch(
             {table.inputs.data, table.lanes.data, packet.scratch->controls.data,
@@ -243,7 +243,7 @@ void turn_joints(const InstancePacket& packet) {
   const Rig& rig = packet.rig;
   const uint32_t groups = rig.joints.group_count;
   if (groups == 0) return;
-  const bool together = fills_lanes(packet) && !packet.lane_order->turns.empty();
+  const bool together = fills_lanes(packet) && !packet.tables->lane_order.turns.empty();
   if (together) turn_together(packet);
   for (uint32_t i = 0; i < packet.count; ++i) {
     if (!together) turn_groups(rig, *packet.instances[i], packet.lod, 0, groups);
@@ -252,7 +252,8 @@ void turn_joints(const InstancePacket& packet) {
 }
 
 void twist_joints(const InstancePacket& packet) {
-  if (fills_lanes(packet) && !packet.lane_order->twists.empty()) return twist_together(packet);
+  if (fills_lanes(packet) && !packet.tables->lane_order.twists.empty())
+    return twist_together(packet);
   const auto setups = static_cast<uint32_t>(packet.rig.twist_swing.setups.count);
   for (uint32_t i = 0; i < packet.count; ++i) {
     apply_twists_and_swings(packet.rig, *packet.instances[i], packet.lod, 0, setups);

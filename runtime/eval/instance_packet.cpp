@@ -47,7 +47,7 @@ SharedColumns find_shared_columns(const InstancePacket& packet) {
       shared.blocks += blocks;
       saved += blocks * (users * kFetched - kListed - kPass * passes);
     }
-    if (k != packet.block_list->raw_columns && k != joints.columns.count) continue;
+    if (k != packet.tables->block_list.raw_columns && k != joints.columns.count) continue;
     if (saved <= most) continue;
     most = saved;
     best = shared;
@@ -59,7 +59,7 @@ SharedColumns find_shared_columns(const InstancePacket& packet) {
 void list_shared_columns(const InstancePacket& packet, const SharedColumns& shared) {
   const JointMatrix& joints = packet.rig.joints;
   const uint32_t panels = joints.panels_at_lod[packet.lod];
-  const Span<uint32_t>& starts = packet.block_list->starts;
+  const Span<uint32_t>& starts = packet.tables->block_list.starts;
   uint32_t* ends = packet.scratch->ends.data;
   std::copy(starts.begin(), starts.end() - 1, ends);
   InputBlock* blocks = packet.scratch->blocks.data;
@@ -76,7 +76,7 @@ void list_shared_columns(const InstancePacket& packet, const SharedColumns& shar
 /// any.
 void evaluate_shared_rows(const InstancePacket& packet, const SharedColumns& shared) {
   const JointMatrix& joints = packet.rig.joints;
-  const BlockList& list = *packet.block_list;
+  const BlockList& list = packet.tables->block_list;
   const uint32_t panel_end = joints.panels_at_lod[packet.lod];
   // Unused blocks are summed as well, unless a list without them is much shorter.
   const bool listed = shared.blocks < shared.all / 2;

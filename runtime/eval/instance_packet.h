@@ -31,6 +31,13 @@ struct LaneOrder {
   Span<uint32_t> turns, twists;
 };
 
+/// What the packets of a batch read: made once from the rig.
+struct BatchTables {
+  BlockList block_list;
+  LaneOrder lane_order;
+  Span<float> ml_values;  // weights of networks, as floats also if the rig stores halves
+};
+
 /// Scratch memory of a packet.
 struct PacketScratch {
   Span<float> controls;        // [control][32]
@@ -51,10 +58,17 @@ struct InstancePacket {
   Instance* const* instances;  // distinct
   uint32_t count;              // up to kBatchLanes
   // Null in a single evaluation.
-  const BlockList* block_list;
-  const LaneOrder* lane_order;
-  const float* ml_values;  // weights of networks, floats in any storage
+  const BatchTables* tables;
   const PacketScratch* scratch;
+
+  static InstancePacket of_one(const Rig& rig, uint32_t lod, Instance* const* instance) {
+    return {rig, lod, instance, 1, nullptr, nullptr};
+  }
+  static InstancePacket of_batch(const Rig& rig, uint32_t lod, Instance* const* instances,
+                                 uint32_t count, const BatchTables& tables,
+                                 const PacketScratch& scratch) {
+    return {rig, lod, instances, count, &tables, &scratch};
+  }
 };
 
 /// Whether kernels with one lane per instance are worth it: an empty lane costs as much as a full one.
