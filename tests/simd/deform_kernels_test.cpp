@@ -8,7 +8,7 @@
 #include <iterator>
 #include <vector>
 
-#include "simd/kernels.h"
+#include "tests/simd/present_kernels.h"
 
 namespace mien {
 namespace {
@@ -61,13 +61,6 @@ class Bits {
   uint64_t hash_ = 14695981039346656037u;
 };
 
-std::vector<const KernelTable*> present() {
-  std::vector<const KernelTable*> tables;
-  for (uint32_t i = 1; i < kIsaCount; ++i) {
-    if (const KernelTable* table = kernels_for(static_cast<Isa>(i))) tables.push_back(table);
-  }
-  return tables;
-}
 bool fuses(const KernelTable* table) {
   return table->isa != Isa::kScalar && table->isa != Isa::kSse2;
 }
@@ -120,7 +113,7 @@ uint64_t joint_bits(const KernelTable& kernels, uint32_t seed, bool quaternions)
 }
 
 TEST(KernelsDeform, JointsHaveTheSameBitsEverywhere) {
-  for (const KernelTable* kernels : present()) {
+  for (const KernelTable* kernels : present_kernels()) {
     SCOPED_TRACE(kernels->name);
     EXPECT_EQ(joint_bits(*kernels, 1, false), 7918170621521290643u);
     EXPECT_EQ(joint_bits(*kernels, 2, true), 6579404113650687698u);
@@ -222,7 +215,7 @@ void expect_near(const std::vector<float>& a, const std::vector<float>& b, float
 }
 
 TEST(KernelsDeform, MeshesHaveTheSameBitsWithinAFamily) {
-  for (const KernelTable* kernels : present()) {
+  for (const KernelTable* kernels : present_kernels()) {
     SCOPED_TRACE(kernels->name);
     MeshPart part(3);
     Bits skin, normals, targets;
@@ -245,7 +238,7 @@ TEST(KernelsDeform, MeshesHaveTheSameBitsWithinAFamily) {
 // Whatever the count, positions beyond it are left alone and those before it come out as ever.
 TEST(KernelsDeform, AnyCount) {
   const KernelTable& scalar = *kernels_for(Isa::kScalar);
-  for (const KernelTable* kernels : present()) {
+  for (const KernelTable* kernels : present_kernels()) {
     SCOPED_TRACE(kernels->name);
     MeshPart part(4);
     for (uint32_t count = 0; count <= kPositions; ++count) {
@@ -277,7 +270,7 @@ TEST(KernelsDeform, AnyNumberOfVerticesOfAPosition) {
   const size_t vertices = part.vertices.size();
   Aligned normals(vertices * 4, &part.numbers), areas(kFaces * 4, &part.numbers);
   for (int i = 0; i < 3; ++i) normals.data[40 + i] = 0;  // without a direction
-  for (const KernelTable* kernels : present()) {
+  for (const KernelTable* kernels : present_kernels()) {
     SCOPED_TRACE(kernels->name);
     std::vector<float> points(kPositions * 3), out[2], alone[2];
     for (std::vector<float>* made : {out, alone}) {

@@ -16,17 +16,10 @@
 #include <vector>
 
 #include "simd/cpu_features.h"
+#include "tests/simd/present_kernels.h"
 
 namespace mien {
 namespace {
-
-std::vector<const KernelTable*> present_kernels() {
-  std::vector<const KernelTable*> tables;
-  for (uint32_t i = 1; i < kIsaCount; ++i) {
-    if (const KernelTable* table = kernels_for(static_cast<Isa>(i))) tables.push_back(table);
-  }
-  return tables;
-}
 
 bool is_fused(Isa isa) { return isa == Isa::kAvx2 || isa == Isa::kAvx512 || isa == Isa::kNeon; }
 

@@ -11,7 +11,7 @@
 
 #include "author/base/random.h"
 #include "runtime/base/half.h"
-#include "simd/kernels.h"
+#include "tests/simd/present_kernels.h"
 
 namespace mien {
 namespace {
@@ -25,14 +25,6 @@ struct Aligned {
   std::vector<float> storage;
   float* data;
 };
-
-std::vector<const KernelTable*> present() {
-  std::vector<const KernelTable*> tables;
-  for (uint32_t isa = 1; isa < kIsaCount; ++isa) {
-    if (const KernelTable* table = kernels_for(static_cast<Isa>(isa))) tables.push_back(table);
-  }
-  return tables;
-}
 
 double activation(uint8_t function, double v, double alpha) {
   switch (function) {
@@ -59,7 +51,7 @@ TEST(DenseLayer, EveryActivationAndSize) {
         for (uint32_t r = 0; r < rows; ++r) {
           biases.data[r] = static_cast<float>(random.between(-20, 20));
         }
-        for (const KernelTable* table : present()) {
+        for (const KernelTable* table : present_kernels()) {
           table->dense_layer({values.data, biases.data, inputs.data(), outputs.data, 0.1f, columns,
                               row_count, function, false, false, false});
           for (uint32_t r = 0; r < row_count; ++r) {
@@ -86,7 +78,7 @@ TEST(DenseLayer, WhatOverflowsSaturates) {
   Aligned values(kBlockLanes), biases(kBlockLanes), outputs(kBlockLanes);
   for (uint32_t r = 0; r < kBlockLanes; ++r) values.data[r] = r % 2 ? 3e38f : -3e38f;
   const float input = 3e38f;
-  for (const KernelTable* table : present()) {
+  for (const KernelTable* table : present_kernels()) {
     for (uint8_t function = 0; function <= 4; ++function) {
       table->dense_layer({values.data, biases.data, &input, outputs.data, 0.5f, 1, kBlockLanes,
                           function, false, false, false});
@@ -159,7 +151,7 @@ void expect_same_bits(const KernelTable* table, const RandomLayer& layer, uint32
 // Every function, floats and halves, fast and portable, any number of lanes.
 TEST(DenseBatch, HasTheBitsOfOneByOne) {
   Random random = Random::from_seed(11, 9);
-  for (const KernelTable* table : present()) {
+  for (const KernelTable* table : present_kernels()) {
     for (uint32_t round = 0; round < 120; ++round) {
       expect_same_bits(table, {random.below(70), 1 + random.below(50), 0.0}, round, random);
     }
@@ -169,7 +161,7 @@ TEST(DenseBatch, HasTheBitsOfOneByOne) {
 // Few zeros, most, nothing else; more columns than fit a word, and more than zeros are looked for in.
 TEST(DenseLayer, SkipsZerosWithTheSameBits) {
   Random random = Random::from_seed(11, 10);
-  for (const KernelTable* table : present()) {
+  for (const KernelTable* table : present_kernels()) {
     for (uint32_t round = 0; round < 120; ++round) {
       const uint32_t most = round % 8 == 0 ? 600 : round % 4 == 0 ? 200 : 70;
       const double zeros[] = {0.1, 0.75, 1.0};
@@ -190,7 +182,7 @@ TEST(DenseLayer, LeavesOutTheColumnsOfZeros) {
           c % 5 == 0 ? 1.0f : std::numeric_limits<float>::quiet_NaN();
     }
   }
-  for (const KernelTable* table : present()) {
+  for (const KernelTable* table : present_kernels()) {
     table->dense_layer({values.data, biases.data, inputs.data, outputs.data, 0, kColumns,
                         kBlockLanes, 0, false, false, true});
     for (uint32_t r = 0; r < kBlockLanes; ++r) EXPECT_EQ(outputs.data[r], 14.0f) << table->name;
@@ -203,7 +195,7 @@ TEST(GatherInputs, TakesEachFromItsPlace) {
   constexpr uint32_t kFrom = 70;
   float from[kFrom];
   for (uint32_t i = 0; i < kFrom; ++i) from[i] = static_cast<float>(i) + 0.5f;
-  for (const KernelTable* table : present()) {
+  for (const KernelTable* table : present_kernels()) {
     for (uint32_t count = 0; count <= 65; ++count) {
       std::vector<uint16_t> at(count);
       for (uint32_t i = 0; i < count; ++i) at[i] = static_cast<uint16_t>((i * 37 + 69) % kFrom);
@@ -231,7 +223,7 @@ TEST(DenseLayer, EveryFiniteHalfIsReadExactly) {
   AlignedHalves halves(biases.data, count);
   std::copy(all.begin(), all.end(), halves.data);
   const float one = 1;
-  for (const KernelTable* table : present()) {
+  for (const KernelTable* table : present_kernels()) {
     table->dense_layer(
         {halves.data, biases.data, &one, outputs.data, 0, 1, count, 0, true, false, false});
     table->floats_from_halves(halves.data, count, floats.data);
@@ -257,7 +249,7 @@ TEST(DenseLayer, HalvesGiveWhatTheirFloatsGive) {
       for (size_t i = 0; i < size_t{rows} * columns; ++i) {
         values.data[i] = float_from_half(halves.data[i]);
       }
-      for (const KernelTable* table : present()) {
+      for (const KernelTable* table : present_kernels()) {
         DenseLayerArgs args = {values.data, biases.data, inputs.data(), expected.data,
                                0,           columns,     row_count,     3,
                                false,       false,       false};
@@ -307,7 +299,7 @@ TEST(QuaternionJointsKernel, ProductOfTheBlendsOfEachLane) {
       }
       const AlignedHalves halves(values.data, steps * kFloats);
       std::vector<float> reference;  // the bits of every instruction set
-      for (const KernelTable* table : present()) {
+      for (const KernelTable* table : present_kernels()) {
         QuaternionJointArgs args = {halves.data,        columns.data(),  first_steps.data(),
                                     step_counts.data(), lane_steps.data, controls.data(),
                                     rotations.data,     blocks,          true};
@@ -463,7 +455,7 @@ TEST(RbfSolvers, EveryDistanceFunctionAndCountToTheBit) {
             const bool divides = sum > 1 || (solver.plan.always_normalize && sum > 0);
 
             std::vector<float> first;
-            for (const KernelTable* table : present()) {
+            for (const KernelTable* table : present_kernels()) {
               SCOPED_TRACE(table->name);
               solver.run(*table);
               EXPECT_EQ(solver.weights.data[0], 0.0f) << "what is not a number weighs nothing";
@@ -559,7 +551,7 @@ TEST(RbfSolvers, BatchHasTheBitsOfOneByOne) {
       for (uint32_t c = 0; c < kControls; ++c) row[c] = static_cast<float>(random.between(-1, 1));
       if (random.chance(0.3)) std::fill(row.begin(), row.begin() + kControls, 0.0f);
     }
-    for (const KernelTable* table : present()) {
+    for (const KernelTable* table : present_kernels()) {
       SCOPED_TRACE(table->name);
       std::vector<std::vector<float>> alone = controls, results_alone;
       for (auto& row : alone) {
@@ -642,7 +634,7 @@ TEST(RbfSolvers, LanesWithoutAPoseWeighNothing) {
       solver.set_function(0);
       solver.plan.always_normalize = true;
       for (uint32_t p = 0; p < 3; ++p) solver.scales.data[p] = solver.factors.data[p] = 1;
-      for (const KernelTable* table : present()) {
+      for (const KernelTable* table : present_kernels()) {
         solver.run(*table);
         float sum = 0;
         for (uint32_t p = 0; p < 3; ++p) sum += solver.results.data[p];
@@ -661,7 +653,7 @@ TEST(RbfSolvers, WeightsWithinTheirBound) {
   for (int round = 0; round < 200; ++round) {
     KernelSolver solver(random, round % 2, 4, 40);
     solver.set_function(static_cast<uint8_t>(round / 2 % 5));
-    for (const KernelTable* table : present()) {
+    for (const KernelTable* table : present_kernels()) {
       solver.run(*table);
       for (uint32_t p = 0; p < 40; ++p) {
         ASSERT_NEAR(solver.weights.data[p], solver.model_weight(p), 3e-6) << table->name;

@@ -4,7 +4,7 @@
 
 #include <stddef.h>
 
-#include "simd/kernels.h"
+#include "simd/isa.h"
 
 namespace mien {
 

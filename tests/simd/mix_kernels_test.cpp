@@ -11,7 +11,7 @@
 
 #include "author/base/random.h"
 #include "runtime/mix/fade.h"
-#include "simd/kernels.h"
+#include "tests/simd/present_kernels.h"
 
 namespace mien {
 namespace {
@@ -30,20 +30,12 @@ struct alignas(64) Row {
   bool same_bits(const Row& other) const { return memcmp(of, other.of, sizeof(of)) == 0; }
 };
 
-std::vector<const KernelTable*> present() {
-  std::vector<const KernelTable*> tables;
-  for (uint32_t isa = 1; isa < kIsaCount; ++isa) {
-    if (const KernelTable* table = kernels_for(static_cast<Isa>(isa))) tables.push_back(table);
-  }
-  return tables;
-}
-
 /// Calls `run(kernels, row)` on every instruction set; the rows have to be the same.
 template <class Run>
 Row on_all(const Row& row, const Run& run) {
   Row first;
   const KernelTable* reference = nullptr;
-  for (const KernelTable* kernels : present()) {
+  for (const KernelTable* kernels : present_kernels()) {
     Row own = row;
     run(*kernels, own);
     if (!reference) {

@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "simd/kernels.h"
+#include "tests/simd/present_kernels.h"
 
 namespace mien {
 namespace {
@@ -17,14 +17,6 @@ namespace {
 constexpr uint32_t kVertices = 23, kPositions = 9;
 constexpr uint32_t kStride = 44, kPositionAt = 4, kNormalAt = 20, kTangentAt = 28;
 constexpr uint8_t kUntouched = 0xA5;
-
-std::vector<const KernelTable*> present() {
-  std::vector<const KernelTable*> tables;
-  for (uint32_t i = 1; i < kIsaCount; ++i) {
-    if (const KernelTable* table = kernels_for(static_cast<Isa>(i))) tables.push_back(table);
-  }
-  return tables;
-}
 
 struct Vertices {
   std::vector<float> positions, normals, tangents;
@@ -136,7 +128,7 @@ size_t size_of(uint32_t format) {
 
 TEST(VertexKernels, ValuesOfEveryFormat) {
   const Vertices vertices(1);
-  for (const KernelTable* kernels : present()) {
+  for (const KernelTable* kernels : present_kernels()) {
     SCOPED_TRACE(kernels->name);
     for (uint32_t position_format : {0u, 1u}) {
       for (uint32_t format = 1; format < 4; ++format) {
@@ -169,7 +161,7 @@ TEST(VertexKernels, ValuesOfEveryFormat) {
 
 TEST(VertexKernels, NormalsAsFloats) {
   const Vertices vertices(2);
-  for (const KernelTable* kernels : present()) {
+  for (const KernelTable* kernels : present_kernels()) {
     for (uint32_t format : {0u, 1u}) {
       // Not beside a tangent: their places overlap.
       const std::vector<uint8_t> bytes = vertices.written(*kernels, ~0u, format, ~0u);
@@ -184,7 +176,7 @@ TEST(VertexKernels, NormalsAsFloats) {
 
 TEST(VertexKernels, ATangentWithoutDirectionBecomesAPerpendicular) {
   const Vertices vertices(3);
-  for (const KernelTable* kernels : present()) {
+  for (const KernelTable* kernels : present_kernels()) {
     const std::vector<uint8_t> bytes = vertices.written(*kernels, ~0u, ~0u, 1);
     for (uint32_t v : {4u, 7u, 9u}) {
       const std::vector<double> t = decode(bytes.data() + v * kStride + kTangentAt, 1);
@@ -203,7 +195,7 @@ TEST(VertexKernels, EveryInstructionSetWritesTheSameBytes) {
   const KernelTable& scalar = *kernels_for(Isa::kScalar);
   for (uint32_t seed = 0; seed < 20; ++seed) {
     const Vertices vertices(seed);
-    for (const KernelTable* kernels : present()) {
+    for (const KernelTable* kernels : present_kernels()) {
       for (uint32_t format : {1u, 2u, 3u}) {
         for (uint32_t count : {0u, 1u, 2u, 3u, 4u, 5u, kVertices}) {
           EXPECT_EQ(vertices.written(*kernels, 0, 2, format, count),
@@ -217,7 +209,7 @@ TEST(VertexKernels, EveryInstructionSetWritesTheSameBytes) {
 
 TEST(VertexKernels, WritesNothingBetweenAndAfterVertices) {
   const Vertices vertices(4);
-  for (const KernelTable* kernels : present()) {
+  for (const KernelTable* kernels : present_kernels()) {
     for (uint32_t position_format : {0u, 1u, ~0u}) {
       for (uint32_t normal_format : {2u, 3u, ~0u}) {
         for (uint32_t tangent_format : {1u, 2u, 3u, ~0u}) {
@@ -248,7 +240,7 @@ TEST(VertexKernels, RoundingOfSnorm) {
   const float inputs[] = {0,        -0.0f,     1,   -1,         1.5f,       -2,
                           INFINITY, -INFINITY, NAN, 0.5f / 511, 1.5f / 511, -2.5f / 511};
   const int expected[] = {0, 0, 511, -511, 511, -511, 511, -511, -511, 0, 2, -2};
-  for (const KernelTable* kernels : present()) {
+  for (const KernelTable* kernels : present_kernels()) {
     Vertices vertices(5);
     for (uint32_t i = 0; i < 12; ++i) {
       vertices.normals[i * 3] = inputs[i];
