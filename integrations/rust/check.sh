@@ -50,6 +50,15 @@ else
     run without-library cargo test --quiet --locked --test aliasing
 fi
 
+# Safe code that attacks: with the address sanitizer, where this compiler has one.
+host=$(rustc -vV | sed -n 's/^host: //p')
+if cargo +nightly --version >/dev/null 2>&1; then
+  RUSTFLAGS="-Zsanitizer=address -Cunsafe-allow-abi-mismatch=sanitizer" ASAN_OPTIONS=allocator_may_return_null=1 \
+    run sanitized cargo +nightly test --quiet --locked --target "$host" -p mien --test attack
+else
+  echo "NOT TESTED: attacks on the Rust crates with a sanitizer; there is no nightly compiler"
+fi
+
 # The example prints what the one in C prints, whichever way it is linked.
 expected=$("$build/tests/example_c")
 rm -rf "$build/rust/installed"

@@ -140,5 +140,56 @@ pub fn version() -> (u32, u32, u32) {
 /// ```compile_fail,E0133
 /// let dna = mien::OpenOptions::new().map("head.dna");
 /// ```
+///
+/// Work that is done after the call, or a solver's pose that is kept:
+///
+/// ```compile_fail,E0521
+/// fn evaluate(batch: &mut mien::Batch, face: &mut mien::Instance) {
+///     let all = mien::Stages::ALL;
+///     batch.evaluate_each_on([(face, 0)], all, |_, work| drop(std::thread::spawn(work))).unwrap();
+/// }
+/// ```
+///
+/// ```compile_fail,E0521
+/// let kept = std::sync::Mutex::new(Vec::<&'static mut [f32]>::new());
+/// mien::CustomSolver::new(&[0], move |pose, _| kept.lock().unwrap().push(pose.state));
+/// ```
+///
+/// Solvers, allocators and work of one thread, on others:
+///
+/// ```compile_fail,E0277
+/// let count = std::rc::Rc::new(std::cell::Cell::new(0));
+/// mien::CustomSolver::new(&[0], move |_, _| count.set(count.get() + 1));
+/// ```
+///
+/// ```compile_fail,E0277
+/// let count = std::cell::Cell::new(0);
+/// mien::CustomSolver::new(&[0], move |_, _| count.set(count.get() + 1));
+/// ```
+///
+/// Characters on two threads at the same time, and steps of one character:
+///
+/// ```compile_fail,E0499
+/// fn both(face: &mut mien::Instance) {
+///     std::thread::scope(|scope| {
+///         scope.spawn(|| face.evaluate(0).unwrap());
+///         scope.spawn(|| face.evaluate(1).unwrap());
+///     });
+/// }
+/// ```
+///
+/// ```compile_fail,E0499
+/// fn twice(batch: &mut mien::Batch, face: &mut mien::Instance) {
+///     batch.evaluate([&mut *face, &mut *face], 0).unwrap();
+/// }
+/// ```
+///
+/// ```compile_fail,E0502
+/// fn row(mixer: &mut mien::Mixer) {
+///     let row = mixer.row();
+///     mixer.step(1, None).unwrap();
+///     println!("{}", row[0]);
+/// }
+/// ```
 #[cfg(doctest)]
 mod misuse {}

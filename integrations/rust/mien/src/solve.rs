@@ -258,7 +258,15 @@ unsafe extern "C" fn solve(user: *mut c_void, call: *const sys::MienSolverCall) 
         }
     });
     if let Err(panic) = catch_unwind(run) {
-        PANIC.with(|place| *place.borrow_mut() = Some(panic));
+        // The first one is what the step raises. Others are not dropped here, as that may panic.
+        let later = PANIC.with(|place| match &mut *place.borrow_mut() {
+            Some(_) => Some(panic),
+            empty => {
+                *empty = Some(panic);
+                None
+            }
+        });
+        std::mem::forget(later);
     }
 }
 
