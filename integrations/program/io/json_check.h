@@ -65,6 +65,20 @@ class JsonCheck : public nlohmann::json_sax<Json> {
   std::vector<std::set<std::string>> keys_;  // of the objects around the current position
 };
 
+/// Members of an object in the order of the text. nlohmann::ordered_map looks for each new key among the
+/// others, which takes their square; JsonCheck has refused keys that come twice.
+template <class Key, class T, class Less = std::less<Key>,
+          class Allocator = std::allocator<std::pair<const Key, T>>>
+struct MemberList : nlohmann::ordered_map<Key, T, Less, Allocator> {
+  using Base = nlohmann::ordered_map<Key, T, Less, Allocator>;
+  using Base::Base;
+
+  T& operator[](const Key& key) {
+    this->emplace_back(key, T());
+    return this->back().second;
+  }
+};
+
 /// The document, or exit code 2: "`what`, `shown`, byte 17: why; `example`".
 template <class Json>
 Json parse_json(std::string_view text, const char* what, const std::string& shown,

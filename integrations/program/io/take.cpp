@@ -85,9 +85,11 @@ void resample(Take& take, const Rate& rate) {
   const std::vector<double>& seconds = take.times.seconds;
   const size_t channels = take.names.size();
   const double span = seconds.back() - seconds.front();
-  if (span * rate.hertz() * static_cast<double>(channels + 1) > 1e9) {
+  // A value has two bytes or more.
+  const size_t most = most_values(2 * take.values.size());
+  if (span * rate.hertz() * static_cast<double>(channels + 1) > static_cast<double>(most)) {
     fail(kInvalid, "cannot build clip", take.shown,
-         "its times are so far apart that there would be a billion values",
+         "its times are so far apart that there would be over " + std::to_string(most) + " values",
          "check the times, or give a lower --rate");
   }
   // The last row counts if it is at a frame, but for the rounding of times.

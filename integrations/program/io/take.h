@@ -36,6 +36,10 @@ struct Take {
 /// CSV or JSON, told by the content. Exit code 2 with the row and the column of what is wrong.
 Take parse_take(std::string_view text, const std::string& shown);
 
+/// Values that a take may have if its file has so many bytes: frames may leave names out, and rows may be far
+/// apart, so a few bytes could ask for any number.
+inline size_t most_values(size_t bytes) { return (size_t{1} << 22) + 8 * bytes; }
+
 // The two, which parse_take() chooses from.
 Take parse_csv_take(std::string_view text, const std::string& shown);
 Take parse_json_take(std::string_view text, const std::string& shown);

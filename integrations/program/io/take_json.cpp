@@ -18,8 +18,8 @@ namespace mien::cli {
 namespace {
 
 // Numbers are parsed as floats at once, so that none is rounded twice; objects keep their order.
-using json = nlohmann::basic_json<nlohmann::ordered_map, std::vector, std::string, bool, int64_t,
-                                  uint64_t, float>;
+using json =
+    nlohmann::basic_json<MemberList, std::vector, std::string, bool, int64_t, uint64_t, float>;
 
 constexpr const char* kCannot = "cannot build clip";
 constexpr const char* kExample = "give one JSON object: {\"frames\": [{\"raw\": {NAME: number}}]}";
@@ -35,10 +35,19 @@ struct Reader {
   Take take;
   std::unordered_map<std::string, size_t> channels;
   size_t listed = 0;  // channels of the list "controls"
+  size_t frames = 0, most_values = 0;
 
   size_t channel(const std::string& name) {
     const auto [found, is_new] = channels.try_emplace(name, take.names.size());
-    if (is_new) take.names.push_back(name);
+    if (!is_new) return found->second;
+    take.names.push_back(name);
+    // Frames need not list all names, but each has a value for all.
+    if (take.names.size() > most_values / frames) {
+      fail(kInvalid, kCannot, take.shown,
+           "over " + std::to_string(most_values) + " values: " + std::to_string(frames) +
+               " frames of " + std::to_string(take.names.size()) + " names or more",
+           "make several clips, of fewer names or frames");
+    }
     return found->second;
   }
 };
@@ -194,6 +203,8 @@ Take parse_json_take(std::string_view text, const std::string& shown) {
       document["frames"].empty()) {
     fail(kInvalid, kCannot, shown, "there is no list \"frames\" with a frame", kExample);
   }
+  reader.frames = document["frames"].size();
+  reader.most_values = most_values(text.size());
   for (const auto& [key, value] : document.items()) {
     if (key == "rate") {
       take.rate = read_rate(value, shown + ", rate");

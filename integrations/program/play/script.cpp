@@ -14,11 +14,13 @@ namespace mien::cli {
 
 namespace {
 
-using json = nlohmann::ordered_json;
+// Objects keep their order.
+using json = nlohmann::basic_json<MemberList>;
 using Words = std::vector<std::string>;
 
 constexpr const char* kCannot = "cannot play scene";
 constexpr double kLongestSeconds = 24 * 3600;
+constexpr size_t kLongestName = 255;  // of layers and reactions: each event repeats one
 
 const Words kGroups = {"base", "speech", "emotion", "reaction", "life"};
 const Words kModes = {"override", "add", "screen", "max", "scale"};
@@ -77,6 +79,11 @@ struct Node {
   std::string text() const {
     if (!value.is_string()) not_a("a string");
     return value.get<std::string>();
+  }
+  std::string name() const {
+    std::string found = text();
+    if (found.size() > kLongestName) wrong("the name is longer than 255 bytes", "shorten it");
+    return found;
   }
   uint32_t word(const Words& words) const {
     const std::string found = text();
@@ -144,7 +151,7 @@ void read_generator(const Node& source, LayerScript& layer) {
 LayerScript read_layer(const Node& node) {
   node.require_object({"name", "group", "mode", "weight", "mask", "source", "after_guards"});
   LayerScript layer;
-  layer.name = node.at("name").text();
+  layer.name = node.at("name").name();
   if (node.has("group")) layer.group = node.at("group").word(kGroups);
   if (node.has("mode")) layer.mode = node.at("mode").word(kModes);
   if (node.has("weight")) {
@@ -316,7 +323,7 @@ Script parse_script(const std::string& text, const std::string& shown, bool live
   read_list(root, "reactions", 16, script.reactions, [](const Node& node) {
     node.require_object({"name", "preset"});
     node.at("preset").word({"glare"});
-    return node.at("name").text();
+    return node.at("name").name();
   });
   refuse_same_names(root, "reactions", script.reactions);
   read_list(root, "events", 1000000, script.events,
