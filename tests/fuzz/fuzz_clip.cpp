@@ -132,9 +132,40 @@ void bind(const uint8_t* data, size_t size) {
   release_binding(binding);
 }
 
-void use_by_handle(const uint8_t* data, size_t size) {
+MienClipBinding* bind_by_handle(const MienClip* clip) {
+  MienMatrixEntry entry = {};
+  entry.channel = {"x", 1};
+  entry.control = {"CTRL_jaw.ty", 11};
+  entry.weight = 0.5f;
+  MienClipBindingDesc desc = mien_clip_binding_desc_default();
+  desc.matrix = &entry;
+  desc.matrix_count = 1;
+  MienClipBinding* binding = nullptr;
+  if (mien_clip_binding_create(clip, rig, &desc, &binding, nullptr) != MIEN_OK) abort();
+  return binding;
+}
+
+/// Applies the binding to a row of the clip. Returns how many controls it drives.
+size_t apply_by_handle(const MienClipBinding* binding, const MienFloatView& values) {
+  MienClipBindingInfo info = mien_clip_binding_info_default();
+  if (mien_clip_binding_info(binding, &info) != MIEN_OK) abort();
+  std::vector<float> raw(info.raw_control_count);
+  if (mien_clip_binding_apply(binding, values.data, values.count, raw.data(), raw.size()) !=
+      MIEN_OK) {
+    abort();
+  }
+  // A row of another size is refused.
+  if (mien_clip_binding_apply(binding, values.data, values.count + 1, raw.data(), raw.size()) ==
+      MIEN_OK) {
+    abort();
+  }
+  return info.controls.count;
+}
+
+/// Controls that the clip drives.
+size_t use_by_handle(const uint8_t* data, size_t size) {
   MienClip* clip = nullptr;
-  if (mien_clip_open_memory(data, size, nullptr, &clip, nullptr) != MIEN_OK) return;
+  if (mien_clip_open_memory(data, size, nullptr, &clip, nullptr) != MIEN_OK) return 0;
   MienClipInfo info = mien_clip_info_default();
   if (mien_clip_info(clip, &info) != MIEN_OK) abort();
   const uint32_t count = std::min(info.frame_count, 100u);
@@ -147,6 +178,7 @@ void use_by_handle(const uint8_t* data, size_t size) {
   }
   MienClipPlayer* player = nullptr;
   if (mien_clip_player_create(clip, nullptr, &player, nullptr) != MIEN_OK) abort();
+  MienClipBinding* const binding = bind_by_handle(clip);
   mien_clip_close(clip);
   MienClipEvent event;
   uint32_t found = 1;
@@ -157,7 +189,10 @@ void use_by_handle(const uint8_t* data, size_t size) {
   }
   if (mien_clip_player_sample(player, &values) != MIEN_OK) abort();
   if (values.count != info.channel_count) abort();
+  const size_t driven = apply_by_handle(binding, values);
+  mien_clip_binding_destroy(binding);
   mien_clip_player_destroy(player);
+  return driven;
 }
 
 using Rows = std::vector<float>;
@@ -241,6 +276,9 @@ extern "C" int LLVMFuzzerInitialize(int*, char***) {
     for (uint32_t frames : {1u, 2u, 65u, 129u}) {
       add_seed(kind, frames, kind == 1, kind == 2 ? kDefaultSnap : kNoSnap);
     }
+  }
+  for (const Bytes& seed : seeds()) {
+    if (use_by_handle(seed.data(), seed.size()) == 0) abort();  // bindings would not be tried
   }
   return 0;
 }
