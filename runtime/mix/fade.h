@@ -27,6 +27,10 @@ struct Quintic {
   float rate;  // T / duration, 1 or more
 };
 
+struct TickRange {
+  int64_t begin = 0, end = 0;
+};
+
 /// `p` is the velocity times T. If a coefficient is not finite, the offset is zero.
 inline Quintic quintic_from(float d, float p) {
   float rate = 1.0f;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/mix/generator.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "runtime/base/vector.h"
@@ -11,7 +12,7 @@ namespace {
 
 constexpr int64_t kMillisecond = kTicksPerSecond / 1000;
 constexpr int64_t kBlinkClose = 75 * kMillisecond, kBlinkHold = 25 * kMillisecond;
-constexpr int64_t kBlinkOpen = 150 * kMillisecond, kBlinkOnset = 10 * kMillisecond;
+constexpr int64_t kBlinkOnset = 10 * kMillisecond;
 constexpr int64_t kBlinkGap = kTicksPerSecond / 2;
 
 /// 0 ... 1 (SplitMix64)
@@ -41,7 +42,7 @@ int64_t interval(const LayerDesc& layer, uint64_t seed, uint32_t stream, uint32_
 }
 
 void blink(const LayerDesc& layer, uint64_t seed, uint32_t stream, int64_t now, int64_t shift,
-           const float* row, GeneratorState& state, float* out) {
+           TickRange held, const float* row, GeneratorState& state, float* out) {
   if (state.next == 0) state.next = interval(layer, seed, stream, 0);
   if (now < state.next && shift != kNoShift && shift < state.next) {
     const int64_t last = state.next - interval(layer, seed, stream, state.index);
@@ -51,6 +52,9 @@ void blink(const LayerDesc& layer, uint64_t seed, uint32_t stream, int64_t now, 
   if (now < state.next && row[layer.curves[0]] > kBlinkSeen) {
     state.next = now + interval(layer, seed, stream, ++state.index);
   }
+  // While it is held, it goes on to where it would open and waits there.
+  const int64_t opens = state.next + kBlinkClose + kBlinkHold;
+  state.next += std::max(held.end - std::max(held.begin, opens), int64_t{0});
   while (now >= state.next + kWhole) {
     state.next += interval(layer, seed, stream, ++state.index);
   }
@@ -69,11 +73,11 @@ void blink(const LayerDesc& layer, uint64_t seed, uint32_t stream, int64_t now, 
 }  // namespace
 
 void generate(const LayerDesc& layer, uint64_t seed, uint32_t stream, int64_t now, int64_t shift,
-              const float* row, GeneratorState& state, float* out) {
+              TickRange held, const float* row, GeneratorState& state, float* out) {
   if (layer.curves.empty()) return;
   switch (layer.generator) {
     case Generator::kGaze: break;  // generate_gaze()
-    case Generator::kBlink: blink(layer, seed, stream, now, shift, row, state, out); break;
+    case Generator::kBlink: blink(layer, seed, stream, now, shift, held, row, state, out); break;
     case Generator::kBreath: {
       const int64_t in = layer.period * 2 / 5, t = now % layer.period;
       const float breath = smooth_at(t, in) - smooth_at(t - in, layer.period - in);

@@ -3,6 +3,7 @@
 // of the seed and a counter, so they do not depend on other events or on how time is divided into steps.
 #pragma once
 
+#include "runtime/mix/fade.h"
 #include "runtime/mix/mix.h"
 
 namespace mien {
@@ -23,8 +24,11 @@ struct GeneratorState {
 /// kNoise: smooth between -1 and 1; each curve has a new random number every period.
 /// `shift` is when the eyes last began a large turn (GazeState::large_shift). A blink begins with it if
 /// the last one began 0.5 s before or earlier.
+/// `held`: a blink does not open in this part of the last step, because a reaction is closing the lids.
 void generate(const LayerDesc& layer, uint64_t seed, uint32_t stream, int64_t now, int64_t shift,
-              const float* row, GeneratorState& state, float* out);
+              TickRange held, const float* row, GeneratorState& state, float* out);
+
+constexpr int64_t kBlinkOpen = kTicksPerSecond * 150 / 1000;
 
 constexpr float kBlinkSeen = 0.6f;
 

@@ -390,6 +390,28 @@ void place_reactions(Placer& placer, Mix& mix) {
   });
 }
 
+/// Which strokes close what blinks close.
+void place_lids(Placer& placer, Mix& mix) {
+  mix.closes_lids = placer.array<uint8_t>(mix.stroke_count);
+  if (placer.measuring()) return;
+  uint64_t blinks[kMaxCurves / 64] = {};
+  for (const LayerDesc& layer : mix.layers) {
+    if (layer.source != LayerSource::kGenerator || layer.generator != Generator::kBlink) continue;
+    for (uint16_t curve : layer.curves) blinks[curve / 64] |= uint64_t{1} << curve % 64;
+  }
+  uint8_t* out = mix.closes_lids.data;
+  for (const ReactionDesc& reaction : mix.reactions) {
+    for (const Stroke& stroke : reaction.strokes) {
+      const PoseDesc& pose = mix.poses[stroke.pose];
+      for (size_t k = 0; k < pose.curves.count; ++k) {
+        const bool blinked = (blinks[pose.curves[k] / 64] >> pose.curves[k] % 64 & 1) != 0;
+        if (blinked && pose.values[k] > 0.0f) *out = 1;
+      }
+      ++out;
+    }
+  }
+}
+
 void place_limits(Placer& placer, Mix& mix) {
   mix.lower_row = placer.array<float>(mix.curve_count, kBlockAlignment);
   mix.upper_row = placer.array<float>(mix.curve_count, kBlockAlignment);
@@ -411,6 +433,7 @@ void place_mix(Placer& placer, const MixDesc& desc, Mix& mix) {
   place_poses(placer, mix);
   place_layers(placer, mix);  // their masks depend on gaze and poses
   place_reactions(placer, mix);
+  place_lids(placer, mix);
   if (!mix.kernels) mix.kernels = kernels_for(Isa::kBest);
   placer.keep(mix.guards);
   place_guards(placer, mix.guards, mix.kernels, mix.guard_table);

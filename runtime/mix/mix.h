@@ -190,6 +190,7 @@ struct Mix : MixTag, MixDesc {
   Span<uint32_t> first_fades;    // [layer] of the weights of its poses, in Mixer::pose_weights
   Span<Span<float>> pose_rows;   // [pose][curve], or empty if the pose has few curves
   Span<uint32_t> first_strokes;  // [reaction] in Mixer::strokes
+  Span<uint8_t> closes_lids;     // [stroke of all reactions] 1: its pose raises a curve of a blink
   GuardTable guard_table;
   Span<uint16_t> gaze_curves;        // of the left and of the right eye, then those of the head
   Span<float> lower_row, upper_row;  // [curve] limits, or none: the largest numbers

@@ -133,7 +133,9 @@ void mix_stream_layer(Mixer& mixer, uint32_t index, int64_t ticks) {
   if (sample == StreamSample::kNone) return;
   if (sample == StreamSample::kLost) {
     const int64_t lost = stream.last_tick + kStreamAhead + layer.delay;
-    if (state.presence.target != 0.0f) start_fade(state.presence, lost, 0.0f, kStreamFade);
+    // A restored layer may find rows that were lost long before it was there.
+    const int64_t start = std::max(lost, now - ticks);
+    if (state.presence.target != 0.0f) start_fade(state.presence, start, 0.0f, kStreamFade);
   } else if (state.presence.target != 1.0f) {
     start_fade(state.presence, now - ticks, 1.0f, kStreamFade);
   }
@@ -165,7 +167,12 @@ void mix_generator(Mixer& mixer, uint32_t index, int64_t ticks) {
     return;
   }
   const int64_t shift = mixer.gazes.empty() ? kNoShift : mixer.gazes[0].large_shift;
-  generate(layer, seed, index, now, shift, mixer.row.data, mixer.generators[index], values);
+  TickRange held;
+  if (layer.generator == Generator::kBlink) {
+    held = lids_closing(mix, kBlinkOpen, mixer.reactions, mixer.strokes);
+    held = {std::max(held.begin, now - ticks), std::min(held.end, now)};
+  }
+  generate(layer, seed, index, now, shift, held, mixer.row.data, mixer.generators[index], values);
   blend_curves(layer.mode, layer.curves, values, mix.mask_rows[index].data,
                layer_weight(mixer.layers[index], layer.mode, now), mixer.row.data);
 }

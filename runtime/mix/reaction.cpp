@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/mix/reaction.h"
 
+#include <algorithm>
+
 #include "runtime/mix/mix_rows.h"
 
 namespace mien {
 namespace {
+
+constexpr int64_t kLagEnd = 9;  // time constants; decay() is 0 from 8.3 on
+
+/// As quintic_from() does it.
+float finite_or_zero(float offset) { return offset < 1e30f && offset > -1e30f ? offset : 0.0f; }
 
 /// The share of its offset that a lag, a Fade whose ticks are a time constant, has left; 0: it has ended.
 float lag_left(const Fade& lag, int64_t now) {
@@ -19,7 +26,7 @@ float lag_value(const Fade& lag, int64_t now) {
 void start_lag(Fade& lag, int64_t now, float target, int64_t time_constant) {
   const float value = lag_value(lag, now);
   lag.target = target;
-  lag.offset = {value - target, 0.0f, 0.0f, 1.0f};
+  lag.offset = {finite_or_zero(value - target), 0.0f, 0.0f, 1.0f};
   lag.start = now;
   lag.ticks = time_constant;
 }
@@ -113,7 +120,7 @@ float level_value(const Level& level, int64_t now) { return level_at(level, now)
 
 void follow_level(Level& level, int64_t now, float target) {
   const LevelAt at = level_at(level, now);
-  level = {target, at.value - target, at.push, 0, now};
+  level = {target, finite_or_zero(at.value - target), finite_or_zero(at.push), 0, now};
 }
 
 void trigger_reaction(const Mix& mix, uint32_t index, int64_t now, float strength,
@@ -208,6 +215,29 @@ void mix_reactions(const Mix& mix, int64_t now, bool after_guards, Span<Reaction
     }
     state.running = running ? 1 : 0;
   }
+}
+
+TickRange lids_closing(const Mix& mix, int64_t lead, Span<const ReactionState> states,
+                       Span<const StrokeState> all) {
+  TickRange found;
+  for (uint32_t r = 0; r < mix.reactions.count; ++r) {
+    if (!states[r].running) continue;
+    const Span<const Stroke> strokes = mix.reactions[r].strokes;
+    for (size_t s = 0; s < strokes.count; ++s) {
+      const StrokeState& state = all[mix.first_strokes[r] + s];
+      const bool waits = state.phase == kStrokeWaits;
+      const float target = waits ? states[r].strength : state.envelope.target;
+      if (!mix.closes_lids[mix.first_strokes[r] + s] || target == 0.0f) continue;
+      if (!waits && state.phase != kStrokeRises) continue;
+      const int64_t rises = waits ? state.begin : state.envelope.start;
+      const int64_t ticks = waits ? strokes[s].attack : state.envelope.ticks;
+      const int64_t end = rises + (strokes[s].lags ? kLagEnd * ticks : ticks);
+      const bool first = found.begin == found.end;
+      found.begin = first ? rises - lead : std::min(found.begin, rises - lead);
+      found.end = first ? end : std::max(found.end, end);
+    }
+  }
+  return found;
 }
 
 void glare_strokes(uint32_t first_pose, Stroke (&strokes)[kGlareStrokes]) {

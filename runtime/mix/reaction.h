@@ -68,6 +68,10 @@ void release_reaction(uint32_t reaction, int64_t now, Span<ReactionState> states
 void mix_reactions(const Mix& mix, int64_t now, bool after_guards, Span<ReactionState> states,
                    Span<StrokeState> strokes, float* row);
 
+/// When a stroke that closes lids (Mix::closes_lids) rises, from `lead` before on. Empty if none does.
+TickRange lids_closing(const Mix& mix, int64_t lead, Span<const ReactionState> states,
+                       Span<const StrokeState> strokes);
+
 /// The strokes of a reaction to a light in the eyes. Their poses are, from `first_pose` on: lids closed;
 /// squint and lowered brows; gaze turned away; narrow pupils; head turned away. The lids close and open once
 /// per trigger, at most every 250 ms. The other strokes stay as long as the light; all of them but the

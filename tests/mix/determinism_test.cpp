@@ -12,7 +12,7 @@ namespace mien {
 namespace {
 
 constexpr uint32_t kRaws = 61;
-constexpr uint64_t kMinute = 0x7228A562580F36CCu;
+constexpr uint64_t kMinute = 0x9726ECE04A9CB369u;
 
 /// 60 s of a character that does whatever can be done.
 uint64_t minute_of(const MixScene& scene, uint64_t seed) {

@@ -441,5 +441,89 @@ TEST(Decay, IsExponentialAndEnds) {
   EXPECT_EQ(decay(NAN), 0.0f);
 }
 
+/// Lids that blink below the reaction or over it, and a light.
+struct BlinkMix {
+  std::vector<uint16_t> lids = {kLidLeft, kLidRight};
+  Row amounts = {1, 1};
+  MixHandle mix;
+
+  BlinkMix(LayerGroup group, BlendMode mode) {
+    MixInput input(kRaw);
+    LayerDesc& layer = input.add(mode, LayerSource::kGenerator, group);
+    layer.generator = Generator::kBlink;
+    layer.period = kTicksPerSecond * 2;
+    layer.curves = {lids.data(), 2};
+    layer.amounts = {amounts.data(), 2};
+    const uint32_t closed = input.add_pose({kLidLeft, kLidRight}, {1.0f, 1.0f});
+    for (uint32_t p = 1; p < kGlareStrokes; ++p) input.add_pose({kSquint}, {0.1f});
+    Stroke strokes[kGlareStrokes];
+    glare_strokes(closed, strokes);
+    const ReactionDesc glare = glare_reaction(strokes);
+    input.desc.reactions = {&glare, 1};
+    mix = make_mix(input);
+  }
+};
+
+// A light at any phase of a blink: the lids do not open before the reaction has closed them.
+TEST(Blinks, DoNotOpenTheLidsWhileAReactionClosesThem) {
+  constexpr int64_t kGlareDelay = 60, kGlareAttack = 70;  // milliseconds
+  for (LayerGroup group : {LayerGroup::kBase, LayerGroup::kLife}) {
+    for (BlendMode mode : {BlendMode::kMax, BlendMode::kScreen, BlendMode::kAdd}) {
+      const BlinkMix blinks(group, mode);
+      // When the first blink begins.
+      OwnMixer watch(blinks.mix);
+      int64_t begin = 0;
+      while (watch.step(kMillisecond)[kLidLeft] == 0) ++begin;
+      int opening = 0;
+      for (int64_t phase = -150; phase <= 280; phase += 3) {
+        for (int64_t step : {4, 8, 16, 33}) {
+          for (float strength : {1.0f, 0.4f}) {
+            OwnMixer own(blinks.mix);
+            own.step((begin + phase) * kMillisecond);
+            Row last = own.step(step * kMillisecond);
+            const Row before = last;
+            fire(own, kTicksPerSecond, strength);
+            const int64_t until = kGlareDelay + kGlareAttack;
+            for (int64_t t = step; t <= until; t += step) {
+              const Row row = own.step(step * kMillisecond);
+              for (uint16_t lid : {kLidLeft, kLidRight}) {
+                ASSERT_GE(row[lid], last[lid] - 1e-6f)
+                    << "mode " << int(mode) << ", group " << int(group) << ", phase " << phase
+                    << ", steps of " << step << ", after " << t << " ms";
+              }
+              last = row;
+            }
+            opening += before[kLidLeft] > 0.1f && phase > 100;
+            // Then it opens as before.
+            for (int64_t t = 0; t < 700; t += step) last = own.step(step * kMillisecond);
+            EXPECT_LT(last[kLidLeft], 0.01f) << phase;
+          }
+        }
+      }
+      EXPECT_GT(opening, 50) << "blinks that were opening";
+    }
+  }
+}
+
+// A blink goes on in any steps as in small ones.
+TEST(Blinks, AreHeldForTheSameTimeInAnySteps) {
+  const BlinkMix blinks(LayerGroup::kBase, BlendMode::kMax);
+  OwnMixer watch(blinks.mix);
+  int64_t begin = 0;
+  while (watch.step(kMillisecond)[kLidLeft] == 0) ++begin;
+  for (int64_t phase = -20; phase < 240; phase += 20) {
+    OwnMixer small(blinks.mix), large(blinks.mix);
+    small.step((begin + phase) * kMillisecond);
+    large.step((begin + phase) * kMillisecond);
+    fire(small, 0);
+    fire(large, 0);
+    Row fine;
+    for (int i = 0; i < 40; ++i) fine = small.step(5 * kMillisecond);
+    const Row coarse = large.step(200 * kMillisecond);
+    EXPECT_EQ(fine[kLidLeft], coarse[kLidLeft]) << phase;
+    EXPECT_EQ(small.mixer.generators[0].next, large.mixer.generators[0].next) << phase;
+  }
+}
+
 }  // namespace
 }  // namespace mien
