@@ -4,8 +4,9 @@
 //     | "MIENSNP\n" | version u32 | size u32 | fingerprint of the mix u64 | state |
 //
 // Its bytes may come from anywhere. All that is used as an index or takes part in arithmetic of
-// times is checked before anything changes; numbers that are only computed with may have any finite
-// value.
+// times is checked before anything changes. Numbers that are only computed with may have any value that
+// steps keep: rows may not be finite, because sums of large numbers of a clip are not either, and limits
+// make finite numbers of them.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -110,21 +111,22 @@ bool valid(const ReactionState& reaction) {
          (is_time(reaction.stimulus_end) || reaction.stimulus_end == kUntilReleased) &&
          valid(reaction.gain) && valid(reaction.strength) && reaction.running <= 1 &&
          is_time(reaction.level.start) && std::fabs(reaction.level.target) <= 1 &&
-         std::fabs(reaction.level.offset) <= 1e6f && std::fabs(reaction.level.push) <= 1e6f &&
-         reaction.level_is_on <= 1;
+         valid(reaction.level.offset) && valid(reaction.level.push) && reaction.level_is_on <= 1;
 }
 
 bool valid(const StrokeState& stroke) {
   return valid(stroke.envelope) && is_time(stroke.begin) && stroke.phase <= kStrokeFalls;
 }
 
-bool valid(const GazeState& gaze) {
+bool valid(const GazeState& gaze, int64_t now) {
   bool near = true;
   for (int k = 0; k < 3; ++k) {
     near = near && std::fabs(gaze.from[k]) <= 1e6f && std::fabs(gaze.to[k]) <= 1e6f;
   }
-  return near && is_time(gaze.start) && is_duration(gaze.duration) && is_time(gaze.large_shift) &&
-         gaze.begun <= 1;
+  // Blinks begin with a shift, and at no time before 0.
+  const bool shifted = gaze.large_shift >= 0 && gaze.large_shift <= now;
+  return near && is_time(gaze.start) && is_duration(gaze.duration) && gaze.begun <= 1 &&
+         (shifted || gaze.large_shift == kNoShift);
 }
 
 template <class T>
@@ -162,10 +164,10 @@ Status check_state(const Mixer& mixer, const SavedState& saved, const ClipFinder
       return wrong(error, kOutOfRange);
     }
   }
-  const bool all = all_valid(saved, mixer.pose_weights) && all_valid(saved, mixer.gazes) &&
-                   all_valid(saved, mixer.reactions) && all_valid(saved, mixer.strokes) &&
-                   all_valid(saved, mixer.variables) && all_valid(saved, mixer.guard_overrides) &&
-                   all_valid(saved, mixer.held) && all_valid(saved, mixer.layer_rows);
+  bool all = all_valid(saved, mixer.pose_weights) && all_valid(saved, mixer.reactions) &&
+             all_valid(saved, mixer.strokes) && all_valid(saved, mixer.variables) &&
+             all_valid(saved, mixer.guard_overrides);
+  for (const GazeState& gaze : mixer.gazes) all = all && valid(saved.read(gaze), now);
   return all ? Status::kOk : wrong(error, kOutOfRange);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Any bytes as a snapshot of a mixer in which everything is on. What is refused changes nothing; what
-// is accepted goes on: steps with finite values, plays, triggers. Those to start from are made here; mutations keep the header right most of the time.
+// is accepted goes on: steps with finite values, plays, triggers, snapshots that are accepted. Those to start from are made here; mutations keep the header right most of the time.
 #include <cmath>
 #include <cstdlib>
 #include <random>
@@ -91,5 +91,11 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     return 0;
   }
   use(actor, size != 0 ? data[size - 1] : 0);
+  if (actor.mixer->header->now > kMaxMixerTime) return 0;
+  // What it writes then, any other mixer accepts.
+  const Bytes after = snapshot_of(actor);
+  SceneActor other(scene(), 2);
+  scene_requires(
+      restore_snapshot(*other.mixer, {after.data(), after.size()}, scene().finder(), error));
   return 0;
 }

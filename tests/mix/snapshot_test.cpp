@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "tests/support/mix_scene.h"
 #include "tests/support/mix_setup.h"
 
 namespace mien {
@@ -237,6 +238,85 @@ TEST(Snapshot, DamagedOnesAreRefusedOrHarmless) {
   }
   EXPECT_GT(refused, 1000);
   EXPECT_GT(accepted, 1000);
+}
+
+/// Clips, poses, a live stream, all generators with a gaze, guards and reactions with levels.
+Status restore(SceneActor& actor, const std::vector<uint8_t>& bytes, Error& error) {
+  return restore_snapshot(*actor.mixer, {bytes.data(), bytes.size()}, actor.scene.finder(), error);
+}
+
+std::vector<uint8_t> snapshot(SceneActor& actor) {
+  std::vector<uint8_t> bytes(snapshot_size(*actor.scene.mix));
+  Error error;
+  EXPECT_EQ(take_snapshot(*actor.mixer, {bytes.data(), bytes.size()}, error), Status::kOk);
+  return bytes;
+}
+
+// Whatever numbers of a snapshot are changed: if it is accepted, so are those that follow it.
+TEST(Snapshot, OfAMixerThatAcceptedOneAreAccepted) {
+  const MixScene scene(9);
+  SceneActor made(scene, 3);
+  made.begin();
+  Random random = Random::from_seed(93, 0);
+  const uint32_t values[] = {0,          1,          0x7FFFFFFF, 0x80000000, 0x3F800000,
+                             0x00000001, 0x7F7FFFFF, 0xFF7FFFFF, 0x497423F0, 0xFFFFFFFF};
+  int accepted = 0;
+  for (int round = 0; round < 4000; ++round) {
+    if (round % 50 == 0) {
+      for (int i = 0; i < 30; ++i) {
+        made.disturb(random);
+        made.step(kSceneStep);
+      }
+    }
+    std::vector<uint8_t> bytes = snapshot(made);
+    const size_t rows = made.mixer->layer_rows.count * sizeof(float);
+    const auto words = static_cast<uint32_t>((bytes.size() - rows - 24) / 4);
+    for (uint32_t i = 1 + random.below(4); i > 0; --i) {
+      const uint32_t value = random.chance(0.8) ? values[random.below(10)] : random.below(~0u);
+      memcpy(&bytes[24 + size_t{4} * random.below(words)], &value, sizeof(value));
+    }
+    Error error;
+    SceneActor other(scene, 1);
+    // Its queue has a row of long ago, which snapshots do not have.
+    if (random.chance(0.2)) {
+      const Row row(other.mixer->streams[MixScene::kLive]->channels, 0.5f);
+      ASSERT_EQ(push_row(*other.mixer, MixScene::kLive, -(int64_t{1} << 61) + 1,
+                         {row.data(), row.size()}, nullptr, error),
+                Status::kOk);
+    }
+    if (restore(other, bytes, error) != Status::kOk) continue;
+    ++accepted;
+    other.pushed = other.mixer->header->now;
+    if (other.pushed > kMaxMixerTime - kTicksPerSecond) continue;  // its time is over
+    for (int i = 0; i < 6; ++i) {
+      const std::vector<uint8_t> next = snapshot(other);
+      SceneActor third(scene, 2);
+      ASSERT_EQ(restore(third, next, error), Status::kOk) << round << ": " << error.message;
+      other.disturb(random);
+      other.step(kSceneStep);
+    }
+  }
+  EXPECT_GT(accepted, 1000);
+}
+
+// The offset of a transition is tiny beside its speed, so that it ends at once.
+TEST(Snapshot, OfATransitionWithoutADistanceIsAccepted) {
+  ClipInput moves(Curves(2, 10)), rests(Curves(2, 10));
+  for (uint32_t f = 0; f < 10; ++f) {
+    moves.curves.at(f, 0) = f % 2 == 0 ? 1.0f : 1e-40f;
+    rests.curves.at(f, 0) = 0.0f;
+  }
+  const BoundClip first(std::move(moves), 2), second(std::move(rests), 2);
+  MixInput input(2);
+  input.add(BlendMode::kOverride);
+  const MixHandle mix = make_mix(input);
+  OwnMixer own(mix), other(mix);
+  own.play(0, first);
+  own.step(0);
+  own.step(kStep);
+  own.play(0, second, Transition::kInertial, kTicksPerSecond);
+  own.step(kStep);
+  EXPECT_EQ(restore(other, snapshot(own), {first.source, second.source}), Status::kOk);
 }
 
 }  // namespace
