@@ -304,6 +304,12 @@ Command add_play_command(CLI::App& app, const Session& session) {
                    "order (default: 0.05)")
       ->type_name("S")
       ->group(clock);
+  play->add_option(
+          "--device", options->real_time.device,
+          "Take packets of Live Link Face only from this device, by its id or the\nname of "
+          "its subject (default: the first that sends)")
+      ->type_name("NAME")
+      ->group(clock);
   play->add_option("--send", options->real_time.send,
                    "Send the raw controls of each frame by VMC: vmc://HOST:PORT")
       ->type_name("TO")

@@ -44,6 +44,12 @@ void RealTime::check(const RealTimeOptions& options) {
   if (!options.delay.empty() && options.live.empty()) {
     fail_usage("--delay", "nothing comes in", "add --live livelink://:11111");
   }
+  if (!options.device.empty() &&
+      (options.live.empty() ||
+       checked_address("--live", options.live, false).protocol != live::Protocol::kLiveLink)) {
+    fail_usage("--device", "only packets of Live Link Face have names of devices",
+               "add --live livelink://:11111");
+  }
 }
 
 RealTime::RealTime(const RealTimeOptions& options, const MienRig* rig, const Session& session) {
@@ -60,7 +66,7 @@ RealTime::RealTime(const RealTimeOptions& options, const MienRig* rig, const Ses
     const auto delay =
         static_cast<int64_t>(stream_.delay * static_cast<double>(MIEN_TICKS_PER_SECOND));
     input_ = std::make_unique<live::LiveInput>(checked_address("--live", options.live, false),
-                                               delay, rig, session);
+                                               delay, options.device, rig, session);
     stream_.curves = input_->curves();
   }
   interrupted = 0;

@@ -13,7 +13,7 @@ namespace mien::cli {
 
 /// As they were typed; empty: none.
 struct RealTimeOptions {
-  std::string live, send, delay;
+  std::string live, send, delay, device;
 
   bool given() const { return !live.empty() || !send.empty(); }
 };

@@ -31,9 +31,9 @@ int64_t ticks_of(double seconds) { return std::llround(seconds * static_cast<dou
 
 }  // namespace
 
-LiveInput::LiveInput(const Address& address, int64_t delay, const MienRig* rig,
-                     const cli::Session& session)
-    : address_(address), socket_(address), play_out_(delay, kSecond) {
+LiveInput::LiveInput(const Address& address, int64_t delay, const std::string& device,
+                     const MienRig* rig, const cli::Session& session)
+    : address_(address), socket_(address), play_out_(delay, kSecond), wanted_(device) {
   channels_.assign(kLiveLinkNames, kLiveLinkNames + kLiveLinkValues);
   if (address.protocol == Protocol::kVmc) {
     // Senders name what they have; that may be the controls of the rig itself.
@@ -142,6 +142,10 @@ void LiveInput::use_live_link(const uint8_t* bytes, size_t size) {
     return;
   }
   const int64_t arrived = now();
+  if (!wanted_.empty() && packet.device != wanted_ && packet.subject != wanted_) {
+    ++foreign_;
+    return;
+  }
   if (packet.device != device_ && !device_.empty() && arrived - device_seen_ < kSecond) {
     ++foreign_;
     return;

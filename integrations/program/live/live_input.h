@@ -16,8 +16,10 @@ namespace mien::live {
 
 class LiveInput {
  public:
-  /// Listens from now on. Notes channels that the rig has no controls for.
-  LiveInput(const Address& address, int64_t delay, const MienRig* rig, const cli::Session& session);
+  /// Listens from now on. Notes channels that the rig has no controls for. `device`: the only device of
+  /// Live Link Face that counts, by its id or the name of its subject; empty: whichever comes first.
+  LiveInput(const Address& address, int64_t delay, const std::string& device, const MienRig* rig,
+            const cli::Session& session);
 
   /// Raw controls that the source drives, in the order of the rows.
   const std::vector<uint16_t>& curves() const { return curves_; }
@@ -50,8 +52,9 @@ class LiveInput {
   std::vector<float> raw_;  // all raw controls
   std::chrono::steady_clock::time_point start_;
 
-  // Of two devices that send to one port, the first one counts until it is silent for a second.
-  std::string device_;
+  // Of two devices that send to one port, the first one counts until it is silent for a second, which
+  // packets of others do not extend; with a name, only the device of that name.
+  std::string wanted_, device_;
   int64_t device_seen_ = 0;
   // VMC: what the sender last said, and when; frames without a time go on from it.
   double said_ = -1;

@@ -195,6 +195,36 @@ class LiveTest(ProgramTest):
         self.assertIn(0.5, [v for _, v in curve(played, "jawOpen")])
 
     @by_the_clock
+    def test_a_named_device_has_the_port(self):
+        """By its id or by its subject, although another one came first and never stops."""
+        for name in ("phone", "face"):
+            listener = Listener("livelink", "--seconds", "0.8", "--device", name)
+            for k in range(40):
+                listener.until(k / 60)
+                listener.send(link_packet(90000 + k, {JAW_OPEN: 1.0}, device=b"another", subject=b"else"))
+                listener.send(link_packet(k, {JAW_OPEN: 0.5}))
+            played, said = listener.finish()
+            self.assertIn("40 of another device", said)
+            jaw = [v for _, v in curve(played, "jawOpen")]
+            self.assertLessEqual(max(jaw), 0.5)
+            self.assertIn(0.5, jaw)
+
+    @by_the_clock
+    def test_others_do_not_extend_the_second_of_the_first(self):
+        """The first device falls silent: a second one that sent all the time follows after a second."""
+        listener = Listener("livelink", "--seconds", "3.6")
+        for k in range(205):
+            listener.until(k / 60)
+            if k < 20:
+                listener.send(link_packet(k, {JAW_OPEN: 0.5}))
+            for other in (b"second", b"third"):
+                listener.send(link_packet(90000 + k, {JAW_OPEN: 0.25}, device=other))
+        played, said = listener.finish()
+        self.assertIn("of another device", said)
+        late = [v for t, v in curve(played, "jawOpen") if 2.8 < t < 3.3]
+        self.assertAlmostEqual(late[-1], 0.25, 3)
+
+    @by_the_clock
     def test_a_sender_that_begins_anew(self):
         listener = Listener("livelink", "--seconds", "2.6")
         for k in range(24):
@@ -293,6 +323,9 @@ class LiveTest(ProgramTest):
                 ("--send", "vmc://127.0.0.1:0", "port"), ("--delay", "0.1", "--live")):
             with self.subTest(value):
                 self.fails(USAGE, "play", path("empty.json"), rig, option, value, says=says)
+        self.fails(USAGE, "play", path("empty.json"), rig, "--device", "phone", says="--device")
+        self.fails(USAGE, "play", path("empty.json"), rig, "--live", "vmc://:39539", "--device", "phone",
+                   says="--device" if has_osc() else "OSC")
         for delay in "-1", "2", "soon", "nan":
             self.fails(USAGE, "play", path("empty.json"), rig, "--live", "livelink://127.0.0.1:0",
                        "--delay=" + delay, says="--delay")

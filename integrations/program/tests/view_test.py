@@ -123,6 +123,21 @@ class View(ProgramTest):
             self.assertEqual(headers["Allow"], "GET")
         self.assertIn(self.ask("/viewer.js", "BREW")[0], (400, 405))
 
+    def test_ranges_get_the_whole_file(self):
+        """Also those past its end, which would be memory of the program."""
+        self.start(path("tiny.dna"))
+        for where, whole in (("/viewer.js", PAGE["viewer.js"]), ("/rig/tiny.dna", read("tiny.dna"))):
+            for ranges in ("0-1", "0-1,3-4", "0-,0-,0-", "-3", "100-200", "0-1,100-200", "0-99999999999",
+                           "1000000000-1000001000", "-99999999", ",".join(["0-"] * 500)):
+                status, headers, body = self.ask(where, Range="bytes=" + ranges)
+                if status != 416:
+                    self.assertEqual((status, body), (200, whole), ranges)
+                    self.assertNotIn("Content-Range", headers)
+            for wrong in ("5-2", "x", "", "1-x", "--1", "0-1;2-3"):
+                status, _, body = self.ask(where, Range="bytes=" + wrong)
+                self.assertIn(status, (200, 400, 416), wrong)
+                self.assertIn(body, (whole, b""), wrong)
+
     def test_garbage_leaves_it_alive(self):
         self.start()
         for garbage in (b"", b"\r\n\r\n", b"GET\r\n\r\n", b"\xff\xfe\0\0" * 100, b"GET / HTTP/1.1\r\n" + b"x: y\r\n" * 5000,
