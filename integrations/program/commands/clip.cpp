@@ -8,7 +8,7 @@
 
 #include "integrations/program/commands/baked_rig.h"
 #include "integrations/program/commands/options.h"
-#include "integrations/program/gltf/arkit_controls.h"
+#include "integrations/program/gltf/expression_set.h"
 #include "integrations/program/io/clip_file.h"
 #include "integrations/program/io/input.h"
 #include "integrations/program/io/json_writer.h"

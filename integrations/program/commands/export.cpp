@@ -4,14 +4,19 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <sstream>
 
 #include "integrations/program/commands/exported_rig.h"
-#include "integrations/program/gltf/arkit_bake.h"
 #include "integrations/program/gltf/bake_skeleton.h"
+#include "integrations/program/gltf/expression_bake.h"
+#include "integrations/program/gltf/expression_file.h"
 #include "integrations/program/gltf/glb_writer.h"
 #include "integrations/program/gltf/obj_writer.h"
 #include "integrations/program/io/controls.h"
+#include "integrations/program/io/json_writer.h"
+#include "integrations/program/io/nearest_name.h"
 #include "integrations/program/io/output.h"
+#include "integrations/program/io/text.h"
 
 namespace mien::cli {
 
@@ -19,10 +24,11 @@ namespace {
 
 struct ExportOptions {
   OutputFile output;
-  std::string rig, format, lod = "0", animation, rate, mouth_close;
+  std::string rig, format, lod = "0", animation, rate, mouth_close, bake;
   std::vector<std::string> settings;
   GlbOptions glb;
-  bool bake = false, correctives = false;
+  OutputFile residuals;
+  bool correctives = false;
 };
 
 enum class Format { kGlb, kObj };
@@ -65,7 +71,7 @@ void check_combination(const ExportOptions& options, Format format) {
   if (!options.animation.empty() && !options.settings.empty()) {
     fail_usage("--set", "the animation sets the controls", "leave out --set or --animation");
   }
-  const char* only_glb = options.bake                 ? "--bake-arkit"
+  const char* only_glb = !options.bake.empty()        ? "--bake"
                          : !options.animation.empty() ? "--animation"
                                                       : options.glb.named();
   if (format == Format::kObj && only_glb) {
@@ -73,15 +79,17 @@ void check_combination(const ExportOptions& options, Format format) {
   }
   if (!options.mouth_close.empty()) {
     parse_word("--mouth-close", options.mouth_close);
-    if (!options.bake) fail_usage("--mouth-close", "nothing is baked", "add --bake-arkit");
+    if (options.bake.empty()) fail_usage("--mouth-close", "nothing is baked", "add --bake arkit");
   }
-  if (options.correctives && !options.bake) {
-    fail_usage("--correctives", "nothing is baked", "add --bake-arkit");
+  if (options.correctives && options.bake.empty()) {
+    fail_usage("--correctives", "nothing is baked", "add --bake arkit");
   }
-  if (options.bake && !options.glb.influences.empty()) {
+  if (!options.residuals.path.empty() && options.bake.empty()) {
+    fail_usage("--residuals", "nothing is baked", "add --bake arkit");
+  }
+  if (!options.bake.empty() && !options.glb.influences.empty()) {
     fail_usage("--influences " + options.glb.influences,
-               "a baked mesh follows head, neck and eyes only",
-               "leave out --influences or --bake-arkit");
+               "a baked mesh follows head, neck and eyes only", "leave out --influences or --bake");
   }
 }
 
@@ -91,9 +99,8 @@ void check_combination(const ExportOptions& options, Format format) {
 void print_report(const gltf::BakeReport& report, FILE* stream) {
   std::fprintf(stream, "%-20s %14s %26s\n%-20s %14s %12s %13s\n", "expression", "largest move",
                "off at one half", "", "mm", "rms mm", "max mm");
-  for (size_t e = 0; e < gltf::kArkitCount; ++e) {
-    const gltf::BakeReport::Expression& expression = report.expressions[e];
-    std::fprintf(stream, "%-20s %14.3f %12.4f %13.4f\n", gltf::kArkitNames[e],
+  for (const gltf::BakeReport::Shape& expression : report.expressions) {
+    std::fprintf(stream, "%-20s %14.3f %12.4f %13.4f\n", expression.name.c_str(),
                  expression.max_move * 1000, expression.halfway.rms * 1000,
                  expression.halfway.max * 1000);
   }
@@ -112,18 +119,94 @@ void print_report(const gltf::BakeReport& report, FILE* stream) {
     print_combinations(who.c_str(), report.corrected);
   }
   std::fprintf(stream, "at most in:");
-  for (size_t e = 0; e < gltf::kArkitCount; ++e) {
+  for (size_t e = 0; e < report.worst.size(); ++e) {
     if (report.worst[e] != 0)
-      std::fprintf(stream, " %s %.2f", gltf::kArkitNames[e], double{report.worst[e]});
+      std::fprintf(stream, " %s %.2f", report.expressions[e].name.c_str(), double{report.worst[e]});
   }
   std::fprintf(stream, "\n");
 }
 
+/// The same for programs: lengths in millimeters.
+void write_residuals(const gltf::BakeReport& report, const std::vector<std::string>& missing,
+                     const OutputFile& file) {
+  Output output(file.path);
+  JsonWriter json(output);
+  const auto residual = [&](const char* name, const gltf::Residual& off) {
+    json.key(name);
+    json.begin_object();
+    json.key("worst");
+    json.fixed(off.max * 1000, 4);
+    json.key("rms");
+    json.fixed(off.rms * 1000, 4);
+    json.end_object();
+  };
+  json.begin_object(JsonWriter::Layout::kLines);
+  json.key("shapes");
+  json.begin_object(JsonWriter::Layout::kLines);
+  for (const gltf::BakeReport::Shape& shape : report.expressions) {
+    residual(shape.name.c_str(), shape.halfway);
+  }
+  json.end_object();
+  json.key("combinations");
+  json.begin_object(JsonWriter::Layout::kLines);
+  json.member("count", report.combination_count);
+  residual("targets", report.combinations);
+  residual("with_correctives", report.corrected);
+  json.end_object();
+  json.key("missing");
+  json.begin_array(JsonWriter::Layout::kLines);
+  for (const std::string& name : missing) json.value(name);
+  json.end_array();
+  json.end_object();
+  json.finish();
+  output.commit();
+}
+
+/// The sets after --bake, one after the other.
+gltf::ExpressionSet parse_sets(const ExportOptions& options) {
+  gltf::MouthClose mouth_close = gltf::MouthClose::kAlone;
+  if (!options.mouth_close.empty()) {
+    mouth_close = static_cast<gltf::MouthClose>(parse_word("--mouth-close", options.mouth_close));
+  }
+  const Words& known = gltf::expression_set_names();
+  gltf::ExpressionSet all;
+  std::istringstream words(options.bake);
+  std::string word;
+  while (std::getline(words, word, ',')) {
+    const bool is_file = word.size() > 5 && word.compare(word.size() - 5, 5, ".json") == 0;
+    if (!is_file && std::find(known.begin(), known.end(), word) == known.end()) {
+      fail_usage("--bake \"" + word + "\"", "there is no such set",
+                 nearest_question(
+                     word, known,
+                     "choose of " + list_of(known, "and") + ", or a file that ends in .json"));
+    }
+    for (gltf::Expression& expression :
+         is_file ? gltf::read_expression_set(word) : gltf::expression_set(word, mouth_close)) {
+      for (const gltf::Expression& other : all) {
+        if (other.name != expression.name) continue;
+        fail(kInvalid, kCannot, "--bake " + options.bake,
+             "two expressions are named \"" + one_line(other.name) + "\"", "leave one of them out");
+      }
+      all.push_back(std::move(expression));
+    }
+  }
+  return all;
+}
+
+void note_missing(const ExportedRig& face, const std::vector<std::string>& missing,
+                  const Session& session) {
+  if (missing.empty()) return;
+  std::string text;
+  for (const std::string& name : missing) text += (text.empty() ? "" : ", ") + one_line(name);
+  note(session, face.file.shown + ": the rig lacks controls of " + std::to_string(missing.size()) +
+                    " expressions, which get no target: " + text);
+}
+
 /// Raw controls that a baked file has no weight for.
-void note_lost_controls(ExportedRig& face, const gltf::ArkitControls& controls,
+void note_lost_controls(ExportedRig& face, const gltf::RigExpressions& set,
                         const std::vector<const Frame*>& frames, const Session& session) {
   std::vector<bool> is_known(rig_count(face.rig.get(), MIEN_KIND_RAW_CONTROL));
-  for (const auto& expression : controls.controls) is_known[expression[0].control] = true;
+  for (const gltf::RigExpression& expression : set.expressions) is_known[expression.control] = true;
   MienFloatView initial{};
   check(mien_rig_initial_raw_controls(face.rig.get(), &initial), nullptr, kCannot, face.file.shown);
   std::vector<bool> is_lost(is_known.size());
@@ -138,33 +221,27 @@ void note_lost_controls(ExportedRig& face, const gltf::ArkitControls& controls,
   if (lost == 0) return;
   note(session,
        face.file.shown + ": " + std::to_string(lost) +
-           " controls that were set are not ARKit expressions: a baked file has no targets "
-           "for them");
+           " controls that were set are not baked expressions: the file has no targets for them");
 }
 
 std::string baked_glb(ExportedRig& face, const Frame& still, const std::vector<Frame>& frames,
                       double rate, const ExportOptions& options, const Session& session) {
-  const gltf::ArkitControls controls = gltf::find_arkit_controls(*face.source);
+  const gltf::RigExpressions set = gltf::find_expressions(*face.source, parse_sets(options));
   const bool is_posed = !options.settings.empty() || !frames.empty();
-  if (is_posed && !controls.by_name) {
+  if (is_posed && !set.by_name()) {
     fail(kInvalid, kCannot, face.file.shown,
-         "not all ARKit expressions are controls of the rig, so controls cannot be their weights",
-         "leave out --bake-arkit, or --set and --animation");
+         "not all baked expressions are controls of the rig, so controls cannot be their weights",
+         "leave out --bake, or --set and --animation");
   }
   gltf::RigScene scene = gltf::make_still_scene(*face.source, face.scene_options(options.glb));
   note_losses(face, scene.losses, session);
+  note_missing(face, set.missing, session);
   gltf::add_bake_skeleton(*face.source, scene);
-  gltf::BakeOptions bake;
-  bake.correctives = options.correctives;
-  if (!options.mouth_close.empty()) {
-    bake.mouth_close =
-        static_cast<gltf::MouthClose>(parse_word("--mouth-close", options.mouth_close));
-  }
   gltf::BakeReport report;
   {
     Progress progress(session, "baking expressions", 1);
-    report = gltf::bake_arkit(*face.source, controls, bake, scene,
-                              [&](double share) { progress.at_share(share); });
+    report = gltf::bake_expressions(*face.source, set, options.correctives, scene,
+                                    [&](double share) { progress.at_share(share); });
   }
   if (options.mouth_close.empty() && !options.correctives &&
       report.max_close_with_jaw > kNotableClose * report.diagonal) {
@@ -176,11 +253,11 @@ std::string baked_glb(ExportedRig& face, const Frame& still, const std::vector<F
   std::vector<const Frame*> posed = {&still};
   for (const Frame& frame : frames) posed.push_back(&frame);
   if (is_posed) {
-    note_lost_controls(face, controls, posed, session);
-    std::vector<gltf::ArkitWeights> weights;
+    note_lost_controls(face, set, posed, session);
+    std::vector<std::vector<float>> weights;
     for (const Frame* frame : posed) {
       face.apply(*frame);
-      weights.push_back(gltf::arkit_weights(controls, face.raw_controls()));
+      weights.push_back(gltf::expression_weights(set, face.raw_controls()));
     }
     gltf::set_baked_pose(scene, weights[0]);
     weights.erase(weights.begin());
@@ -188,6 +265,7 @@ std::string baked_glb(ExportedRig& face, const Frame& still, const std::vector<F
   }
   const std::string bytes = glb_bytes(scene.scene, options.glb);
   if (!session.quiet) print_report(report, options.output.path == "-" ? stderr : stdout);
+  if (!options.residuals.path.empty()) write_residuals(report, set.missing, options.residuals);
   return bytes;
 }
 
@@ -202,6 +280,8 @@ void run(const ExportOptions& options, const Session& session) {
     fail_usage("-o -", "a GLB file is not for a terminal", "name a file, or pipe the output");
   }
   refuse_replacing(options.output, {options.rig, options.animation});
+  if (!options.residuals.path.empty())
+    refuse_replacing(options.residuals, {options.rig, options.animation});
   // Beside an OBJ file; standard output and devices have no place for it.
   OutputFile materials{"", options.output.force};
   if (format == Format::kObj && !is_stream(options.output.path)) {
@@ -230,7 +310,7 @@ void run(const ExportOptions& options, const Session& session) {
         library.write(gltf::write_mtl(*face.source));
         library.commit();
       }
-    } else if (options.bake) {
+    } else if (!options.bake.empty()) {
       bytes = baked_glb(face, still, frames, rate, options, session);
     } else {
       bytes = rig_glb(face, still, frames, rate, options.glb, session);
@@ -273,11 +353,20 @@ Command add_export_command(CLI::App& app, const Session& session) {
                    "Write frames as an animation: JSON as for 'mien eval'; - reads standard input")
       ->type_name("FRAMES");
   command->add_option("--fps", options->rate, "Frames per second (default: 30)")->type_name("N");
-  command->add_flag("--bake-arkit", options->bake,
-                    "Write the 52 ARKit expressions as morph targets, with only the bones of\n"
-                    "head, neck and eyes. Prints the error compared with the full rig");
+  command
+      ->add_option(
+          "--bake", options->bake,
+          "Write whole expressions as morph targets, with only the bones of head, neck\n"
+          "and eyes: arkit (52), visemes (15 of Oculus), visemes22 (cloud voices), unified\n"
+          "(Unified Expressions), emotions, or a JSON file; several with commas. Prints\n"
+          "the error compared with the full rig")
+      ->type_name("SET");
+  command
+      ->add_option("--residuals", options->residuals.path,
+                   "With --bake: write these errors as JSON")
+      ->type_name("FILE");
   command->add_flag("--correctives", options->correctives,
-                    "With --bake-arkit: add targets for the correctives of two expressions; the\n"
+                    "With --bake: add targets for the correctives of two expressions; the\n"
                     "extras of the mesh say what drives them");
   command
       ->add_option("--mouth-close", options->mouth_close,
@@ -288,13 +377,16 @@ Command add_export_command(CLI::App& app, const Session& session) {
       "A GLB holds the skeleton, the skin and the blend shape channels as morph targets, but not\n"
       "the rig logic that drives them. --set chooses the pose in which it opens, --animation adds\n"
       "an animation. Units are meters, y is up, the face looks toward +z. Materials are chosen by\n"
-      "mesh name. --lod all puts each LOD into its own scene; viewers show the first one. The\n"
+      "mesh name. A set of your own for --bake: {\"smile\": {\"mouthSmileLeft\": 1, ...}, ...}; a\n"
+      "difference is {\"plus\": {...}, \"minus\": {...}}. --lod all puts each LOD into its own "
+      "scene; viewers show the first one. The\n"
       "materials of an OBJ file are written to a file of the same name that ends in .mtl.\n\n"
       "Examples:\n"
       "  mien export head.dna -o head.glb\n"
       "  mien export head.dna -o smile.obj --set mouthSmileLeft=1\n"
       "  mien export head.dna -o talk.glb --animation frames.json --fps 60\n"
-      "  mien export head.dna -o arkit.glb --bake-arkit --lod 2");
+      "  mien export head.dna -o arkit.glb --bake arkit --lod 2\n"
+      "  mien export head.dna -o talk.glb --bake visemes,emotions --residuals loss.json");
   return {command, [options, &session] { run(*options, session); }};
 }
 

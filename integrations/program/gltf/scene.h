@@ -3,7 +3,7 @@
 // materials, an animation. Everything is in the axes and units of glTF: meters, y up, z to the
 // front of the face, x to the left of the character, triangles counter-clockwise from outside.
 //
-//     Mien handles -> (rig_scene, arkit_bake) -> Scene -> (glb_writer, obj_writer) -> bytes
+//     Mien handles -> (rig_scene, expression_bake) -> Scene -> (glb_writer, obj_writer) -> bytes
 #pragma once
 
 #include <mien.h>

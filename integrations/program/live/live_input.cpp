@@ -7,7 +7,7 @@
 #include <thread>
 #include <unordered_map>
 
-#include "integrations/program/gltf/arkit_controls.h"
+#include "integrations/program/gltf/expression_set.h"
 #include "integrations/program/io/controls.h"
 #include "integrations/program/io/failure.h"
 #include "integrations/program/io/rig_file.h"

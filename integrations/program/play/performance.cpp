@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <iterator>
 
-#include "integrations/program/gltf/arkit_controls.h"
+#include "integrations/program/gltf/expression_set.h"
 #include "integrations/program/io/failure.h"
 #include "integrations/program/io/frame_rate.h"
 #include "integrations/program/io/nearest_name.h"

@@ -231,7 +231,7 @@ class AuthorTest(ProgramTest):
 
     def test_morph_targets_that_the_program_exports_come_back(self):
         self.ok("demo-head", "-o", path("demo.dna"))
-        self.ok("export", path("demo.dna"), "--lod", "6", "--bake-arkit", "-o", path("demo.glb"))
+        self.ok("export", path("demo.dna"), "--lod", "6", "--bake", "arkit", "-o", path("demo.glb"))
         report = self.author(path("demo.glb"), "--joints", "30", "--lods", "1")
         self.assertEqual(len(report["fit"]["per_shape"]), 52)
         self.assertLess(report["fit"]["error"], 0.2)
@@ -613,7 +613,7 @@ class AuthorTest(ProgramTest):
 
     def test_an_interrupt_at_any_time_leaves_nothing(self):
         self.ok("demo-head", "-o", path("slow.dna"))
-        self.ok("export", path("slow.dna"), "--lod", "3", "--bake-arkit", "-o", path("slow.glb"))
+        self.ok("export", path("slow.dna"), "--lod", "3", "--bake", "arkit", "-o", path("slow.glb"))
         before = sorted(os.listdir(program.folder))
         codes = set()
         for wait in (0.02, 0.1, 0.25, 0.5, 0.8, 1.2, 1.7, 2.5):

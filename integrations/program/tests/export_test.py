@@ -90,9 +90,9 @@ def size_of(points):
 class ExportTest(ProgramTest):
     def glb(self, rig, *options, **more):
         """With all influences and moves, unless the options say otherwise."""
-        if not {"--influences", "--bake-arkit"} & set(options):
+        if not {"--influences", "--bake"} & set(options):
             options += ("--influences", "12")
-        if not {"--quantize", "--bake-arkit"} & set(options):
+        if not {"--quantize", "--bake"} & set(options):
             options += ("--exact",)
         return Glb(self.ok("export", rig, "-o", "-", *options, **more).stdout)
 
@@ -473,7 +473,7 @@ class Baking(ExportTest):
 
     @classmethod
     def setUpClass(cls):
-        done = make("export", path("large.dna"), "-o", path("baked.glb"), "--bake-arkit", "--lod", "4")
+        done = make("export", path("large.dna"), "-o", path("baked.glb"), "--bake", "arkit", "--lod", "4")
         cls.report = done.stdout.decode().splitlines()
         cls.glb_file = Glb(read("baked.glb"))
 
@@ -507,7 +507,7 @@ class Baking(ExportTest):
 
     def test_correctives(self):
         rig = path("large.dna")
-        done = self.ok("export", rig, "-o", path("corrected.glb"), "--bake-arkit", "--correctives", "--lod", "4")
+        done = self.ok("export", rig, "-o", path("corrected.glb"), "--bake", "arkit", "--correctives", "--lod", "4")
         plain, corrected = re.findall(r": off by ([\d.]+) mm rms, ([\d.]+) mm at most", done.stdout.decode())
         self.assertLess(float(corrected[0]), float(plain[0]))
         self.assertLess(float(corrected[1]), float(plain[1]))
@@ -530,7 +530,7 @@ class Baking(ExportTest):
             self.assertLess(self.worst(glb, posed, weights=weights), 1e-5, pair)
             self.assertGreater(self.worst(self.glb_file, posed, weights=weights), 5e-4, pair)
         self.assertGreater(tried, 0)
-        self.fails(USAGE, "export", rig, "-o", path("no.glb"), "--correctives", says="--bake-arkit")
+        self.fails(USAGE, "export", rig, "-o", path("no.glb"), "--correctives", says="--bake arkit")
 
     def test_each_end_is_the_rig(self):
         rig = path("large.dna")
@@ -556,7 +556,7 @@ class Baking(ExportTest):
 
     def test_quiet_and_streams(self):
         rig = path("large.dna")
-        options = ("--bake-arkit", "--lod", "7")
+        options = ("--bake", "arkit", "--lod", "7")
         quiet = self.ok("export", rig, "-o", path("q.glb"), "--quiet", *options)
         self.assertEqual((quiet.stdout, quiet.stderr), (b"", ""))
         piped = self.ok("export", rig, "-o", "-", *options)
@@ -565,11 +565,114 @@ class Baking(ExportTest):
 
     def test_what_cannot_be_baked(self):
         out = path("no.glb")
-        self.fails(INVALID, "export", path("tiny.dna"), "-o", out, "--bake-arkit",
-                   says=("no raw controls for", "--bake-arkit", "more"))
-        self.fails(INVALID, "export", path("large.dna"), "-o", out, "--bake-arkit", "--set", "jawOpen=1",
+        write("none.json", json.dumps({"a": {"nothing": 1}, "b": {"jawOpen": 1, "nowhere": 0.5}}))
+        self.fails(INVALID, "export", path("tiny.dna"), "-o", out, "--bake", path("none.json"),
+                   says=("controls of none of the expressions", "--bake"))
+        self.fails(INVALID, "export", path("large.dna"), "-o", out, "--bake", "arkit", "--set", "jawOpen=1",
                    says="cannot be their weights")
         self.assertFalse(os.path.exists(out))
+        for text, says in (("[]", "object"), ("{}", "expected an object"), ("{", "byte"),
+                           ('{"a": {"jawOpen": 2}}', "a.jawOpen"), ('{"a": {"jawOpen": -0.1}}', "0 to 1"),
+                           ('{"a": {"jawOpen": "1"}}', "a.jawOpen"), ('{"a": 1}', "none.json, a"),
+                           ('{"a": {"plus": {}, "other": {}}}', "a.other"), ('{"a": {}, "a": {}}', "twice"),
+                           ('{"a": {"plus": {"x": 1}, "minus": 3}}', "a.minus")):
+            write("none.json", text)
+            self.fails(INVALID, "export", path("large.dna"), "-o", out, "--bake", path("none.json"), says=says)
+        write("many.json", json.dumps({str(i): {} for i in range(513)}))
+        self.fails(INVALID, "export", path("large.dna"), "-o", out, "--bake", path("many.json"), says="512")
+        self.fails(INVALID, "export", path("large.dna"), "-o", out, "--bake", "arkit,arkit", says="two expressions")
+        self.fails(USAGE, "export", path("large.dna"), "-o", out, "--bake", "visems", says='"visemes"')
+        self.fails(USAGE, "export", path("large.dna"), "-o", out, "--residuals", path("r.json"), says="--bake")
+        self.fails(FILE, "export", path("large.dna"), "-o", out, "--bake", path("nowhere.json"), says="nowhere.json")
+
+
+class ExpressionSets(ExportTest):
+    """Sets of the program and of the user, on a rig with ARKit's names and one with MetaHuman's."""
+
+    @classmethod
+    def setUpClass(cls):
+        make("demo-head", "-o", path("person.dna"))
+        make("gen", "--preset", "metahuman-head", "-o", path("export.dna"))
+
+    def bake(self, rig, *options):
+        done = self.ok("export", path(rig), "-o", path("set.glb"), "--lod", "6", "--exact",
+                       "--residuals", path("loss.json"), *options)
+        names = {}
+        glb = Glb(read("set.glb"))
+        for mesh in glb.json["meshes"]:
+            for name in mesh.get("extras", {}).get("targetNames", []):
+                names[name] = True
+        return done, glb, list(names), json.loads(read("loss.json"))
+
+    def test_every_set_has_a_target_for_each_expression(self):
+        counts = {"arkit": 52, "visemes": 15, "visemes22": 22, "unified": 98, "emotions": 7}
+        for name, count in counts.items():
+            _, _, targets, loss = self.bake("export.dna", "--bake", name)
+            self.assertEqual(len(targets), count, name)
+            self.assertEqual(list(loss["shapes"]), targets)
+            self.assertEqual(loss["missing"], [])
+        _, _, targets, _ = self.bake("export.dna", "--bake", "visemes,emotions")
+        self.assertEqual(len(targets), 22)
+
+    def test_what_a_rig_lacks_is_named_and_gets_no_target(self):
+        done, _, targets, loss = self.bake("person.dna", "--bake", "unified")
+        missing = [text.split(" ")[0] for text in loss["missing"]]
+        self.assertIn("BrowPinchLeft", missing)
+        self.assertIn("BrowPinchLeft (browLateralL)", done.stderr)
+        self.assertEqual(len(targets) + len(missing), 98)
+        self.assertEqual(set(targets) & set(missing), set())
+        for name in ("visemes", "visemes22", "emotions", "arkit"):
+            _, _, _, loss = self.bake("person.dna", "--bake", name)
+            self.assertEqual(loss["missing"], [])
+
+    def moves(self, glb, name):
+        """Of each vertex of all meshes, by the target of that name."""
+        moves = []
+        for mesh in glb.json["meshes"]:
+            names = mesh.get("extras", {}).get("targetNames", [])
+            for primitive in mesh["primitives"]:
+                count = glb.json["accessors"][primitive["attributes"]["POSITION"]]["count"]
+                if name not in names:
+                    moves += [(0.0, 0.0, 0.0)] * count
+                    continue
+                moves += glb.accessor(primitive["targets"][names.index(name)]["POSITION"])
+        return moves
+
+    def positions(self, *settings):
+        options = [word for setting in settings for word in ("--set", setting)]
+        groups = self.obj(path("person.dna"), "--lod", "6", *options).groups
+        return [groups[name]["positions"][vertex] for name in groups for vertex in sorted(groups[name]["positions"])]
+
+    def test_a_shape_is_the_rig_with_its_controls(self):
+        write("own.json", json.dumps({
+            "grin": {"mouthSmileLeft": 0.7, "mouthSmileRight": 0.4, "jawOpen": 0.3},
+            "close": {"plus": {"jawOpen": 1, "mouthClose": 1}, "minus": {"jawOpen": 1}}, "rest": {}}))
+        _, glb, targets, loss = self.bake("person.dna", "--bake", path("own.json"))
+        self.assertEqual(targets, ["grin", "close", "rest"])
+        rest = self.positions()
+        grin = self.positions("mouthSmileLeft=0.7", "mouthSmileRight=0.4", "jawOpen=0.3")
+        jaw = self.positions("jawOpen=1")
+        closed = self.positions("jawOpen=1", "mouthClose=1")
+        def largest(a, b):
+            return max(distance(p, q) for p, q in zip(a, b))
+        def largest_move(name):
+            return max(distance(move, (0, 0, 0)) for move in self.moves(glb, name))
+        self.assertAlmostEqual(largest_move("grin"), largest(grin, rest), delta=2e-5)
+        self.assertAlmostEqual(largest_move("close"), largest(closed, jaw), delta=2e-5)
+        self.assertEqual(largest_move("rest"), 0)
+        self.assertGreater(loss["shapes"]["grin"]["worst"], 0)
+        self.assertEqual(loss["shapes"]["rest"]["worst"], 0)
+
+    def test_closures_of_speech_close_the_lips(self):
+        # PP and 21_p press the lips: nothing opens them.
+        _, glb, _, _ = self.bake("person.dna", "--bake", "visemes,visemes22")
+        opened = max(distance(move, (0, 0, 0)) for move in self.moves(glb, "viseme_aa"))
+        for name in ("viseme_PP", "viseme_21_p"):
+            moved = max(distance(move, (0, 0, 0)) for move in self.moves(glb, name))
+            self.assertLess(moved, opened / 2)
+            self.assertGreater(moved, 0)
+        for name in ("viseme_sil", "viseme_0_silence"):
+            self.assertEqual(max(distance(move, (0, 0, 0)) for move in self.moves(glb, name)), 0)
 
 
 class ProceduralHead(ExportTest):
@@ -622,7 +725,7 @@ class ProceduralHead(ExportTest):
     def test_baked_animation(self):
         rig = path("head.dna")
         frames = [{}, {"raw": {"jawOpen": 1}}, {"raw": {"mouthSmileLeft": 0.25, "browInnerUp": 0.5}}]
-        glb = self.glb(rig, "--lod", "3", "--bake-arkit", "--animation", "-",
+        glb = self.glb(rig, "--lod", "3", "--bake", "arkit", "--animation", "-",
                        stdin=json.dumps({"frames": frames}).encode())
         self.assertEqual({c["target"]["path"] for c in glb.json["animations"][0]["channels"]}, {"weights"})
         node = glb.node_of("head_lod3_mesh")
@@ -632,7 +735,7 @@ class ProceduralHead(ExportTest):
             weights = dict(zip(names, glb.posed_nodes(i)[node]["weights"]))
             self.assertEqual({n: w for n, w in weights.items() if w}, frame.get("raw", {}))
         self.assertLess(self.worst(glb, self.obj(rig, "--lod", "3", "--set", "jawOpen=1"), frame=1), 5e-6)
-        posed = self.glb(rig, "--lod", "3", "--bake-arkit", "--set", "jawOpen=1", "--mouth-close", "alone")
+        posed = self.glb(rig, "--lod", "3", "--bake", "arkit", "--set", "jawOpen=1", "--mouth-close", "alone")
         self.assertEqual(posed.deformed(node), glb.deformed(node, 1))
 
 
@@ -640,10 +743,10 @@ class ProceduralHead(ExportTest):
         rig = path("head.dna")
         closed = self.obj(rig, "--lod", "3", "--set", "jawOpen=1", "--set", "mouthClose=1")
         weights = {"jawOpen": 1, "mouthClose": 1}
-        alone = self.ok("export", rig, "-o", path("alone.glb"), "--lod", "3", "--bake-arkit")
+        alone = self.ok("export", rig, "-o", path("alone.glb"), "--lod", "3", "--bake", "arkit")
         self.assertIn("--mouth-close jaw", alone.stderr)
         self.assertGreater(self.worst(Glb(read("alone.glb")), closed, weights=weights), 0.01)
-        jaw = self.ok("export", rig, "-o", path("jaw.glb"), "--lod", "3", "--bake-arkit", "--mouth-close", "jaw")
+        jaw = self.ok("export", rig, "-o", path("jaw.glb"), "--lod", "3", "--bake", "arkit", "--mouth-close", "jaw")
         self.assertEqual(jaw.stderr, "")
         self.assertLess(self.worst(Glb(read("jaw.glb")), closed, weights=weights), 5e-6)
         self.assertLess(self.worst(Glb(read("jaw.glb")), self.obj(rig, "--lod", "3"), weights={}), 1e-6)
@@ -652,7 +755,7 @@ class ProceduralHead(ExportTest):
 class Failures(ExportTest):
     def test_help_and_completion(self):
         text = self.ok("export", "--help").stdout.decode()
-        for word in ("Examples:", "--bake-arkit", "--animation", "--lod", "--set", "--influences"):
+        for word in ("Examples:", "--bake", "--animation", "--lod", "--set", "--influences"):
             self.assertIn(word, text)
         script = self.ok("completion", "bash").stdout.decode()
         self.assertIn("'export --influences')\n      COMPREPLY=($(compgen -W '4 8 12'", script)
@@ -675,10 +778,10 @@ class Failures(ExportTest):
             self.fails(USAGE, "export", rig, "-o", out, "--animation", frames, "--fps", rate, says="--fps")
         self.fails(USAGE, "export", rig, "-o", out, "--animation", frames, "--set", "a=1", says="--set")
         self.fails(USAGE, "export", "-", "-o", out, "--animation", "-", says="standard input")
-        self.fails(USAGE, "export", rig, "-o", out, "--bake-arkit", "--influences", "4", says="--influences")
-        self.fails(USAGE, "export", rig, "-o", out, "--mouth-close", "jaw", says="--bake-arkit")
-        self.fails(USAGE, "export", rig, "-o", out, "--bake-arkit", "--mouth-close", "jow", says='"jaw"')
-        for option in (["--bake-arkit"], ["--animation", frames], ["--influences", "4"]):
+        self.fails(USAGE, "export", rig, "-o", out, "--bake", "arkit", "--influences", "4", says="--influences")
+        self.fails(USAGE, "export", rig, "-o", out, "--mouth-close", "jaw", says="--bake arkit")
+        self.fails(USAGE, "export", rig, "-o", out, "--bake", "arkit", "--mouth-close", "jow", says='"jaw"')
+        for option in (["--bake", "arkit"], ["--animation", frames], ["--influences", "4"]):
             self.fails(USAGE, "export", rig, "-o", path("no.obj"), *option, says=option[0])
         self.assertFalse(os.path.exists(out) or os.path.exists(path("no.obj")))
 
@@ -732,7 +835,7 @@ class Readers(ExportTest):
             "moving": [rig, "--animation", frames], "still": [rig, "--animation", write(
                 "still.json", '{"frames": [{}]}')],
             "medium": [path("medium.dna")], "large": [path("large.dna"), "--lod", "2"],
-            "baked": [path("large.dna"), "--bake-arkit", "--lod", "7"],
+            "baked": [path("large.dna"), "--bake", "arkit", "--lod", "7"],
         }
         import base64
         count = 1 + max(self.obj(path("tiny.dna")).groups["head_lod0_mesh"]["vertex"].values())
@@ -741,7 +844,7 @@ class Readers(ExportTest):
         if makes_heads():
             self.ok("demo-head", "-o", path("head.dna"))
             jobs["head"] = [path("head.dna")]
-            jobs["head_baked"] = [path("head.dna"), "--bake-arkit", "--correctives", "--quantize", "--lod", "4"]
+            jobs["head_baked"] = [path("head.dna"), "--bake", "arkit", "--correctives", "--quantize", "--lod", "4"]
         for name, rig in golden_rigs.rigs().items():
             jobs["golden_" + name] = [rig, "--lod", "all"]
         for name, arguments in jobs.items():

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "integrations/program/gltf/arkit_bake.h"
+#include "integrations/program/gltf/expression_bake.h"
 
 #include <algorithm>
 #include <cmath>
@@ -32,8 +32,8 @@ using Weights = std::vector<double>;  // of the expressions
 /// Expressions in, deformed meshes out.
 class Face {
  public:
-  Face(const RigSource& source, const ArkitControls& controls)
-      : source_(source), controls_(controls), pose_(make_deformer_instance(source)) {
+  Face(const RigSource& source, const RigExpressions& set)
+      : source_(source), set_(set), pose_(make_deformer_instance(source)) {
     MienInstance* made = nullptr;
     auto error = sized<MienError>();
     const MienStatus status = mien_instance_create(source.rig(), nullptr, &made, &error);
@@ -41,17 +41,33 @@ class Face {
     instance_.reset(made);
   }
 
-  /// Leaves the positions of the mesh, and normals if wanted, in the pose.
+  /// Leaves the positions of the mesh, and normals if wanted, in the pose. A difference counts with what it
+  /// adds to the pose that it is a difference to.
   void deform(uint32_t rig_mesh, uint32_t lod, const Weights& weights, bool with_normals) {
+    std::vector<ControlValue> values;
+    for (size_t e = 0; e < weights.size(); ++e) {
+      if (weights[e] == 0) continue;
+      const auto weight = static_cast<float>(weights[e]);
+      for (const ControlValue& of : set_.expressions[e].plus) {
+        values.push_back({of.control, of.value * weight});
+      }
+      for (const ControlValue& of : set_.expressions[e].minus) {
+        values.push_back({of.control, -of.value * weight});
+      }
+    }
+    deform(rig_mesh, lod, values, with_normals);
+  }
+
+  void deform(uint32_t rig_mesh, uint32_t lod, const std::vector<ControlValue>& values,
+              bool with_normals) {
     MienMutableFloatView raw{};
     check(mien_instance_reset(instance_.get()), "cannot bake");
     check(mien_instance_raw_controls(instance_.get(), &raw), "cannot bake");
-    for (size_t e = 0; e < kArkitCount; ++e) {
-      if (weights[e] == 0) continue;
-      for (const ControlWeight& control : controls_.controls[e]) {
-        float& value = raw.data[control.control];
-        value = std::min(1.0f, value + control.weight * static_cast<float>(weights[e]));
-      }
+    const std::vector<float> initial(raw.data, raw.data + raw.count);
+    for (const ControlValue& of : values) raw.data[of.control] += of.value;
+    for (const ControlValue& of : values) {
+      float& value = raw.data[of.control];
+      value = std::max(initial[of.control], std::min(1.0f, value));
     }
     check(mien_rig_evaluate(source_.rig(), instance_.get(), lod), "cannot bake");
     check(mien_deformer_instance_update(pose_.get(), instance_.get()), "cannot bake");
@@ -77,7 +93,7 @@ class Face {
 
  private:
   const RigSource& source_;
-  const ArkitControls& controls_;
+  const RigExpressions& set_;
   cli::DeformerInstance pose_;
   cli::Instance instance_;
 };
@@ -101,19 +117,19 @@ struct Distances {
 struct BakedMesh {
   uint32_t rig_mesh = 0, lod = 0;
   std::vector<float> neutral, neutral_normals;
-  std::vector<float> moves[kArkitCount], turns[kArkitCount];
-  std::vector<bool> is_moved;  // of the positions
+  std::vector<std::vector<float>> moves, turns;  // by expression
+  std::vector<bool> is_moved;                    // of the positions
   struct Pair {
     size_t first, second;
     std::vector<float> moves;
   };
   std::vector<Pair> correctives;
 
-  void compare(const Face& face, const Weights& weights, bool corrected,
-               Distances& distances) const {
-    const std::vector<float> posed = face.positions(rig_mesh);
+  /// Of `posed` from the sum of targets, and `base` if given: the pose that a difference is taken to.
+  void compare(const std::vector<float>& posed, const Weights& weights, bool corrected,
+               Distances& distances, const std::vector<float>* base = nullptr) const {
     std::vector<std::pair<double, const std::vector<float>*>> terms;
-    for (size_t e = 0; e < kArkitCount; ++e) {
+    for (size_t e = 0; e < weights.size(); ++e) {
       if (weights[e] != 0) terms.emplace_back(weights[e], &moves[e]);
     }
     for (const Pair& pair : correctives) {
@@ -124,7 +140,7 @@ struct BakedMesh {
       if (!is_moved[p]) continue;
       double squared = 0;
       for (size_t i = 3 * p; i < 3 * p + 3; ++i) {
-        double sum = neutral[i];
+        double sum = base ? (*base)[i] : neutral[i];
         for (const auto& [weight, term] : terms) sum += weight * (*term)[i];
         squared += (posed[i] - sum) * (posed[i] - sum);
       }
@@ -156,9 +172,15 @@ struct Shape {
   std::vector<float> positions, normals;
 };
 
-Shape shape_of(Face& face, uint32_t rig_mesh, uint32_t lod, const Weights& weights) {
-  face.deform(rig_mesh, lod, weights, true);
+Shape shape_of(Face& face, uint32_t rig_mesh, uint32_t lod,
+               const std::vector<ControlValue>& values) {
+  face.deform(rig_mesh, lod, values, true);
   return {face.positions(rig_mesh), face.normals(rig_mesh)};
+}
+
+std::vector<ControlValue> times(std::vector<ControlValue> values, float factor) {
+  for (ControlValue& value : values) value.value *= factor;
+  return values;
 }
 
 std::vector<float> less(std::vector<float> a, const std::vector<float>& b) {
@@ -176,15 +198,39 @@ double length_at(const RigSource& source, const std::vector<float>& moves, size_
   return length(source.point(moves.data() + 3 * position));
 }
 
+/// By how much the difference of mouthClose depends on the jaw; 0 if the set has not both expressions.
+double close_with_jaw(const RigSource& source, Face& face, const RigExpressions& set,
+                      const BakedMesh& baked) {
+  const size_t close = set.find("mouthClose"), jaw = set.find("jawOpen");
+  if (std::max(close, jaw) >= set.expressions.size()) return 0;
+  const RigExpression& expression = set.expressions[close];
+  std::vector<ControlValue> values = expression.plus;
+  const auto& open = set.expressions[jaw].plus;
+  const bool alone = expression.minus.empty();
+  if (alone) {
+    values.insert(values.end(), open.begin(), open.end());
+  } else {  // without the jaw
+    for (const ControlValue& of : expression.minus) values.push_back({of.control, -of.value});
+  }
+  const Shape other = shape_of(face, baked.rig_mesh, baked.lod, values);
+  const std::vector<float> base =
+      alone ? shape_of(face, baked.rig_mesh, baked.lod, open).positions : baked.neutral;
+  const std::vector<float> apart = less(less(other.positions, base), baked.moves[close]);
+  double most = 0;
+  for (size_t p = 0; p < baked.is_moved.size(); ++p) {
+    most = std::max(most, length_at(source, apart, p));
+  }
+  return most;
+}
+
 /// Targets of one mesh; also fills in what the report says of it.
-BakedMesh bake_mesh(const RigSource& source, Face& face, uint32_t rig_mesh, double diagonal,
-                    MouthClose mouth_close, Mesh& mesh, BakeReport& report) {
+BakedMesh bake_mesh(const RigSource& source, Face& face, const RigExpressions& set,
+                    uint32_t rig_mesh, double diagonal, Mesh& mesh, BakeReport& report) {
   const MienMesh from = source.mesh(rig_mesh);
   BakedMesh baked;
   baked.rig_mesh = rig_mesh;
   baked.lod = finest_lod(from);
-  Weights weights(kArkitCount);
-  const Shape neutral = shape_of(face, rig_mesh, baked.lod, weights);
+  const Shape neutral = shape_of(face, rig_mesh, baked.lod, {});
   baked.neutral = neutral.positions;
   baked.neutral_normals = neutral.normals;
   for (uint32_t v = 0; v < from.vertex_count; ++v) {
@@ -194,63 +240,50 @@ BakedMesh bake_mesh(const RigSource& source, Face& face, uint32_t rig_mesh, doub
   }
 
   baked.is_moved.resize(from.position_count);
-  Shape open;
-  for (size_t e = 0; e < kArkitCount; ++e) {
-    const bool with_jaw = e == kMouthClose && mouth_close == MouthClose::kWithJaw;
-    weights[e] = 1;
-    weights[kJawOpen] = with_jaw || e == kJawOpen;
-    const Shape shape = shape_of(face, rig_mesh, baked.lod, weights);
-    const Shape& base = with_jaw ? open : neutral;
+  for (size_t e = 0; e < set.expressions.size(); ++e) {
+    const RigExpression& expression = set.expressions[e];
+    const Shape base =
+        expression.minus.empty() ? neutral : shape_of(face, rig_mesh, baked.lod, expression.minus);
+    const Shape shape = shape_of(face, rig_mesh, baked.lod, expression.plus);
     mesh.targets.push_back(difference(source, rig_mesh, face.pose(), base.positions, base.normals,
                                       kLeastMove * diagonal));
-    mesh.targets.back().name = kArkitNames[e];
-    baked.moves[e] = less(shape.positions, base.positions);
-    baked.turns[e] = less(shape.normals, base.normals);
+    mesh.targets.back().name = expression.name;
+    baked.moves.push_back(less(shape.positions, base.positions));
+    baked.turns.push_back(less(shape.normals, base.normals));
     for (size_t p = 0; p < baked.is_moved.size(); ++p) {
       const double length = length_at(source, baked.moves[e], p);
       if (length > kLeastMove * diagonal) baked.is_moved[p] = true;
       double& most = report.expressions[e].max_move;
       most = std::max(most, length);
     }
-    if (e == kJawOpen) open = shape;
-    if (e == kMouthClose) {
-      weights[kJawOpen] = !with_jaw;
-      const Shape other = shape_of(face, rig_mesh, baked.lod, weights);
-      const Shape& other_base = with_jaw ? neutral : open;
-      const std::vector<float> apart =
-          less(less(other.positions, other_base.positions), baked.moves[e]);
-      for (size_t p = 0; p < baked.is_moved.size(); ++p) {
-        report.max_close_with_jaw =
-            std::max(report.max_close_with_jaw, length_at(source, apart, p));
-      }
-    }
-    weights[e] = weights[kJawOpen] = 0;
   }
+  report.max_close_with_jaw =
+      std::max(report.max_close_with_jaw, close_with_jaw(source, face, set, baked));
   const auto moves_nothing = [](const MorphTarget& target) { return target.vertices.empty(); };
   if (std::all_of(mesh.targets.begin(), mesh.targets.end(), moves_nothing)) mesh.targets.clear();
   return baked;
 }
 
 /// What two expressions together move beyond their sum, where that is notable: a target each.
-void add_correctives(const RigSource& source, Face& face, double diagonal, MouthClose mouth_close,
-                     BakedMesh& baked, Mesh& mesh) {
+void add_correctives(const RigSource& source, Face& face, const RigExpressions& set,
+                     double diagonal, BakedMesh& baked, Mesh& mesh) {
   if (mesh.targets.empty()) return;
   struct Found {
     double most;
     size_t first, second;
   };
   std::vector<Found> found;
-  Weights weights(kArkitCount);
+  const size_t count = set.expressions.size();
+  Weights weights(count);
   const auto deform = [&](size_t a, size_t b, bool with_normals) {
     weights[a] = weights[b] = 1;
     face.deform(baked.rig_mesh, baked.lod, weights, with_normals);
     weights[a] = weights[b] = 0;
   };
-  for (size_t a = 0; a < kArkitCount; ++a) {
-    for (size_t b = a + 1; b < kArkitCount; ++b) {
-      // A mouthClose that goes with the jaw is nothing by itself.
-      const bool closes = a == kMouthClose || b == kMouthClose;
-      if (closes && mouth_close == MouthClose::kWithJaw) continue;
+  for (size_t a = 0; a < count; ++a) {
+    for (size_t b = a + 1; b < count; ++b) {
+      // A difference is nothing by itself.
+      if (!set.expressions[a].minus.empty() || !set.expressions[b].minus.empty()) continue;
       if (mesh.targets[a].vertices.empty() || mesh.targets[b].vertices.empty()) continue;
       deform(a, b, false);
       const std::vector<float> beyond =
@@ -271,7 +304,7 @@ void add_correctives(const RigSource& source, Face& face, double diagonal, Mouth
     MorphTarget target = difference(source, baked.rig_mesh, face.pose(), positions,
                                     sum(baked.neutral_normals, baked.turns[a], baked.turns[b]),
                                     kLeastMove * diagonal);
-    target.name = std::string(kArkitNames[a]) + "+" + kArkitNames[b];
+    target.name = set.expressions[a].name + "+" + set.expressions[b].name;
     mesh.correctives.push_back({static_cast<uint32_t>(mesh.targets.size()),
                                 {static_cast<uint32_t>(a), static_cast<uint32_t>(b)}});
     mesh.targets.push_back(std::move(target));
@@ -279,76 +312,117 @@ void add_correctives(const RigSource& source, Face& face, double diagonal, Mouth
   }
 }
 
+constexpr size_t kNoBase = SIZE_MAX;
+
+/// For each expression that is a difference, the expression whose pose it is a difference to.
+std::vector<size_t> bases_of(const RigExpressions& set) {
+  const auto same = [](const std::vector<ControlValue>& a, const std::vector<ControlValue>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {
+      return x.control == y.control && x.value == y.value;
+    });
+  };
+  std::vector<size_t> bases(set.expressions.size(), kNoBase);
+  for (size_t e = 0; e < bases.size(); ++e) {
+    for (size_t other = 0; other < bases.size() && !set.expressions[e].minus.empty(); ++other) {
+      const RigExpression& base = set.expressions[other];
+      if (base.minus.empty() && same(base.plus, set.expressions[e].minus)) bases[e] = other;
+    }
+  }
+  return bases;
+}
+
+/// Weights of a random combination.
+void draw_weights(const RigExpressions& set, const std::vector<size_t>& bases, Random& random,
+                  Weights& weights) {
+  for (double& weight : weights) {
+    const bool is_on = random.unit() < 0.125;
+    const double value = random.unit();
+    weight = is_on ? value : 0;
+  }
+  for (size_t e = 0; e < weights.size(); ++e) {
+    if (set.expressions[e].minus.empty()) continue;
+    weights[e] = bases[e] == kNoBase ? 0 : std::min(weights[e], weights[bases[e]]);
+  }
+}
+
+/// Half of each target against the rig at half of its controls.
+void measure_halfway(Face& face, const RigExpressions& set, const BakedMesh& baked,
+                     std::vector<Distances>& halfway) {
+  Weights weights(set.expressions.size());
+  for (size_t e = 0; e < weights.size(); ++e) {
+    const RigExpression& expression = set.expressions[e];
+    face.deform(baked.rig_mesh, baked.lod, times(expression.minus, 0.5f), false);
+    const std::vector<float> base = face.positions(baked.rig_mesh);
+    face.deform(baked.rig_mesh, baked.lod, times(expression.plus, 0.5f), false);
+    weights[e] = 0.5;
+    baked.compare(face.positions(baked.rig_mesh), weights, false, halfway[e], &base);
+    weights[e] = 0;
+  }
+}
+
 }  // namespace
 
-BakeReport bake_arkit(const RigSource& source, const ArkitControls& controls,
-                      const BakeOptions& options, RigScene& scene,
-                      const std::function<void(double share)>& progress) {
-  const bool with_jaw = options.mouth_close == MouthClose::kWithJaw;
+BakeReport bake_expressions(const RigSource& source, const RigExpressions& set, bool correctives,
+                            RigScene& scene, const std::function<void(double share)>& progress) {
+  const size_t count = set.expressions.size();
   BakeReport report;
-  report.expressions.resize(kArkitCount);
+  for (const RigExpression& expression : set.expressions) {
+    report.expressions.push_back({expression.name, 0, {}});
+  }
+  report.worst.resize(count);
   report.diagonal = diagonal_of(source);
   report.combination_count = kCombinations;
-  Face face(source, controls);
-  Distances halfway[kArkitCount], together, corrected;
+  Face face(source, set);
+  const std::vector<size_t> bases = bases_of(set);
+  std::vector<Distances> halfway(count);
+  Distances together, corrected;
   for (size_t m = 0; m < scene.scene.meshes.size(); ++m) {
     const uint32_t rig_mesh = scene.rig_meshes[m];
     Mesh& mesh = scene.scene.meshes[m];
-    BakedMesh baked =
-        bake_mesh(source, face, rig_mesh, report.diagonal, options.mouth_close, mesh, report);
-    if (options.correctives) {
-      add_correctives(source, face, report.diagonal, options.mouth_close, baked, mesh);
+    BakedMesh baked = bake_mesh(source, face, set, rig_mesh, report.diagonal, mesh, report);
+    if (correctives) {
+      add_correctives(source, face, set, report.diagonal, baked, mesh);
       report.corrective_count += mesh.correctives.size();
     }
     report.moved_positions +=
         static_cast<size_t>(std::count(baked.is_moved.begin(), baked.is_moved.end(), true));
-    Weights weights(kArkitCount);
-    for (size_t e = 0; e < kArkitCount; ++e) {
-      weights[e] = 0.5;
-      if (with_jaw && e == kMouthClose) weights[kJawOpen] = 0.5;
-      face.deform(rig_mesh, baked.lod, weights, false);
-      baked.compare(face, weights, false, halfway[e]);
-      weights[e] = weights[kJawOpen] = 0;
-    }
+    measure_halfway(face, set, baked, halfway);
     Random random;
+    Weights weights(count);
     for (uint32_t i = 0; i < kCombinations; ++i) {
       // Most of the time goes here.
       const double part = double(i) / kCombinations;
       if (progress) progress((double(m) + part) / double(scene.scene.meshes.size()));
-      for (double& weight : weights) {
-        const bool is_on = random.unit() < 0.125;
-        const double value = random.unit();
-        weight = is_on ? value : 0;
-      }
-      if (with_jaw) weights[kMouthClose] = std::min(weights[kMouthClose], weights[kJawOpen]);
+      draw_weights(set, bases, random, weights);
       const double most = together.most;
       face.deform(rig_mesh, baked.lod, weights, false);
-      baked.compare(face, weights, false, together);
-      baked.compare(face, weights, true, corrected);
+      const std::vector<float> posed = face.positions(rig_mesh);
+      baked.compare(posed, weights, false, together);
+      baked.compare(posed, weights, true, corrected);
       if (together.most > most) std::copy(weights.begin(), weights.end(), report.worst.begin());
     }
   }
   const double meters = source.meters_per_unit();
-  for (size_t e = 0; e < kArkitCount; ++e) {
-    report.expressions[e].halfway = halfway[e].residual(meters);
-  }
+  for (size_t e = 0; e < count; ++e) report.expressions[e].halfway = halfway[e].residual(meters);
   report.combinations = together.residual(meters);
   report.corrected = corrected.residual(meters);
   return report;
 }
 
-ArkitWeights arkit_weights(const ArkitControls& controls, const MienFloatView& raw) {
-  ArkitWeights weights{};
-  for (size_t e = 0; e < kArkitCount; ++e) weights[e] = raw.data[controls.controls[e][0].control];
+std::vector<float> expression_weights(const RigExpressions& set, const MienFloatView& raw) {
+  std::vector<float> weights;
+  for (const RigExpression& expression : set.expressions) {
+    weights.push_back(raw.data[expression.control]);
+  }
   return weights;
 }
 
 namespace {
 
 /// Of the expressions, and of the correctives that they drive.
-std::vector<float> target_weights(const Mesh& mesh, const ArkitWeights& expressions) {
+std::vector<float> target_weights(const Mesh& mesh, const std::vector<float>& expressions) {
   if (mesh.targets.empty()) return {};
-  std::vector<float> weights(expressions.begin(), expressions.end());
+  std::vector<float> weights = expressions;
   for (const Corrective& corrective : mesh.correctives) {
     weights.push_back(weights[corrective.product[0]] * weights[corrective.product[1]]);
   }
@@ -357,14 +431,14 @@ std::vector<float> target_weights(const Mesh& mesh, const ArkitWeights& expressi
 
 }  // namespace
 
-void set_baked_pose(RigScene& scene, const ArkitWeights& weights) {
+void set_baked_pose(RigScene& scene, const std::vector<float>& weights) {
   for (Mesh& mesh : scene.scene.meshes) {
     const std::vector<float> all = target_weights(mesh, weights);
     for (size_t t = 0; t < all.size(); ++t) mesh.targets[t].weight = all[t];
   }
 }
 
-Animation baked_animation(const RigScene& scene, const std::vector<ArkitWeights>& frames,
+Animation baked_animation(const RigScene& scene, const std::vector<std::vector<float>>& frames,
                           const std::string& name, double rate) {
   Animation animation;
   animation.name = name;
@@ -375,7 +449,7 @@ Animation baked_animation(const RigScene& scene, const std::vector<ArkitWeights>
     if (scene.scene.meshes[m].targets.empty()) continue;
     animation.weights.emplace_back();
     animation.weights.back().mesh = m;
-    for (const ArkitWeights& weights : frames) {
+    for (const std::vector<float>& weights : frames) {
       std::vector<float>& track = animation.weights.back().weights;
       const std::vector<float> all = target_weights(scene.scene.meshes[m], weights);
       track.insert(track.end(), all.begin(), all.end());

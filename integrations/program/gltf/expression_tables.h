@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: MIT
+// Sets of expressions as values of controls. Names are those of ARKit or of MetaHuman's raw controls; ways
+// stand behind |, the first of which a rig has all controls counts; what is behind - is the pose that a difference
+// is taken to. docs/face-capture.md, 5 "Sets of expressions" has the sources and reasons.
+#pragma once
+
+#include <cstddef>
+
+namespace mien::gltf {
+
+struct ExpressionRow {
+  const char* name;
+  const char* ways;
+};
+
+struct ExpressionTable {
+  const char* name;
+  const ExpressionRow* rows;
+  size_t count;
+};
+
+constexpr const char* kArkitNames[] = {
+    "eyeBlinkLeft",      "eyeLookDownLeft",    "eyeLookInLeft",
+    "eyeLookOutLeft",    "eyeLookUpLeft",      "eyeSquintLeft",
+    "eyeWideLeft",       "eyeBlinkRight",      "eyeLookDownRight",
+    "eyeLookInRight",    "eyeLookOutRight",    "eyeLookUpRight",
+    "eyeSquintRight",    "eyeWideRight",       "jawForward",
+    "jawLeft",           "jawRight",           "jawOpen",
+    "mouthClose",        "mouthFunnel",        "mouthPucker",
+    "mouthLeft",         "mouthRight",         "mouthSmileLeft",
+    "mouthSmileRight",   "mouthFrownLeft",     "mouthFrownRight",
+    "mouthDimpleLeft",   "mouthDimpleRight",   "mouthStretchLeft",
+    "mouthStretchRight", "mouthRollLower",     "mouthRollUpper",
+    "mouthShrugLower",   "mouthShrugUpper",    "mouthPressLeft",
+    "mouthPressRight",   "mouthLowerDownLeft", "mouthLowerDownRight",
+    "mouthUpperUpLeft",  "mouthUpperUpRight",  "browDownLeft",
+    "browDownRight",     "browInnerUp",        "browOuterUpLeft",
+    "browOuterUpRight",  "cheekPuff",          "cheekSquintLeft",
+    "cheekSquintRight",  "noseSneerLeft",      "noseSneerRight",
+    "tongueOut"};
+
+// The 15 visemes of Oculus lip sync.
+constexpr ExpressionRow kVisemes[] = {
+    {"viseme_sil", ""},
+    {"viseme_PP", "mouthPressLeft 0.6 mouthPressRight 0.6 mouthRollLower 0.3 mouthRollUpper 0.3"},
+    {"viseme_FF", "mouthRollLower 0.5 mouthUpperUpLeft 0.3 mouthUpperUpRight 0.3 jawOpen 0.04"},
+    {"viseme_TH", "jawOpen 0.14 tongueOut 0.4 mouthLowerDownLeft 0.2 mouthLowerDownRight 0.2"},
+    {"viseme_DD",
+     "jawOpen 0.1 mouthLowerDownLeft 0.3 mouthLowerDownRight 0.3 mouthUpperUpLeft 0.15 "
+     "mouthUpperUpRight 0.15"},
+    {"viseme_kk",
+     "jawOpen 0.18 mouthLowerDownLeft 0.2 mouthLowerDownRight 0.2 mouthStretchLeft 0.1 "
+     "mouthStretchRight 0.1"},
+    {"viseme_CH",
+     "jawOpen 0.07 mouthFunnel 0.6 mouthPucker 0.2 mouthUpperUpLeft 0.2 mouthUpperUpRight 0.2"},
+    {"viseme_SS",
+     "jawOpen 0.04 mouthStretchLeft 0.3 mouthStretchRight 0.3 mouthLowerDownLeft 0.35 "
+     "mouthLowerDownRight 0.35 mouthUpperUpLeft 0.2 mouthUpperUpRight 0.2"},
+    {"viseme_nn",
+     "jawOpen 0.09 mouthLowerDownLeft 0.25 mouthLowerDownRight 0.25 mouthUpperUpLeft 0.1 "
+     "mouthUpperUpRight 0.1"},
+    {"viseme_RR", "jawOpen 0.12 mouthFunnel 0.45 mouthPucker 0.3"},
+    {"viseme_aa",
+     "jawOpen 0.6 mouthLowerDownLeft 0.2 mouthLowerDownRight 0.2 mouthUpperUpLeft 0.15 "
+     "mouthUpperUpRight 0.15"},
+    {"viseme_E",
+     "jawOpen 0.3 mouthSmileLeft 0.25 mouthSmileRight 0.25 mouthStretchLeft 0.2 mouthStretchRight "
+     "0.2 mouthLowerDownLeft 0.2 mouthLowerDownRight 0.2"},
+    {"viseme_ih",
+     "jawOpen 0.2 mouthSmileLeft 0.3 mouthSmileRight 0.3 mouthLowerDownLeft 0.2 "
+     "mouthLowerDownRight 0.2"},
+    {"viseme_oh", "jawOpen 0.4 mouthFunnel 0.6 mouthPucker 0.15"},
+    {"viseme_ou", "jawOpen 0.15 mouthPucker 0.75 mouthFunnel 0.35"},
+};
+
+// The 22 viseme numbers of cloud voices (Azure), each with a phoneme of its group.
+constexpr ExpressionRow kVisemes22[] = {
+    {"viseme_0_silence", ""},
+    {"viseme_1_ae",
+     "jawOpen 0.4 mouthSmileLeft 0.1 mouthSmileRight 0.1 mouthLowerDownLeft 0.2 "
+     "mouthLowerDownRight 0.2 mouthUpperUpLeft 0.1 mouthUpperUpRight 0.1"},
+    {"viseme_2_aa",
+     "jawOpen 0.6 mouthLowerDownLeft 0.2 mouthLowerDownRight 0.2 mouthUpperUpLeft 0.15 "
+     "mouthUpperUpRight 0.15"},
+    {"viseme_3_ao", "jawOpen 0.5 mouthFunnel 0.45"},
+    {"viseme_4_ey",
+     "jawOpen 0.3 mouthSmileLeft 0.25 mouthSmileRight 0.25 mouthStretchLeft 0.2 mouthStretchRight "
+     "0.2 mouthLowerDownLeft 0.2 mouthLowerDownRight 0.2"},
+    {"viseme_5_er", "jawOpen 0.2 mouthFunnel 0.35 mouthPucker 0.2"},
+    {"viseme_6_y",
+     "jawOpen 0.12 mouthSmileLeft 0.35 mouthSmileRight 0.35 mouthStretchLeft 0.15 "
+     "mouthStretchRight 0.15"},
+    {"viseme_7_w", "jawOpen 0.08 mouthPucker 0.85 mouthFunnel 0.3"},
+    {"viseme_8_ow", "jawOpen 0.4 mouthFunnel 0.6 mouthPucker 0.15"},
+    {"viseme_9_aw", "jawOpen 0.5 mouthFunnel 0.3 mouthPucker 0.2"},
+    {"viseme_10_oy", "jawOpen 0.35 mouthFunnel 0.5 mouthStretchLeft 0.1 mouthStretchRight 0.1"},
+    {"viseme_11_ay",
+     "jawOpen 0.5 mouthSmileLeft 0.2 mouthSmileRight 0.2 mouthLowerDownLeft 0.2 "
+     "mouthLowerDownRight 0.2"},
+    {"viseme_12_h", "jawOpen 0.25 mouthLowerDownLeft 0.1 mouthLowerDownRight 0.1"},
+    {"viseme_13_r", "jawOpen 0.12 mouthFunnel 0.45 mouthPucker 0.3"},
+    {"viseme_14_l",
+     "jawOpen 0.2 mouthLowerDownLeft 0.2 mouthLowerDownRight 0.2 mouthUpperUpLeft 0.1 "
+     "mouthUpperUpRight 0.1"},
+    {"viseme_15_s",
+     "jawOpen 0.04 mouthStretchLeft 0.3 mouthStretchRight 0.3 mouthLowerDownLeft 0.35 "
+     "mouthLowerDownRight 0.35 mouthUpperUpLeft 0.2 mouthUpperUpRight 0.2"},
+    {"viseme_16_sh",
+     "jawOpen 0.07 mouthFunnel 0.6 mouthPucker 0.2 mouthUpperUpLeft 0.2 mouthUpperUpRight 0.2"},
+    {"viseme_17_th", "jawOpen 0.14 tongueOut 0.4 mouthLowerDownLeft 0.2 mouthLowerDownRight 0.2"},
+    {"viseme_18_f", "mouthRollLower 0.5 mouthUpperUpLeft 0.3 mouthUpperUpRight 0.3 jawOpen 0.04"},
+    {"viseme_19_d",
+     "jawOpen 0.1 mouthLowerDownLeft 0.3 mouthLowerDownRight 0.3 mouthUpperUpLeft 0.15 "
+     "mouthUpperUpRight 0.15"},
+    {"viseme_20_k",
+     "jawOpen 0.18 mouthLowerDownLeft 0.2 mouthLowerDownRight 0.2 mouthStretchLeft 0.1 "
+     "mouthStretchRight 0.1"},
+    {"viseme_21_p", "mouthPressLeft 0.6 mouthPressRight 0.6 mouthRollLower 0.3 mouthRollUpper 0.3"},
+};
+
+// Unified Expressions, without those that no rig has: EyeOpenness is EyeClosed here.
+constexpr ExpressionRow kUnified[] = {
+    {"EyeLookOutRight", "eyeLookOutRight 1"},
+    {"EyeLookOutLeft", "eyeLookOutLeft 1"},
+    {"EyeLookInRight", "eyeLookInRight 1"},
+    {"EyeLookInLeft", "eyeLookInLeft 1"},
+    {"EyeLookUpRight", "eyeLookUpRight 1"},
+    {"EyeLookUpLeft", "eyeLookUpLeft 1"},
+    {"EyeLookDownRight", "eyeLookDownRight 1"},
+    {"EyeLookDownLeft", "eyeLookDownLeft 1"},
+    {"EyeClosedRight", "eyeBlinkRight 1"},
+    {"EyeClosedLeft", "eyeBlinkLeft 1"},
+    {"EyeSquintRight", "eyeSquintRight 1"},
+    {"EyeSquintLeft", "eyeSquintLeft 1"},
+    {"EyeWideRight", "eyeWideRight 1"},
+    {"EyeWideLeft", "eyeWideLeft 1"},
+    {"EyeDilationRight", "eyePupilWideR 1"},
+    {"EyeDilationLeft", "eyePupilWideL 1"},
+    {"EyeConstrictRight", "eyePupilNarrowR 1"},
+    {"EyeConstrictLeft", "eyePupilNarrowL 1"},
+    {"BrowPinchRight", "browLateralR 1"},
+    {"BrowPinchLeft", "browLateralL 1"},
+    {"BrowLowererRight", "browDownRight 1"},
+    {"BrowLowererLeft", "browDownLeft 1"},
+    {"BrowInnerUpRight", "browRaiseInR 1 browLateralR 1"},
+    {"BrowInnerUpLeft", "browRaiseInL 1 browLateralL 1"},
+    {"BrowOuterUpRight", "browOuterUpRight 1"},
+    {"BrowOuterUpLeft", "browOuterUpLeft 1"},
+    {"NasalDilationRight", "noseNostrilDilateR 1"},
+    {"NasalDilationLeft", "noseNostrilDilateL 1"},
+    {"NasalConstrictRight", "noseNostrilCompressR 1"},
+    {"NasalConstrictLeft", "noseNostrilCompressL 1"},
+    {"CheekSquintRight", "cheekSquintRight 1"},
+    {"CheekSquintLeft", "cheekSquintLeft 1"},
+    {"CheekPuffRight", "mouthCheekBlowR 1"},
+    {"CheekPuffLeft", "mouthCheekBlowL 1"},
+    {"CheekSuckRight", "mouthCheekSuckR 1"},
+    {"CheekSuckLeft", "mouthCheekSuckL 1"},
+    {"JawOpen", "jawOpen 1"},
+    {"JawRight", "jawRight 1"},
+    {"JawLeft", "jawLeft 1"},
+    {"JawForward", "jawForward 1"},
+    {"JawBackward", "jawBack 1"},
+    {"JawClench", "jawClenchL 1 jawClenchR 1"},
+    {"MouthClosed", "mouthClose 1 jawOpen 1 - jawOpen 1"},
+    {"LipSuckUpperRight", "mouthUpperLipRollInR 1"},
+    {"LipSuckUpperLeft", "mouthUpperLipRollInL 1"},
+    {"LipSuckLowerRight", "mouthLowerLipRollInR 1"},
+    {"LipSuckLowerLeft", "mouthLowerLipRollInL 1"},
+    {"LipFunnelUpperRight", "mouthFunnelUR 1"},
+    {"LipFunnelUpperLeft", "mouthFunnelUL 1"},
+    {"LipFunnelLowerRight", "mouthFunnelDR 1"},
+    {"LipFunnelLowerLeft", "mouthFunnelDL 1"},
+    {"LipPuckerUpperRight", "mouthLipsPurseUR 1"},
+    {"LipPuckerUpperLeft", "mouthLipsPurseUL 1"},
+    {"LipPuckerLowerRight", "mouthLipsPurseDR 1"},
+    {"LipPuckerLowerLeft", "mouthLipsPurseDL 1"},
+    {"MouthUpperUpRight", "mouthUpperUpRight 1"},
+    {"MouthUpperUpLeft", "mouthUpperUpLeft 1"},
+    {"MouthUpperDeepenRight", "noseNasolabialDeepenR 1"},
+    {"MouthUpperDeepenLeft", "noseNasolabialDeepenL 1"},
+    {"NoseSneerRight", "noseSneerRight 1"},
+    {"NoseSneerLeft", "noseSneerLeft 1"},
+    {"MouthLowerDownRight", "mouthLowerDownRight 1"},
+    {"MouthLowerDownLeft", "mouthLowerDownLeft 1"},
+    {"MouthUpperRight", "mouthUpperLipShiftRight 1"},
+    {"MouthUpperLeft", "mouthUpperLipShiftLeft 1"},
+    {"MouthLowerRight", "mouthLowerLipShiftRight 1"},
+    {"MouthLowerLeft", "mouthLowerLipShiftLeft 1"},
+    {"MouthCornerPullRight", "mouthSmileRight 1"},
+    {"MouthCornerPullLeft", "mouthSmileLeft 1"},
+    {"MouthCornerSlantRight", "mouthSharpCornerPullR 1"},
+    {"MouthCornerSlantLeft", "mouthSharpCornerPullL 1"},
+    {"MouthFrownRight", "mouthFrownRight 1"},
+    {"MouthFrownLeft", "mouthFrownLeft 1"},
+    {"MouthStretchRight", "mouthStretchRight 1"},
+    {"MouthStretchLeft", "mouthStretchLeft 1"},
+    {"MouthDimpleRight", "mouthDimpleRight 1"},
+    {"MouthDimpleLeft", "mouthDimpleLeft 1"},
+    {"MouthRaiserUpper", "mouthShrugUpper 1"},
+    {"MouthRaiserLower", "mouthShrugLower 1"},
+    {"MouthPressRight", "mouthPressRight 1"},
+    {"MouthPressLeft", "mouthPressLeft 1"},
+    {"MouthTightenerRight", "mouthLipsTightenUR 1 mouthLipsTightenDR 1"},
+    {"MouthTightenerLeft", "mouthLipsTightenUL 1 mouthLipsTightenDL 1"},
+    {"TongueOut", "tongueOut 1"},
+    {"TongueUp", "tongueUp 1"},
+    {"TongueDown", "tongueDown 1"},
+    {"TongueRight", "tongueRight 1"},
+    {"TongueLeft", "tongueLeft 1"},
+    {"TongueRoll", "tongueRoll 1"},
+    {"TongueBendDown", "tongueBendDown 1"},
+    {"TongueCurlUp", "tongueBendUp 1"},
+    {"TongueSquish", "tongueNarrow 1"},
+    {"TongueFlat", "tongueThin 1"},
+    {"TongueTwistRight", "tongueTwistRight 1"},
+    {"TongueTwistLeft", "tongueTwistLeft 1"},
+    {"ThroatSwallow", "neckSwallowPh2 1"},
+    {"NeckFlexRight", "neckStretchR 1"},
+    {"NeckFlexLeft", "neckStretchL 1"},
+};
+
+// Prototypes of EMFACS, by their action units.
+constexpr ExpressionRow kEmotions[] = {
+    {"happy", "mouthSmileLeft 0.9 mouthSmileRight 0.9 cheekSquintLeft 0.7 cheekSquintRight 0.7"},
+    {"sad",
+     "browInnerUp 0.8 browDownLeft 0.3 browDownRight 0.3 mouthFrownLeft 0.7 mouthFrownRight 0.7"},
+    {"angry",
+     "browDownLeft 0.9 browDownRight 0.9 eyeWideLeft 0.3 eyeWideRight 0.3 eyeSquintLeft 0.5 "
+     "eyeSquintRight 0.5 mouthPressLeft 0.6 mouthPressRight 0.6"},
+    {"fearful",
+     "browInnerUp 0.9 browOuterUpLeft 0.5 browOuterUpRight 0.5 browDownLeft 0.3 browDownRight 0.3 "
+     "eyeWideLeft 0.8 eyeWideRight 0.8 mouthStretchLeft 0.6 mouthStretchRight 0.6 jawOpen 0.2"},
+    {"surprised",
+     "browInnerUp 0.9 browOuterUpLeft 0.9 browOuterUpRight 0.9 eyeWideLeft 0.7 eyeWideRight 0.7 "
+     "jawOpen 0.4"},
+    {"disgusted",
+     "noseSneerLeft 0.9 noseSneerRight 0.9 mouthFrownLeft 0.5 mouthFrownRight 0.5 "
+     "mouthLowerDownLeft 0.3 mouthLowerDownRight 0.3"},
+    {"contemptuous", "mouthSmileRight 0.5 mouthDimpleRight 0.7"},
+};
+
+template <size_t kCount>
+constexpr ExpressionTable table_of(const char* name, const ExpressionRow (&rows)[kCount]) {
+  return {name, rows, kCount};
+}
+
+constexpr ExpressionTable kExpressionTables[] = {
+    table_of("visemes", kVisemes), table_of("visemes22", kVisemes22), table_of("unified", kUnified),
+    table_of("emotions", kEmotions)};
+
+}  // namespace mien::gltf
