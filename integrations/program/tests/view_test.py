@@ -150,6 +150,30 @@ class View(ProgramTest):
                     pass  # it has hung up already
         self.assertEqual(self.ask("/")[0], 200)
 
+    def test_slow_clients_do_not_stop_it(self):
+        """Clients that send a byte now and then, or never read: each has its thread for 20 s at most."""
+        self.start(path("tiny.dna"))
+        slow = [socket.create_connection(("127.0.0.1", self.port), timeout=60) for _ in range(12)]
+        try:
+            begin = time.monotonic()
+            for one in slow:
+                one.sendall(b"GET / HTTP/1.1\r\n")
+            self.assertEqual(self.ask("/")[0], 200)  # meanwhile
+            open_still = list(slow)
+            while open_still and time.monotonic() - begin < 60:
+                for one in list(open_still):
+                    try:
+                        one.sendall(b"X: y\r\n")  # never the empty line
+                    except OSError:
+                        open_still.remove(one)
+                time.sleep(0.5)
+            self.assertEqual(open_still, [])
+            self.assertGreater(time.monotonic() - begin, 10)
+        finally:
+            for one in slow:
+                one.close()
+        self.assertEqual(self.ask("/")[0], 200)
+
     def test_it_ends_by_a_signal(self):
         for number in (signal.SIGINT, signal.SIGTERM):
             self.start(path("tiny.rig"))

@@ -2,7 +2,6 @@
 #include "integrations/program/view/viewer_server.h"
 
 #include <fcntl.h>
-#include <httplib.h>
 #include <spawn.h>
 #include <sys/socket.h>
 
@@ -12,6 +11,7 @@
 #include <thread>
 
 #include "integrations/program/io/failure.h"
+#include "integrations/program/view/deadline_server.h"
 
 extern char** environ;
 
@@ -20,6 +20,10 @@ namespace mien::view {
 namespace {
 
 constexpr const char* kHost = "127.0.0.1";
+// For a request and its answer as a whole. Clients on this machine take far less; only as many slow ones as there
+// are threads can make others wait, and for no longer than that.
+constexpr std::chrono::seconds kDeadline(20);
+constexpr size_t kThreads = 32;
 
 /// What ends the program. Blocked, so that threads inherit it and one place waits for them.
 sigset_t ending_signals() {
@@ -70,11 +74,9 @@ void ignore_broken_pipes() { std::signal(SIGPIPE, SIG_IGN); }
 void require_server() {}
 
 void serve(const Files& files, uint16_t wanted_port, const std::function<void(uint16_t)>& started) {
-  httplib::Server server;
-  server.new_task_queue = [] { return new httplib::ThreadPool(4); };
+  DeadlineServer server(kDeadline);
+  server.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
   server.set_payload_max_length(4096);
-  server.set_read_timeout(10, 0);
-  server.set_keep_alive_timeout(2);
   // Not SO_REUSEPORT, its default: two servers would share a port.
   server.set_socket_options([](socket_t socket) {
     const int yes = 1;
