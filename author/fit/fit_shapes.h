@@ -79,22 +79,23 @@ void fit_all(Fitter& fitter, const AuthorMesh& mesh, const Placement& placement,
 
 /// Weights of each vertex that bring it closest to its displacements, all shapes together: not
 /// negative, summing to one, drawn to what they were by `pull`. Of its influences in `from` and the `shared`
-/// bones those stay that `out` has room for; vertices of one influence are left rigid. With
+/// bones those stay that `out` has room for; vertices without a facial bone, a jaw or an eye are left as
+/// they are, and so are the weights of `held` bones (one for each bone; empty: none) everywhere. The first of the shared ones is the head. With
 /// `smoothness` they are drawn to those of their neighbors, the more the higher it is. `out` may be
 /// `from`. False if memory ran out.
 constexpr uint32_t kMaxSharedBones = 4;
 bool refit_weights(const AuthorMesh& mesh, const SurfaceGraph& graph, const Motions& motions,
-                   Span<const uint16_t> shared, double smoothness, double pull,
-                   const ParallelFor& parallel, Arena& scratch, const SkinWeights& from,
-                   SkinWeights& out);
+                   Span<const uint16_t> shared, Span<const uint8_t> held, double smoothness,
+                   double pull, const ParallelFor& parallel, Arena& scratch,
+                   const SkinWeights& from, SkinWeights& out);
 
 /// The weights of LOD 0, as smooth as the options say, and every bone's in one piece.
 bool refit_finest(const AuthorMesh& mesh, const Placement& placement, const Motions& motions,
                   Span<const uint16_t> shared, const FitOptions& options,
                   const ParallelFor& parallel, const Allocator& allocator, SkinWeights& weights);
 /// Those of a further LOD.
-bool refit_lod(const AuthorMesh& mesh, const Motions& motions, Span<const uint16_t> shared,
-               const FitOptions& options, const ParallelFor& parallel, const Allocator& allocator,
-               const SkinWeights& from, SkinWeights& out);
+bool refit_lod(const AuthorMesh& mesh, const Placement& placement, const Motions& motions,
+               Span<const uint16_t> shared, const FitOptions& options, const ParallelFor& parallel,
+               const Allocator& allocator, const SkinWeights& from, SkinWeights& out);
 
 }  // namespace mien::author

@@ -84,6 +84,7 @@ struct VertexWeights {
   SmallSystem system;
   uint16_t joints[kMaxInfluences];
   double x[kMaxInfluences];
+  double sum = 1;  // of the unknowns
 
   void add(uint16_t joint, double value) {
     joints[system.size] = joint;
@@ -135,6 +136,7 @@ struct RefitTask {
   const SurfaceGraph& graph;
   const Motions& motions;
   Span<const uint16_t> shared;
+  Span<const uint8_t> held;  // by bone
   const SkinWeights& from;
   SkinWeights before;  // of the last round; empty in the first
   double smoothness = 0;
@@ -225,7 +227,7 @@ bool make_system(const RefitTask& task, uint32_t v, VertexWeights& w) {
                             ? task.smoothness * (scale + kTypical * task.typical)
                             : 0;
   for (uint32_t i = 0; i < s.size; ++i) {
-    s.right[i] += sum_row + pull * w.x[i] + (smooth > 0 ? smooth * mean[i] : 0);
+    s.right[i] += sum_row * w.sum + pull * w.x[i] + (smooth > 0 ? smooth * mean[i] : 0);
     for (uint32_t k = 0; k <= i; ++k) {
       s.matrix[i][k] += sum_row + (i == k ? pull + smooth : 0);
       s.matrix[k][i] = s.matrix[i][k];
@@ -245,8 +247,16 @@ VertexWeights weights_of(const SkinWeights& from, uint32_t v) {
 
 void refit_vertex(const RefitTask& task, uint32_t v) {
   const VertexWeights given = weights_of(task.from, v);
-  VertexWeights w = given;
-  const bool is_rigid = w.system.size < 2;
+  VertexWeights w, held;
+  for (uint32_t i = 0; i < given.system.size; ++i) {
+    const bool is_held = !task.held.empty() && task.held[given.joints[i]];
+    (is_held ? held : w).add(given.joints[i], given.x[i]);
+    if (is_held) w.sum -= given.x[i];
+  }
+  // Of a vertex on the neck that nothing else moves there is nothing to find out.
+  const bool is_rigid = given.system.size < 2 || w.system.size == 0 ||
+                        (w.system.size == 1 && !task.shared.empty() && w.has(task.shared[0])) ||
+                        held.system.size >= task.out.m;
   for (size_t i = 0; i < task.shared.count && !is_rigid; ++i) {
     if (!w.has(task.shared[i])) w.add(task.shared[i], 0);
   }
@@ -262,19 +272,23 @@ void refit_vertex(const RefitTask& task, uint32_t v) {
       if (!(w.x[i] > 0)) continue;
       if (used++ == 0 || w.x[i] < w.x[lightest]) lightest = i;
     }
-    if (used <= task.out.m) break;
+    if (used + held.system.size <= task.out.m) break;
     w.remove(lightest);
     solve_nonnegative(w.system, w.x);
   }
-  if (!store(w, v, task.out)) store(given, v, task.out);
+  double found = 0;
+  for (uint32_t i = 0; i < w.system.size; ++i) found += w.x[i];
+  for (uint32_t i = 0; i < w.system.size && found > 0; ++i) w.x[i] *= w.sum / found;
+  for (uint32_t i = 0; i < held.system.size; ++i) w.add(held.joints[i], held.x[i]);
+  if (!(found > 0) || !store(w, v, task.out)) store(given, v, task.out);
 }
 
 }  // namespace
 
 bool refit_weights(const AuthorMesh& mesh, const SurfaceGraph& graph, const Motions& motions,
-                   Span<const uint16_t> shared, double smoothness, double pull,
-                   const ParallelFor& parallel, Arena& scratch, const SkinWeights& from,
-                   SkinWeights& out) {
+                   Span<const uint16_t> shared, Span<const uint8_t> held, double smoothness,
+                   double pull, const ParallelFor& parallel, Arena& scratch,
+                   const SkinWeights& from, SkinWeights& out) {
   SkinWeights given = from, before;
   before.m = out.m;
   if (!make(scratch, from.joints.count, given.joints) ||
@@ -285,7 +299,7 @@ bool refit_weights(const AuthorMesh& mesh, const SurfaceGraph& graph, const Moti
   }
   std::copy(from.joints.begin(), from.joints.end(), given.joints.begin());
   std::copy(from.weights.begin(), from.weights.end(), given.weights.begin());
-  RefitTask task = {mesh, graph, motions, shared, given, {}, smoothness, pull, 0, out, {}, 0};
+  RefitTask task = {mesh, graph, motions, shared, held, given, {}, smoothness, pull, 0, out, {}, 0};
   if (smoothness > 0) {
     const size_t unknowns = from.m + shared.count;
     task.sums_each = static_cast<uint32_t>(unknowns * (unknowns + 3) / 2);
@@ -321,6 +335,16 @@ bool refit_weights(const AuthorMesh& mesh, const SurfaceGraph& graph, const Moti
 
 namespace {
 
+/// Chest and neck.
+bool find_held(const Placement& placement, Arena& scratch, Span<uint8_t>& out) {
+  if (!make(scratch, placement.bones.count, out)) return false;
+  for (size_t b = 0; b < out.count; ++b) {
+    const BoneKind kind = placement.bones[b].kind;
+    out[b] = kind == BoneKind::kChest || kind == BoneKind::kNeck;
+  }
+  return true;
+}
+
 /// Of the edges of the mask.
 double mean_length(const Placement& placement, const SurfaceGraph& graph, double otherwise) {
   double sum = 0;
@@ -339,26 +363,28 @@ bool refit_finest(const AuthorMesh& mesh, const Placement& placement, const Moti
                   const ParallelFor& parallel, const Allocator& allocator, SkinWeights& weights) {
   Arena scratch(allocator);
   SurfaceGraph graph;
+  Span<uint8_t> held;
   double spacing = 0;
-  if (!make_surface_graph(mesh, scratch, scratch, graph) ||
+  if (!find_held(placement, scratch, held) || !make_surface_graph(mesh, scratch, scratch, graph) ||
       !find_median_spacing(placement, placement.facial_count, mesh.diagonal, scratch, spacing)) {
     return false;
   }
   // The more edges lie between two bones, the less may change along each.
   const double edges = spacing / mean_length(placement, graph, mesh.diagonal);
-  return refit_weights(mesh, graph, motions, shared, options.smoothness * edges, options.pull,
+  return refit_weights(mesh, graph, motions, shared, held, options.smoothness * edges, options.pull,
                        parallel, scratch, weights, weights) &&
          connect_supports(mesh, graph, placement, bone_of_kind(placement, BoneKind::kHead, 0),
                           scratch, weights);
 }
 
-bool refit_lod(const AuthorMesh& mesh, const Motions& motions, Span<const uint16_t> shared,
-               const FitOptions& options, const ParallelFor& parallel, const Allocator& allocator,
-               const SkinWeights& from, SkinWeights& out) {
+bool refit_lod(const AuthorMesh& mesh, const Placement& placement, const Motions& motions,
+               Span<const uint16_t> shared, const FitOptions& options, const ParallelFor& parallel,
+               const Allocator& allocator, const SkinWeights& from, SkinWeights& out) {
   Arena scratch(allocator);
   SurfaceGraph graph;
-  return make_surface_graph(mesh, scratch, scratch, graph) &&
-         refit_weights(mesh, graph, motions, shared, options.lod_smoothness, options.lod_pull,
+  Span<uint8_t> held;
+  return find_held(placement, scratch, held) && make_surface_graph(mesh, scratch, scratch, graph) &&
+         refit_weights(mesh, graph, motions, shared, held, options.lod_smoothness, options.lod_pull,
                        parallel, scratch, from, out);
 }
 

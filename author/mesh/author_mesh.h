@@ -85,7 +85,7 @@ struct AuthorMesh {
   double diagonal = 0;  // of the bounding box of the skin: lengths are compared with it
 };
 
-enum class BoneKind : uint8_t { kRoot, kNeck, kHead, kFace, kFacial, kJaw, kEye };
+enum class BoneKind : uint8_t { kRoot, kNeck, kHead, kFace, kFacial, kJaw, kEye, kChest };
 
 struct Bone {
   Name name;
@@ -96,10 +96,12 @@ struct Bone {
   BoneKind kind = BoneKind::kFacial;
 };
 
-/// Below it the neck carries what facial bones do not. It falls towards the back.
+/// Where the head ends, and the neck below it. It rises towards the back.
 struct NeckCut {
   bool exists = false;
-  double y = 0, z = 0;  // of the throat
+  double y = 0, z = 0;    // of the throat
+  double base = 0;        // y where the neck ends and the chest begins
+  double half_width = 0;  // of the neck where it is narrowest; 0: unknown
 
   double above(Vec3 p) const { return p.y - (y + 0.35 * (z - p.z > 0 ? z - p.z : 0)); }
 };

@@ -37,8 +37,14 @@ Status group_in_depth(Placing& placing);
 Status find_mask(Placing& placing);
 /// Decides whether left and right are treated as mirror images.
 Status find_symmetry(Placing& placing);
-/// Positions of the joints `neck` and `head`.
-Status find_neck_and_head(Placing& placing, Vec3& neck, Vec3& head);
+/// The trunk of the skeleton.
+struct Body {
+  static constexpr uint32_t kMaxNecks = 3;
+  Vec3 chest, necks[kMaxNecks], head;
+  uint32_t neck_count = 1;
+  NeckCut cut;
+};
+Status find_body(Placing& placing, Body& out);
 
 inline Status no_memory(Placing& placing) {
   return fail(placing.error, Status::kMemory, kNoOffset, "no memory for placing bones");

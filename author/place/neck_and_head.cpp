@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The joints of neck and head, from the middle group in depth.
+// The joints of chest, neck and head, from the middle group in depth.
 #include <algorithm>
 
 #include "author/base/dna_making.h"
@@ -121,6 +121,62 @@ void place_on_face(Placing& placing, Vec3& neck, Vec3& head) {
 
 }  // namespace
 
+namespace {
+
+/// Where the neck ends: it is narrowest somewhere below the throat, and half as wide again at the
+/// shoulders. What is at the end of the mesh stays on the chest.
+void measure_neck(const Placing& placing, NeckCut& cut) {
+  constexpr int kSlices = 32;
+  constexpr double kShoulders = 1.5, kLowest = 0.25;
+  const double low = placing.box.low.y, height = cut.y - low;
+  cut.base = low + kLowest * std::max(height, 0.0);
+  if (!(height > 0)) return;
+  double widths[kSlices] = {};  // half of them, from the throat down
+  for (const Vec3& p : placing.points) {
+    const double down = (cut.y - p.y) / height * kSlices;
+    if (!(down >= 0 && down < kSlices)) continue;
+    double& width = widths[static_cast<int>(down)];
+    width = std::max(width, std::abs(p.x - placing.plane));
+  }
+  int narrowest = -1, slice = 0;
+  for (; slice < kSlices; ++slice) {
+    if (!(widths[slice] > 0)) continue;
+    if (narrowest >= 0 && widths[slice] > kShoulders * widths[narrowest]) break;
+    if (narrowest < 0 || widths[slice] < widths[narrowest]) narrowest = slice;
+  }
+  if (narrowest < 0) return;
+  cut.half_width = widths[narrowest];
+  const double shoulders = cut.y - height * slice / kSlices;
+  // A neck at least as long as half of its width, where the mesh has room for it.
+  const double highest = std::max(cut.y - cut.half_width, low);
+  cut.base = std::max(cut.base, std::min(shoulders, highest));
+}
+
+/// In the middle between front and back of the neck: about a joint in front of it or behind it the neck
+/// would grow and shrink as the head nods.
+void move_to_axis(const Placing& placing, const NeckCut& cut, Vec3& head) {
+  constexpr int kSlices = 8;
+  double front[kSlices], back[kSlices];
+  bool has[kSlices] = {};
+  for (const Vec3& p : placing.points) {
+    const double up = (p.y - cut.base) / (cut.y - cut.base) * kSlices;
+    if (!(up >= 0 && up < kSlices)) continue;
+    const int slice = static_cast<int>(up);
+    front[slice] = has[slice] ? std::max(front[slice], p.z) : p.z;
+    back[slice] = has[slice] ? std::min(back[slice], p.z) : p.z;
+    has[slice] = true;
+  }
+  double sum = 0, count = 0;
+  for (int slice = 0; slice < kSlices; ++slice) {
+    if (!has[slice]) continue;
+    // The higher, the more of it goes with the head.
+    const double share = (slice + 0.5) * (slice + 0.5);
+    sum += share * (front[slice] + back[slice]) / 2;
+    count += share;
+  }
+  if (count > 0) head.z = sum / count;
+}
+
 Status find_neck_and_head(Placing& placing, Vec3& neck, Vec3& head) {
   PlaceReport& report = placing.report;
   const auto hold = [&](Vec3& joint) {
@@ -191,6 +247,30 @@ Status find_neck_and_head(Placing& placing, Vec3& neck, Vec3& head) {
   head.y = std::min(std::max(head.y + rise, least), std::min(most, means.upper.y));
   hold(neck);
   hold(head);
+  return Status::kOk;
+}
+
+}  // namespace
+
+Status find_body(Placing& placing, Body& out) {
+  if (Status status = find_neck_and_head(placing, out.chest, out.head); status != Status::kOk) {
+    return status;
+  }
+  out.cut = placing.report.throat.cut();
+  if (out.cut.exists) {
+    measure_neck(placing, out.cut);
+    if (!placing.options.paper) move_to_axis(placing, out.cut, out.head);
+  }
+  const Vec3 along = out.head - out.chest;
+  const double rise = out.cut.exists && along.y > 0 ? (out.cut.base - out.chest.y) / along.y : 0;
+  const Vec3 base = out.chest + along * std::min(std::max(rise, 0.0), 0.75);
+  // One joint for each half of the neck's width that it is long.
+  const double length_of_neck = length(out.head - base);
+  const double links = out.cut.half_width > 0 ? length_of_neck / out.cut.half_width : 1;
+  out.neck_count = links > 2.5 ? 3 : links > 1.25 ? 2 : 1;
+  for (uint32_t n = 0; n < out.neck_count; ++n) {
+    out.necks[n] = base + (out.head - base) * (static_cast<double>(n) / out.neck_count);
+  }
   return Status::kOk;
 }
 

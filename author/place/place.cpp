@@ -226,17 +226,22 @@ struct Bones {
   }
 };
 
-Status make_bones(Placing& placing, const Facial& facial, Vec3 neck, Vec3 head, Placement& out) {
+Status make_bones(Placing& placing, const Facial& facial, const Body& body, Placement& out) {
   PlaceReport& report = placing.report;
   uint32_t facial_count = 0;
   for (const Unit& unit : facial.units) facial_count += unit.pair ? 2 : 1;
   Bones bones = {placing.arena, {}};
-  constexpr uint32_t kOthers = 5 + kMaxEyes;  // root, neck, head, face, jaw
+  constexpr uint32_t kOthers = 5 + Body::kMaxNecks + kMaxEyes;  // root, chest, head, face, jaw
   if (!make(placing.arena, facial_count + kOthers, bones.bones)) return no_memory(placing);
   const uint32_t root = bones.add(Text().add("root"), {}, 0, BoneKind::kRoot);
-  const uint32_t neck_bone = bones.add(Text().add("neck"), neck, root, BoneKind::kNeck);
-  const uint32_t head_bone = bones.add(Text().add("head"), head, neck_bone, BoneKind::kHead);
-  const uint32_t face = bones.add(Text().add("face"), head, head_bone, BoneKind::kFace);
+  uint32_t below = bones.add(Text().add("chest"), body.chest, root, BoneKind::kChest);
+  for (uint32_t n = 0; n < body.neck_count; ++n) {
+    Text name = Text().add("neck");
+    if (n > 0) name.add(uint64_t{n + 1});
+    below = bones.add(name, body.necks[n], below, BoneKind::kNeck);
+  }
+  const uint32_t head_bone = bones.add(Text().add("head"), body.head, below, BoneKind::kHead);
+  const uint32_t face = bones.add(Text().add("face"), body.head, head_bone, BoneKind::kFace);
 
   Naming naming = {{}, placing.plane, 0};
   naming.mask = {placing.points[placing.mask[0]], placing.points[placing.mask[0]]};
@@ -306,7 +311,7 @@ Status make_bones(Placing& placing, const Facial& facial, Vec3 neck, Vec3 head, 
   out.lod_facial_counts = facial.lod_counts;
   out.symmetric = placing.symmetric;
   out.symmetry_plane = placing.plane;
-  out.neck_cut = report.throat.cut();
+  out.neck_cut = body.cut;
   return Status::kOk;
 }
 
@@ -360,15 +365,15 @@ Status place_bones(const AuthorMesh& mesh, const PlaceOptions& options, const Pa
   report = PlaceReport();
   Arena scratch(allocator);
   Placing placing = {mesh, options, parallel, arena, scratch, report, error};
-  Vec3 neck, head;
+  Body body;
   Facial facial;
   Status status = find_skin(placing);
   if (status == Status::kOk) status = group_in_depth(placing);
   if (status == Status::kOk) status = find_mask(placing);
   if (status == Status::kOk) status = find_symmetry(placing);
-  if (status == Status::kOk) status = find_neck_and_head(placing, neck, head);
+  if (status == Status::kOk) status = find_body(placing, body);
   if (status == Status::kOk) status = find_facial(placing, allocator, facial);
-  if (status == Status::kOk) status = make_bones(placing, facial, neck, head, out);
+  if (status == Status::kOk) status = make_bones(placing, facial, body, out);
   if (status == Status::kOk) status = list_mask(placing, out);
   if (status == Status::kOk) status = measure_coverage(placing, out);
   return status;

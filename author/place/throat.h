@@ -27,7 +27,13 @@ struct Throat {
   double nose_y = 0, nose_z = 0;
   bool has_profile = false;  // a nose tip with something below it
 
-  NeckCut cut() const { return {found, y, z}; }
+  NeckCut cut() const {
+    NeckCut out;
+    out.exists = found;
+    out.y = y;
+    out.z = z;
+    return out;
+  }
 };
 /// A notch of less than 8.5 % of the height is no throat.
 Throat find_throat(const Profile& profile);

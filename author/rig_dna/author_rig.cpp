@@ -95,7 +95,7 @@ class RigMaker {
     }
     return &mesh == &mesh_ ? refit_finest(mesh, placement_, motions_, {shared, count}, options_.fit,
                                           options_.parallel, allocator_, out)
-                           : refit_lod(mesh, motions_, {shared, count}, options_.fit,
+                           : refit_lod(mesh, placement_, motions_, {shared, count}, options_.fit,
                                        options_.parallel, allocator_, from, out);
   }
 

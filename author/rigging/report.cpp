@@ -150,6 +150,7 @@ const char* kind_name(BoneKind kind) {
     case BoneKind::kFacial: return "facial";
     case BoneKind::kJaw: return "jaw";
     case BoneKind::kEye: return "eye";
+    case BoneKind::kChest: return "chest";
   }
   return "";
 }

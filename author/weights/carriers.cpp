@@ -7,6 +7,7 @@
 #include "author/base/exact_math.h"
 #include "author/mesh/point_tree.h"
 #include "author/place/extra_joints.h"
+#include "author/weights/body_weights.h"
 
 namespace mien::author {
 
@@ -96,6 +97,7 @@ bool carry_components(const AuthorMesh& mesh, const Placement& placement, uint32
     if (placement.bones[b].kind == BoneKind::kJaw) jaw_bone = b;
   }
 
+  const BodyChain body = body_chain(placement);
   for (uint32_t c = 0, from = 0; c < mesh.component_count; from = ends[c++]) {
     const Span<const uint32_t> all = members.slice(from, ends[c] - from);
     if (all.empty() || mesh.is_skin[all[0]]) continue;
@@ -140,6 +142,12 @@ bool carry_components(const AuthorMesh& mesh, const Placement& placement, uint32
       report->following_components += part.carrier == Carrier::kNearestSkin;
       continue;
     }
+    Vec3 mean;
+    for (uint32_t v : all) mean = mean + mesh.positions[v];
+    // A collar or a necklace bends with the neck.
+    const bool is_on_body =
+        part.bone == head &&
+        height_in_neck(placement, mean * (1 / static_cast<double>(all.count))) < 1;
     for (uint32_t v : all) {
       InfluenceList list;
       double rigid = 1;
@@ -151,7 +159,13 @@ bool carry_components(const AuthorMesh& mesh, const Placement& placement, uint32
           list.add(there.joints[i], there.values[i] * (1 - rigid));
         }
       }
-      list.add(part.bone, rigid);
+      if (is_on_body) {
+        double shares[BodyChain::kCapacity];
+        share_body(body, height_in_neck(placement, mesh.positions[v]), shares);
+        for (uint32_t i = 0; i < body.count; ++i) list.add(body.bones[i], rigid * shares[i]);
+      } else {
+        list.add(part.bone, rigid);
+      }
       store(list, v, out);
     }
   }

@@ -8,7 +8,7 @@ namespace mien::author {
 
 /// Influences of one vertex while they are put together.
 struct InfluenceList {
-  static constexpr uint32_t kCapacity = 2 * kMaxAuthorInfluences + 4;
+  static constexpr uint32_t kCapacity = 2 * kMaxAuthorInfluences + 8;
   uint32_t joints[kCapacity];
   double values[kCapacity];
   uint32_t count = 0;

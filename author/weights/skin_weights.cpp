@@ -8,6 +8,7 @@
 #include "author/base/dna_making.h"
 #include "author/base/exact_math.h"
 #include "author/mesh/point_tree.h"
+#include "author/weights/body_weights.h"
 #include "author/weights/carriers.h"
 
 namespace mien::author {
@@ -15,7 +16,8 @@ namespace mien::author {
 namespace {
 
 constexpr float kLeastWeight = 1e-4f;
-constexpr double kMoves = 1e-3;  // part of the diagonal: what moves less is at rest
+// Noise: parts of what a shape moves most, but for its farthest hundredth, and of the diagonal.
+constexpr double kNoise = 0.03, kLeastMotion = 2e-4;
 
 /// What weighing the skin needs.
 struct Weighing {
@@ -24,7 +26,8 @@ struct Weighing {
   Arena& scratch;
   SkinWeights& out;
   uint32_t facial = 0;  // bones in use
-  uint32_t head = 0, neck = 0;
+  uint32_t head = 0;
+  BodyChain body = {};
   double spacing = 0;
   SurfaceGraph graph = {};
 
@@ -156,22 +159,39 @@ void kernel_weights(const Weighing& w, uint32_t v, InfluenceList& out) {
   }
 }
 
+/// The squared distance from which on a shape moves the skin: less is noise, as shapes of scans have
+/// everywhere. `room` is for all vertices.
+double noise_of(const AuthorMesh& mesh, const Shape& shape, Span<double> room) {
+  size_t count = 0;
+  for (const uint32_t v : shape.moving) {
+    const Vec3f f = shape.displacements[v];
+    const Vec3 d = {double{f.x}, double{f.y}, double{f.z}};
+    if (mesh.is_skin[v]) room[count++] = dot(d, d);
+  }
+  const double least = kLeastMotion * kLeastMotion * mesh.diagonal * mesh.diagonal;
+  if (count == 0) return least;
+  double* most = room.data + (count - 1) * 99 / 100;
+  std::nth_element(room.data, most, room.data + count);
+  return std::max(least, kNoise * kNoise * *most);
+}
+
 /// The mask and all else of the skin that a shape moves: below the throat there are no bones, but the
 /// chin pulls at what is there. False if memory ran out.
 bool find_moved(const Weighing& w, Span<uint32_t>& out) {
   const AuthorMesh& mesh = w.mesh;
   Span<uint8_t> is_in;
+  Span<double> room;
   if (!make(w.scratch, mesh.positions.count, is_in) ||
-      !make(w.scratch, mesh.positions.count, out)) {
+      !make(w.scratch, mesh.positions.count, room) || !make(w.scratch, mesh.positions.count, out)) {
     return false;
   }
   for (const uint32_t v : w.placement.mask) is_in[v] = 1;
-  const double least = kMoves * mesh.diagonal;
   for (const Shape& shape : mesh.shapes) {
+    const double least = noise_of(mesh, shape, room);
     for (const uint32_t v : shape.moving) {
       const Vec3f f = shape.displacements[v];
       const Vec3 d = {double{f.x}, double{f.y}, double{f.z}};
-      if (mesh.is_skin[v] && dot(d, d) > least * least) is_in[v] = 1;
+      if (mesh.is_skin[v] && dot(d, d) > least) is_in[v] = 1;
     }
   }
   size_t count = 0;
@@ -184,31 +204,26 @@ bool find_moved(const Weighing& w, Span<uint32_t>& out) {
 
 bool weigh_skin(Weighing& w) {
   const AuthorMesh& mesh = w.mesh;
-  const NeckCut& cut = w.placement.neck_cut;
   Span<double> from_mask;
   Span<uint32_t> sources;
   if (!make(w.scratch, mesh.positions.count, from_mask) || !find_moved(w, sources) ||
       !surface_distances(mesh, w.graph, sources, w.scratch, from_mask)) {
     return false;
   }
-  double low = std::numeric_limits<double>::infinity();
-  for (uint32_t v = 0; v < mesh.positions.count; ++v) {
-    if (mesh.is_skin[v]) low = std::min(low, mesh.positions[v].y);
-  }
-  // Over half of the neck the head hands over to it.
-  const double band = std::max(0.5 * (cut.y - low), 1e-9 * mesh.diagonal);
   for (uint32_t v = 0; v < mesh.positions.count; ++v) {
     if (!mesh.is_skin[v] || mesh.welded[v] != v) continue;
     InfluenceList facial, list;
     kernel_weights(w, v, facial);
     const double t = facial.count ? clamp01(from_mask[v] / (2 * w.spacing)) : 1;
     const double outside = t * t * (3 - 2 * t);
+    double shares[BodyChain::kCapacity];
+    share_body(w.body, height_in_neck(w.placement, mesh.positions[v]), shares);
+    const double of_head = shares[w.body.count - 1];
     for (uint32_t i = 0; i < facial.count; ++i) {
-      list.add(facial.joints[i], facial.values[i] * (1 - outside));
+      list.add(facial.joints[i], facial.values[i] * (1 - outside) * of_head);
     }
-    const double in_neck = cut.exists ? smooth_step(0, 1, -cut.above(mesh.positions[v]) / band) : 0;
-    list.add(w.head, outside * (1 - in_neck));
-    list.add(w.neck, outside * in_neck);
+    for (uint32_t i = 0; i + 1 < w.body.count; ++i) list.add(w.body.bones[i], shares[i]);
+    list.add(w.head, outside * of_head);
     store(list, v, w.out);
   }
   return true;
@@ -274,7 +289,7 @@ bool weigh(const AuthorMesh& mesh, const Placement& placement, const WeightOptio
   w.facial = std::min(options.facial_bones, placement.facial_count);
   w.lists = out.m + 1;
   w.head = bone_of_kind(placement, BoneKind::kHead, 0);
-  w.neck = bone_of_kind(placement, BoneKind::kNeck, w.head);
+  w.body = body_chain(placement);
   if (!find_median_spacing(placement, w.facial, mesh.diagonal, scratch, w.spacing) ||
       !make_surface_graph(mesh, scratch, scratch, w.graph) || !find_nearest_bones(w) ||
       !weigh_skin(w) || !connect_supports(mesh, w.graph, placement, w.head, scratch, out)) {

@@ -124,7 +124,8 @@ enum MienBoneKind {
     MIEN_BONE_FACE = 3,
     MIEN_BONE_FACIAL = 4, /* moves with expressions; each LOD keeps the first n of these */
     MIEN_BONE_JAW = 5,
-    MIEN_BONE_EYE = 6
+    MIEN_BONE_EYE = 6,
+    MIEN_BONE_CHEST = 7 /* below the neck */
 };
 
 /* A bone placed by the caller. */

@@ -247,7 +247,7 @@ std::vector<AuthorImage> draw_author_images(const MadeRig& made, const Session& 
   const Source source(made);
   const std::vector<Bone> bones = read_bones(source, report);
   std::vector<AuthorImage> images;
-  Progress progress(session, "image", 6);
+  Progress progress(session, "image", 7);
   // Groups in space have no borders in depth to draw them by.
   if (!report["face_only"].get<bool>() && !report["groups"]["borders"].empty()) {
     images.push_back({"groups.png", draw_groups(source, report["groups"])});
@@ -263,6 +263,8 @@ std::vector<AuthorImage> draw_author_images(const MadeRig& made, const Session& 
   progress.at(4);
   images.push_back({"weights.png", draw_weights(made, source, bones)});
   progress.at(5);
+  images.push_back({"head-turn.png", draw_head_turns(made, source, bones)});
+  progress.at(6);
   if (!report["fit"].is_null()) images.push_back({"shapes.png", draw_shapes(made, source)});
   return images;
 }

@@ -159,6 +159,51 @@ render::Image draw_weights(const MadeRig& made, const Source& source,
 
 namespace {
 
+// Turns ----------------------------------------------------------------------------------------------
+
+/// Poses the scene with one joint turned by these degrees about the axes of the head.
+void turn_joint(PosedScene& scene, size_t joint, const Vec3& degrees) {
+  const Vec3 about =
+      scene.axes.left * degrees.x + scene.axes.up * degrees.y + scene.axes.front * degrees.z;
+  std::vector<float> values(9 * rig_count(scene.rig.get(), MIEN_KIND_JOINT));
+  for (int k = 0; k < 3; ++k) values[9 * joint + 3 + static_cast<size_t>(k)] = about[k];
+  check(mien_deformer_instance_update_from_values(scene.pose.get(), values.data(), values.size(),
+                                                  nullptr, 0),
+        nullptr, "cannot draw", scene.shown);
+  for (const SceneMesh& mesh : scene.meshes) {
+    check(mien_deformer_instance_deform(scene.pose.get(), mesh.mesh, MIEN_NORMALS_DEFAULT, nullptr),
+          nullptr, "cannot draw", mesh.name);
+  }
+}
+
+}  // namespace
+
+render::Image draw_head_turns(const MadeRig& made, const Source& source,
+                              const std::vector<Bone>& bones) {
+  const Studio studio(source, kSmallTile);
+  size_t head = 0;
+  while (head + 1 < bones.size() && bones[head].kind != "head") ++head;
+  const struct {
+    const char* name;
+    Vec3 degrees;
+    render::View view;
+  } turns[] = {
+      {"head at rest", {}, kThreeQuarter},  {"turned by 30 degrees", {0, 30, 0}, kFront},
+      {"nodded by 30", {30, 0, 0}, kSide},  {"raised by 30", {-30, 0, 0}, kSide},
+      {"tilted by 30", {0, 0, 30}, kFront},
+  };
+  render::Sheet sheet = studio.sheet(std::size(turns), std::size(turns));
+  for (const auto& turn : turns) {
+    turn_joint(made.scene, head, turn.degrees);
+    sheet.add(render_image(made.scene.surfaces(), studio.camera(turn.view), studio.options),
+              turn.name);
+  }
+  pose_scene(made.scene, {});
+  return sheet.image();
+}
+
+namespace {
+
 // Shapes ---------------------------------------------------------------------------------------------
 
 /// An expression of the input and what the rig makes of it.

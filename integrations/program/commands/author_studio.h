@@ -89,6 +89,10 @@ std::vector<Bone> read_bones(const Source& source, const Json& report);
 render::Image draw_weights(const MadeRig& made, const Source& source,
                            const std::vector<Bone>& bones);
 
+/// The head at rest, and its joint turned alone, as an animator does.
+render::Image draw_head_turns(const MadeRig& made, const Source& source,
+                              const std::vector<Bone>& bones);
+
 /// Shapes, what the rig makes of them, and what is left to do. There have to be some.
 render::Image draw_shapes(const MadeRig& made, const Source& source);
 

@@ -382,7 +382,8 @@ class AuthorTest(ProgramTest):
         return sorted(os.listdir(path(name)))
 
     def test_pictures_show_what_there_is_to_show(self):
-        all_of_them = ["bones.png", "groups.png", "lods.png", "mask.png", "shapes.png", "weights.png"]
+        all_of_them = ["bones.png", "groups.png", "head-turn.png", "lods.png", "mask.png", "shapes.png",
+                       "weights.png"]
         self.author(path("head.glb"), "--joints", "30", "--lods", "2", name="plain")
         report = self.author(path("head.glb"), "--joints", "30", "--lods", "2", "--pictures",
                              path("made/pictures"), name="drawn")
@@ -411,7 +412,8 @@ class AuthorTest(ProgramTest):
         self.assertEqual(report["facial_joints"], 30)
 
         self.author(path("head.obj"), "--joints", "20", "--lods", "1", "--pictures", path("still"))
-        self.assertEqual(self.pictures("still"), ["bones.png", "groups.png", "mask.png", "weights.png"])
+        self.assertEqual(self.pictures("still"), ["bones.png", "groups.png", "head-turn.png", "mask.png",
+                                                     "weights.png"])
         front = [f for f in FACES if all(POSITIONS[v][2] > 4 for v in f)]
         write("front.obj", obj(POSITIONS, front))
         self.author(path("front.obj"), "--joints", "10", "--lods", "1", "--pictures", path("front"))

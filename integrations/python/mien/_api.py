@@ -602,6 +602,8 @@ class BoneKind(IntEnum):
     FACIAL = 4
     JAW = 5
     EYE = 6
+    #: below the neck
+    CHEST = 7
 
 
 class Symmetry(IntEnum):

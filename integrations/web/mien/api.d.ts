@@ -587,6 +587,8 @@ export declare const BoneKind: {
   readonly FACIAL: 4;
   readonly JAW: 5;
   readonly EYE: 6;
+  /** below the neck */
+  readonly CHEST: 7;
 };
 export type BoneKind = (typeof BoneKind)[keyof typeof BoneKind];
 

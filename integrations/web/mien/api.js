@@ -307,6 +307,7 @@ export const BoneKind = Object.freeze({
   FACIAL: 4,
   JAW: 5,
   EYE: 6,
+  CHEST: 7,
 });
 
 export const Symmetry = Object.freeze({

@@ -24,8 +24,8 @@ void refit(const AuthorMesh& mesh, const Motions& motions, Span<const uint16_t> 
   Arena arena(default_allocator());
   SurfaceGraph graph;
   ASSERT_TRUE(make_surface_graph(mesh, arena, arena, graph));
-  ASSERT_TRUE(
-      refit_weights(mesh, graph, motions, shared, smoothness, 0.0025, parallel, arena, from, out));
+  ASSERT_TRUE(refit_weights(mesh, graph, motions, shared, {}, smoothness, 0.0025, parallel, arena,
+                            from, out));
 }
 
 double difference(const Affine& a, const Affine& b) {

@@ -24,10 +24,15 @@ TEST(PlaceBones, PutsNeckHeadAndFaceWhereTheyAreOnAHead) {
   EXPECT_LT(placed.bone(BoneKind::kHead).position.y, placed.report.head_mean.y + 1e-9);
   EXPECT_EQ(length(placed.bone(BoneKind::kFace).position - placed.bone(BoneKind::kHead).position),
             0);
-  // Parents: root, neck, head, face, then the face's bones.
+  // Parents: root, chest, neck, head, face, then the face's bones.
   const Span<const Bone> bones = placed.placement.bones;
-  for (uint32_t b = 0; b < 4; ++b) EXPECT_EQ(bones[b].parent, b == 0 ? 0 : b - 1) << b;
-  for (const Bone& bone : placed.facial()) EXPECT_EQ(bone.parent, 3u);
+  const uint32_t face = placed.placement.first_facial - 1;
+  EXPECT_EQ(bones[1].kind, BoneKind::kChest);
+  EXPECT_EQ(bones[2].kind, BoneKind::kNeck);
+  EXPECT_EQ(bones[face].kind, BoneKind::kFace);
+  EXPECT_LE(face, 6u);
+  for (uint32_t b = 0; b <= face; ++b) EXPECT_EQ(bones[b].parent, b == 0 ? 0 : b - 1) << b;
+  for (const Bone& bone : placed.facial()) EXPECT_EQ(bone.parent, face);
   // The face: in front of the border, above the throat.
   for (uint32_t v : placed.placement.mask) {
     const Vec3 p = placed.read.mesh.positions[v];

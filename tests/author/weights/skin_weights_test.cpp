@@ -7,6 +7,8 @@
 #include <set>
 
 #include "author/place/place.h"
+#include "author/weights/body_weights.h"
+#include "author/weights/carriers.h"
 #include "tests/support/mesh_source.h"
 
 namespace mien::author {
@@ -96,31 +98,78 @@ TEST(SkinWeights, FadeToTheHeadBehindTheFaceAndToTheNeckBelowIt) {
     if (mesh.positions[v].z < mesh.positions[back].z) back = v;
     if (mesh.positions[v].y < mesh.positions[low].y) low = v;
   }
-  EXPECT_EQ(made.placement.bones[2].kind, BoneKind::kHead);
-  EXPECT_NEAR(made.weight(back, 2), 1, 1e-6);
+  const uint32_t head = bone_of_kind(made.placement, BoneKind::kHead, 0);
+  EXPECT_EQ(made.placement.bones[1].kind, BoneKind::kChest);
+  EXPECT_NEAR(made.weight(back, head), 1, 1e-6);
   EXPECT_NEAR(made.weight(low, 1), 1, 1e-6);
   for (uint32_t v : made.placement.mask) {
-    EXPECT_EQ(made.weight(v, 1) + made.weight(v, 2), 0) << v;
+    for (uint32_t b = 1; b <= head; ++b) EXPECT_EQ(made.weight(v, b), 0) << v;
   }
 }
 
-TEST(SkinWeights, OfWhatShapesMoveBelowTheThroatAreThoseOfTheChin) {
+TEST(SkinWeights, OfWhatShapesMoveBelowTheThroatTheChinGetsTheShareOfTheHead) {
   TestMesh mesh = procedural_mesh(3, true);
   const Weighed before(mesh, 100, 8);
   const AuthorMesh& still = before.read.mesh;
-  ASSERT_TRUE(before.placement.neck_cut.exists);
-  // The highest place in front that is all neck: now it follows the jaw.
-  uint32_t chosen = kNone;
+  const Placement& placement = before.placement;
+  ASSERT_TRUE(placement.neck_cut.exists);
+  // A place in front on the neck, and the highest one on the chest: now both follow the jaw.
+  uint32_t neck = kNone, chest = kNone;
   for (uint32_t v = 0; v < still.positions.count; ++v) {
-    if (before.weight(v, 1) < 0.999 || still.positions[v].z < 0) continue;
-    if (chosen == kNone || still.positions[v].y > still.positions[chosen].y) chosen = v;
+    const Vec3 p = still.positions[v];
+    const double height = height_in_neck(placement, p);
+    if (p.z < 0) continue;
+    if (height == 0 && (chest == kNone || p.y > still.positions[chest].y)) chest = v;
+    if (height > 0.5 && height < 0.9) neck = v;
   }
-  ASSERT_NE(chosen, kNone);
-  for (std::vector<double>& shape : mesh.displacements) shape[3 * chosen + 1] = 0;
-  mesh.displacements[0][3 * chosen + 1] = -1;
+  ASSERT_NE(neck, kNone);
+  ASSERT_NE(chest, kNone);
+  for (const uint32_t v : {neck, chest}) {
+    for (std::vector<double>& shape : mesh.displacements) shape[3 * v + 1] = 0;
+    mesh.displacements[0][3 * v + 1] = -1;
+  }
   const Weighed after(mesh, 100, 8);
-  EXPECT_EQ(after.weight(chosen, 1) + after.weight(chosen, 2), 0);
+  EXPECT_NEAR(after.weight(chest, 1), 1, 1e-6);
+  const BodyChain chain = body_chain(placement);
+  const double share = head_share(chain, height_in_neck(placement, still.positions[neck]));
+  double body = 0;
+  for (uint32_t i = 0; i + 1 < chain.count; ++i) body += after.weight(neck, chain.bones[i]);
+  EXPECT_EQ(after.weight(neck, chain.bones[chain.count - 1]), 0);
+  EXPECT_NEAR(body, 1 - share, 2e-3);
   EXPECT_LE(after.report.worst_sum, 1e-6);
+}
+
+TEST(SkinWeights, OfTheBodySumToOneAndRiseFromChestToHead) {
+  Bone bones[5];
+  const BoneKind kinds[] = {BoneKind::kRoot, BoneKind::kChest, BoneKind::kNeck, BoneKind::kNeck,
+                            BoneKind::kHead};
+  for (uint32_t b = 0; b < 5; ++b) bones[b].kind = kinds[b];
+  Placement placement;
+  placement.bones = {bones, 5};
+  const BodyChain chain = body_chain(placement);
+  ASSERT_EQ(chain.count, 4u);
+  double before = -1;
+  for (double height = 0; height <= 1; height += 0.125) {
+    double shares[BodyChain::kCapacity], sum = 0;
+    share_body(chain, height, shares);
+    for (uint32_t i = 0; i < chain.count; ++i) {
+      EXPECT_GE(shares[i], 0);
+      sum += shares[i];
+    }
+    EXPECT_NEAR(sum, 1, 1e-12);
+    EXPECT_NEAR(shares[3], height * height * height, 1e-12);
+    EXPECT_GT(shares[3], before);
+    before = shares[3];
+  }
+  // Without a cut all is head; a place far to the side is a shoulder.
+  EXPECT_EQ(height_in_neck(placement, {0, -100, 0}), 1);
+  placement.neck_cut.exists = true;
+  placement.neck_cut.base = -10;
+  placement.neck_cut.half_width = 5;
+  EXPECT_EQ(height_in_neck(placement, {0, -10, 0}), 0);
+  EXPECT_EQ(height_in_neck(placement, {0, 1, 0}), 1);
+  EXPECT_NEAR(height_in_neck(placement, {0, -5, 0}), 0.5, 1e-12);
+  EXPECT_EQ(height_in_neck(placement, {14, -5, 0}), 0);
 }
 
 /// Two sheets that touch nowhere but at one edge far away: the air between them is a hair wide.

@@ -445,6 +445,8 @@ pub const MIEN_BONE_FACE: u32 = 3;
 pub const MIEN_BONE_FACIAL: u32 = 4;
 pub const MIEN_BONE_JAW: u32 = 5;
 pub const MIEN_BONE_EYE: u32 = 6;
+/// Below the neck.
+pub const MIEN_BONE_CHEST: u32 = 7;
 
 // enum MienSymmetry
 /// If mirrored positions lie within 0.5 % of the face's size of the surface.

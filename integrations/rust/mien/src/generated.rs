@@ -925,9 +925,11 @@ impl BoneKind {
     pub const JAW: Self = Self(5);
     /// `MIEN_BONE_EYE` in C.
     pub const EYE: Self = Self(6);
+    /// Below the neck.
+    pub const CHEST: Self = Self(7);
 }
 
-numbers!(BoneKind, u32, [(0, "ROOT"), (1, "NECK"), (2, "HEAD"), (3, "FACE"), (4, "FACIAL"), (5, "JAW"), (6, "EYE")]);
+numbers!(BoneKind, u32, [(0, "ROOT"), (1, "NECK"), (2, "HEAD"), (3, "FACE"), (4, "FACIAL"), (5, "JAW"), (6, "EYE"), (7, "CHEST")]);
 
 /// Whether both halves of the face are treated as mirror images.
 ///

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+// What a rigger asks of the skeleton under the fit: joints that are turned by hand move what they should,
+// and nothing else. Of a generated head, and of real ones where they are at hand.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "tests/support/mesh_source.h"
+#include "tests/support/posed_skeleton.h"
+#include "tests/support/real_meshes.h"
+
+namespace mien::author {
+namespace {
+
+struct SkeletonRig {
+  AuthorSetup setup;
+  TestMesh mesh;
+  Arena arena{default_allocator()};
+  Rigging rigging;
+  bool there = true;
+
+  explicit SkeletonRig(const std::string& head) {
+    if (head == "generated") {
+      make_author_head(3, 8, 4, 1, setup);
+    } else {
+      there = head == "ict" ? load_ict(setup) : load_makehuman(setup);
+    }
+    if (!there) return;
+    mesh = mesh_of(setup, true);
+    RiggingOptions options;
+    options.place.facial_joints = 80;
+    options.place.lods = 1;
+    Error error;
+    EXPECT_EQ(make_rig(mesh.source(), options, arena, default_allocator(), rigging, error),
+              Status::kOk)
+        << error.message;
+  }
+};
+
+class Skeleton : public ::testing::TestWithParam<const char*> {
+ protected:
+  void SetUp() override {
+    made_ = std::make_unique<SkeletonRig>(GetParam());
+    if (!made_->there) GTEST_SKIP() << "NOT TESTED: no $MIEN_SHARED/data/meshes";
+  }
+  const Rigging& rig() const { return made_->rigging; }
+  const AuthorMesh& mesh() const { return made_->rigging.read.mesh; }
+  const NeckCut& cut() const { return made_->rigging.placement.neck_cut; }
+
+  std::unique_ptr<SkeletonRig> made_;
+};
+
+TEST_P(Skeleton, TheHeadTurnsOnANeckAndTheBustStays) {
+  ASSERT_TRUE(cut().exists);
+  const uint32_t head = bone_named(rig(), "head"), chest = bone_named(rig(), "chest");
+  const Span<const Bone> bones = rig().placement.bones;
+  ASSERT_EQ(bones[chest].parent, 0u);
+  EXPECT_TRUE(hangs_below(rig(), head, bone_named(rig(), "neck")));
+  EXPECT_TRUE(hangs_below(rig(), bone_named(rig(), "neck"), chest));
+  EXPECT_LT(bones[chest].position.y, bones[head].position.y);
+
+  const Span<const Vec3> rest = mesh().positions;
+  double low = rest[0].y;
+  for (const Vec3& p : rest) low = std::min(low, p.y);
+  const double sole = low + 0.2 * (cut().y - low);
+  for (const Vec3 degrees : {Vec3{30, 0, 0}, Vec3{-30, 0, 0}, Vec3{0, 30, 0}, Vec3{0, 0, 30}}) {
+    const std::vector<Vec3> posed = turned(rig(), head, degrees);
+    double most = 0, bust = 0;
+    for (size_t v = 0; v < posed.size(); ++v) {
+      const double way = length(posed[v] - rest[v]);
+      most = std::max(most, way);
+      if (rest[v].y < sole) bust = std::max(bust, way);
+    }
+    EXPECT_GT(most, 0.1 * mesh().diagonal);
+    EXPECT_LT(bust, 0.001 * most);
+
+    // About the head's joint openings of the head sweep no volume, and that of the bust stays.
+    double change = 0;
+    size_t folded = 0, bent = 0;
+    const Vec3 joint = bones[head].position;
+    for (size_t t = 0; t < mesh().triangles.count; t += 3) {
+      const uint32_t* c = &mesh().triangles[t];
+      if (!mesh().is_skin[c[0]]) continue;
+      const Vec3 a = rest[c[0]] - joint, b = rest[c[1]] - joint, d = rest[c[2]] - joint;
+      const Vec3 e = posed[c[0]] - joint, f = posed[c[1]] - joint, g = posed[c[2]] - joint;
+      change += (dot(e, cross(f, g)) - dot(a, cross(b, d))) / 6;
+      const double share = share_below(rig(), c[0], head);
+      if (share <= 0 || share >= 1) continue;
+      // Each triangle against itself turned as far as it should be.
+      const double part[3] = {share * degrees.x, share * degrees.y, share * degrees.z};
+      const Vec3 normal = normalized(motion(part, {}, {}).turn(cross(b - a, d - a)));
+      ++bent;
+      folded += dot(normal, normalized(cross(f - e, g - e))) < 0;
+    }
+    double front = -1e9, back = 1e9;
+    for (const Vec3& p : rest) {
+      if (p.y < cut().base || p.y > cut().y || std::abs(p.x) > cut().half_width) continue;
+      front = std::max(front, p.z);
+      back = std::min(back, p.z);
+    }
+    const double neck = kPi * cut().half_width * (front - back) / 2 * (cut().y - cut().base);
+    printf("%s: turn %.0f %.0f %.0f: bust %.5f %%, neck volume %+.1f %%, %zu of %zu folded\n",
+           GetParam(), degrees.x, degrees.y, degrees.z, 100 * bust / most, 100 * change / neck,
+           folded, bent);
+    EXPECT_GT(bent, 20u);
+    // A nod of the head's joint alone presses the skin below the chin together.
+    const bool is_nod = degrees.x != 0;
+    EXPECT_LT(std::abs(change), (is_nod ? 0.07 : 0.05) * neck);
+    EXPECT_LE(folded, is_nod ? bent / 400 : 0);
+  }
+}
+
+TEST_P(Skeleton, FacialJointsTakeNothingFromTheNeckAndTheChest) {
+  const uint32_t head = bone_named(rig(), "head");
+  size_t on_the_chest = 0;
+  for (uint32_t v = 0; v < mesh().positions.count; ++v) {
+    const Vec3 p = mesh().positions[v];
+    const double above = cut().above(p);
+    if (above >= 0) continue;
+    if (p.y <= cut().base) {
+      ++on_the_chest;
+      ASSERT_LT(share_below(rig(), v, head), 1e-3) << v;
+    }
+    // No more than a straight line from the base to the throat gives.
+    ASSERT_LT(share_below(rig(), v, head),
+              1.35 * std::max(0.0, (p.y - cut().base) / (p.y - cut().base - above)) + 1e-3);
+  }
+  EXPECT_GT(on_the_chest, 20u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Heads, Skeleton, ::testing::Values("generated", "ict", "makehuman"),
+                         [](const auto& test) { return std::string(test.param); });
+
+}  // namespace
+}  // namespace mien::author
