@@ -11,7 +11,8 @@ namespace mien::gltf {
 
 /// Names are equal without regard to case, `.` and `_` being equal, with or without what stands
 /// before the control's last `.`: "jawopen" is "CTRL_expressions.jawOpen". Of equal names whole
-/// ones go before such parts, then the first counts.
+/// ones go before such parts, then the first counts. A name without such an equal matches one that spells the
+/// same words in another usual way, if there is only one: mouthSmileLeft, mouthSmile_L, mouth_smile_l.
 class ControlNames {
  public:
   /// `kind` is MIEN_KIND_...; the names are copied.
@@ -20,7 +21,7 @@ class ControlNames {
   bool find(const std::string& name, uint32_t& index) const;
 
  private:
-  std::map<std::string, uint32_t> known_;
+  std::map<std::string, uint32_t> known_, spellings_;
 };
 
 }  // namespace mien::gltf

@@ -55,6 +55,13 @@ struct Finder {
       out.push_back({control, value.value});
       return true;
     }
+    // One expression of ARKit, two of rigs that have it for each side.
+    uint32_t right = 0;
+    if (names.find(value.control + "Left", control) && names.find(value.control + "Right", right)) {
+      out.push_back({control, value.value});
+      out.push_back({right, value.value});
+      return true;
+    }
     bool found = false;
     for (const MienMatrixEntry& entry : matrix) {
       if (to_text(entry.channel) != value.control) continue;

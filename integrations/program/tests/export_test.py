@@ -663,6 +663,28 @@ class ExpressionSets(ExportTest):
         self.assertGreater(loss["shapes"]["grin"]["worst"], 0)
         self.assertEqual(loss["shapes"]["rest"]["worst"], 0)
 
+    def test_other_spellings_of_the_same_names(self):
+        """A rig authored from shapes whose names have other sides, separators and cases."""
+        make("export", path("person.dna"), "-o", path("shapes.glb"), "--lod", "6", "--bake", "arkit", "--exact")
+        data = read("shapes.glb")
+        size = struct.unpack_from("<I", data, 12)[0]
+        text = data[20:20 + size].decode()
+        for old, new in (("Left\"", "_L\""), ("Right\"", "_r\""), ("jawOpen", "jaw_open"), ("browInnerUp", "brow-inner-up")):
+            self.assertIn(old, text)
+            text = text.replace(old, new)
+        # These two end in a word for a side and have none.
+        for old, new in (("jaw_L", "jawLeft"), ("jaw_r", "jawRight"), ("mouth_L", "mouthLeft"), ("mouth_r", "mouthRight")):
+            text = text.replace('"' + old + '"', '"' + new + '"')
+        chunk = text.encode() + b" " * (-len(text.encode()) % 4)
+        rest = data[20 + size:]
+        write("spelled.glb", struct.pack("<4sIIII", b"glTF", 2, 20 + len(chunk) + len(rest), len(chunk), 0x4E4F534A)
+              + chunk + rest)
+        make("author", path("spelled.glb"), "-o", path("spelled.dna"), "--joints", "16", "--lods", "1")
+        self.assertIn("mouthSmile_L", self.ok("info", path("spelled.dna"), "--names", "raw").stdout.decode().split())
+        done = self.ok("export", path("spelled.dna"), "-o", path("set.glb"), "--bake", "arkit,visemes",
+                       "--residuals", path("loss.json"))
+        self.assertEqual(json.loads(read("loss.json"))["missing"], [], done.stderr)
+
     def test_closures_of_speech_close_the_lips(self):
         # PP and 21_p press the lips: nothing opens them.
         _, glb, _, _ = self.bake("person.dna", "--bake", "visemes,visemes22")
