@@ -11,23 +11,23 @@ constexpr uint32_t kClipLanes = 8;
 
 /// The decoder state of eight channels in a block of a clip (runtime/anim/clip_block.h).
 struct ClipLanes {
-  uint32_t bit[kClipLanes];      // of the block: the next sample
-  uint32_t width[kClipLanes];    // of the samples of the run at hand; 0 where none is coded
+  uint32_t bit[kClipLanes];      // position of the next sample in the block
+  uint32_t width[kClipLanes];    // bits of a sample of the current run; 0 where none is coded
   uint32_t mask[kClipLanes];     // the lowest `width` bits are 1
   uint32_t last[kClipLanes];     // grid: k; float: ordered, without its shift
-  uint32_t slope[kClipLanes];    // what the prediction adds to it
+  uint32_t slope[kClipLanes];    // added to `last` to predict the next sample
   uint32_t linear[kClipLanes];   // all ones or 0
   uint32_t present[kClipLanes];  // all ones if the frame has a sample, 0 if it is zero
   uint32_t unit[kClipLanes];     // float: 1 << shift; grid: 0
   float scale[kClipLanes];       // of a grid, else 1
-  // Looked at where a run or a stretch of zeros begins.
-  uint64_t widths[kClipLanes];   // codes of the runs to come without the least, lowest first
+  // Read only where a run or a stretch of zeros begins.
+  uint64_t widths[kClipLanes];   // codes of later runs less the least width, lowest first
   uint64_t samples[kClipLanes];  // bit f: frame f of the block has one
-  uint8_t width_bits[kClipLanes], least[kClipLanes];  // of the codes of widths
-  uint8_t run_width[kClipLanes];                      // of the run at hand
-  uint8_t left[kClipLanes];                           // samples of it after this stretch
+  uint8_t width_bits[kClipLanes], least[kClipLanes];  // bits of a code in `widths`; least width
+  uint8_t run_width[kClipLanes];                      // of the current run
+  uint8_t left[kClipLanes];                           // samples of the run after this stretch
   uint8_t turn[kClipLanes];  // frame of the block where the next run or stretch begins
-  uint64_t turns;            // bit f: that of some lane is f, or was; 0: all are constants
+  uint64_t turns;            // bit f: `turn` of some lane is f, or was; 0: all are constants
 };
 static_assert(sizeof(ClipLanes) == kClipLanes * 58, "no padding");
 

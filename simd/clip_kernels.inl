@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Samples of clips: eight channels at a time, as plain loops that compilers make vectors of.
+// Samples of clips: eight channels at a time, as plain loops that compilers vectorize.
 
 #pragma once
 
 #include "simd/clip_kernels.h"
 #include "simd/vec.inl"
 
-// Before a loop of few, known turns: g++ would unroll it completely, and then make no vectors.
+// Before loops with a small constant count: g++ would unroll them completely and then not vectorize them.
 #if defined(__GNUC__)
 #define MIEN_LANES _Pragma("GCC unroll 1")
 #else
@@ -25,7 +25,7 @@ inline uint64_t load_window(const uint8_t* from) {
   return bits;
 }
 
-/// Codes of the residuals at hand.
+/// Codes of the current residuals.
 inline void read_codes(const ClipLanes& lanes, const uint8_t* block, uint32_t* codes) {
   for (uint32_t k = 0; k < kClipLanes; ++k) {
     const uint64_t window = load_window(block + (lanes.bit[k] >> 3));
@@ -45,7 +45,7 @@ inline void add_residuals(const uint32_t* codes, ClipLanes& lanes) {
 }
 
 void next_samples(const uint8_t* block, ClipLanes* groups, size_t count) {
-  // All codes of some groups first: what was just written in parts is not at once read as a whole.
+  // The codes of several groups first, because reading a vector right after its elements were written stalls.
   constexpr size_t kGroups = 8;
   uint32_t codes[kGroups][kClipLanes];
   for (size_t first = 0; first < count; first += kGroups) {
@@ -73,7 +73,7 @@ bool sample_values(const ClipLanes* groups, size_t count, float* row) {
       const float part = static_cast<float>(static_cast<int32_t>(lanes.last[k])) / lanes.scale[k];
       uint32_t part_bits;
       __builtin_memcpy(&part_bits, &part, sizeof(part));
-      // By bits: compilers would make branches of conditions, and then no vectors.
+      // With bit operations: compilers would turn conditions into branches and then not vectorize.
       const uint32_t grid = 0u - static_cast<uint32_t>(unit == 0);
       const uint32_t all = (part_bits & grid) | (number & ~grid);
       const uint32_t special = 0u - static_cast<uint32_t>((all & 0x7F800000) == 0x7F800000);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What compiling a rig does to many numbers: big-endian floats of files, blocks of the joint matrix.
+// Bulk operations of compiling a rig: big-endian floats of files, blocks of the joint matrix.
 #pragma once
 
 #include <stddef.h>
@@ -13,8 +13,8 @@ namespace mien {
 ///
 ///     blocks[c][r] = rows[r][c]    for c < count
 ///
-/// Infinities become the largest float of their sign, NaN the lowest. Reads nothing behind the rows.
-/// Columns may share a block: then the last one stays.
+/// Infinities become the largest float of their sign, NaN the lowest. Reads nothing past the rows. Columns
+/// may share a block; the last of them is kept.
 struct BlockRowsArgs {
   const uint8_t* rows[kJointBlockRows];
   float* const* blocks;  // [column] 32-byte aligned
@@ -22,8 +22,8 @@ struct BlockRowsArgs {
 };
 using ReadBlockRowsKernel = void(const BlockRowsArgs& args);
 
-/// mark_nonzeros: of rows of big-endian floats at any address, one row behind the other: bit c % 64 of word
-/// c / 64 of each row is set if the number in column c is neither 0 nor -0. Bits behind the last column are 0.
+/// mark_nonzeros: of consecutive rows of big-endian floats at any address: bit c % 64 of word c / 64 of each
+/// row is set if the number in column c is neither 0 nor -0. Bits past the last column are 0.
 using MarkNonzerosKernel = void(const uint8_t* values, size_t rows, size_t columns,
                                 uint64_t* words);
 

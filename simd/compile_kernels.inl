@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What compiling a rig does to many numbers.
+// Bulk operations of compiling a rig.
 
 #pragma once
 
@@ -11,7 +11,7 @@ namespace {
 
 // Blocks of a joint matrix ------------------------------------------------------------------------
 
-/// Four columns of the rows, `offset` bytes behind their beginnings.
+/// Four columns of the rows, starting `offset` bytes into each row.
 [[gnu::always_inline]] inline void read_four_columns(const uint8_t* const* rows, size_t offset,
                                                      float* const* blocks) {
   const auto read = [=](size_t r) {
@@ -69,13 +69,13 @@ void fix_blocks(const float* blocks, const float* scales, size_t count, int16_t*
 void mark_nonzeros(const uint8_t* values, size_t rows, size_t columns, uint64_t* words) {
   constexpr size_t kBytes = sizeof(float), kHalf = 32;
   const uint8_t* const begin = values;
-  // Of the `count` numbers at `values`, and steps behind them.
+  // Reads `count` numbers at `values` and advances past them.
   const auto take = [&](size_t count) -> uint64_t {
     const uint8_t* const from = values;
     values += count * kBytes;
     if (count == kHalf) return nonzero_of_file(from);
     const size_t missing = kHalf - count;
-    // Together with numbers before them, where there are so many.
+    // Together with the numbers before them, if there are enough.
     if (static_cast<size_t>(from - begin) >= missing * kBytes) {
       return nonzero_of_file(from - missing * kBytes) >> missing;
     }

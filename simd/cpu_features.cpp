@@ -12,16 +12,16 @@ namespace {
 constexpr uint32_t bit(uint32_t number) { return uint32_t{1} << number; }
 constexpr bool has_all(uint32_t bits, uint32_t wanted) { return (bits & wanted) == wanted; }
 
-// CPUID leaf 1, register ECX. AVX2 code may use all the older sets: compilers take them as implied.
-constexpr uint32_t kLeaf1Xsave = bit(26) | bit(27);  // XSAVE, and that the system turned it on
+// CPUID leaf 1, register ECX. AVX2 code may use all the older sets, because compilers assume them.
+constexpr uint32_t kLeaf1Xsave = bit(26) | bit(27);  // XSAVE, enabled by the system
 constexpr uint32_t kLeaf1Avx2 = bit(0) | bit(9) | bit(19) | bit(20) | bit(23) |  // SSE3 to POPCNT
                                 bit(28) | bit(12) | bit(29);                     // AVX, FMA, F16C
 // CPUID leaf 7, register EBX.
 constexpr uint32_t kLeaf7Avx2 = bit(5);
 constexpr uint32_t kLeaf7Avx512 = bit(16) | bit(17) | bit(28) | bit(30) | bit(31);  // F DQ CD BW VL
 
-// XCR0: which registers the system saves when it switches threads. Wide ones it does not save are
-// lost at any moment, whatever CPUID says.
+// XCR0: which registers the system saves when it switches threads. Wide registers that it does not save may
+// be lost at any time, whatever CPUID says.
 constexpr uint32_t kXcr0Avx = bit(1) | bit(2);                         // XMM, YMM
 constexpr uint32_t kXcr0Avx512 = kXcr0Avx | bit(5) | bit(6) | bit(7);  // masks, ZMM, ZMM16-31
 
@@ -64,7 +64,7 @@ CpuFeatures detect_cpu_features() {
 #if defined(__aarch64__)
   features.neon = true;  // part of AArch64
 #elif defined(__EMSCRIPTEN__)
-  features.sse2 = true;  // a module with vectors does not load where there are none
+  features.sse2 = true;  // a module with vectors does not load where they are missing
 #endif
   return features;
 }

@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include <utility>  // index_sequence, a mere type
+#include <utility>  // index_sequence, a type only
 
 #include "simd/deform_kernels.h"
 #include "simd/quad.inl"
@@ -30,16 +30,16 @@ void add_target(const TargetArgs& given) {
 
 // Normals -----------------------------------------------------------------------------------------
 
-// Squared lengths of what has a direction.
+// Squared lengths of vectors that have a direction.
 constexpr float kMinSquared = 1e-36f, kMaxSquared = 3.4e38f;
 
-/// Normals are made in two steps, for some vertices at a time: vectors in scratch memory, then all of
-/// them normalized. One vertex after the other, its root and quotient would take longer than its
-/// skin, and the processor does not look far enough ahead to do something else meanwhile.
+/// Normals are made in two steps, for a chunk of vertices at a time: vectors in scratch memory, then all of
+/// them are normalized. For single vertices, the root and the division would take longer than skinning, and
+/// out-of-order execution does not reach far enough to overlap them.
 constexpr uint32_t kChunkVertices = 256;
 
 /// Cuts positions into chunks of at most kChunkVertices vertices: calls run(first position, count,
-/// first_vertex). A position with more vertices comes several times, each time with some of them.
+/// first_vertex). A position with more vertices is passed several times, each time with some of them.
 template <class F>
 inline void for_each_chunk(const uint32_t* first_vertex, uint32_t count, F&& run) {
   for (uint32_t i = 0, positions; i < count; i += positions) {
@@ -61,7 +61,7 @@ inline void for_each_chunk(const uint32_t* first_vertex, uint32_t count, F&& run
   }
 }
 
-/// Normalizes a chunk of vectors, x y z * each, and writes them. What has no direction becomes the
+/// Normalizes a chunk of vectors, x y z * each, and writes them. A vector without a direction becomes the
 /// neutral normal.
 [[gnu::noinline]] void put_normals(float* vectors, const uint32_t* vertices, size_t count,
                                    const float* neutral, float* normals) {
@@ -125,17 +125,17 @@ template <size_t kCount, size_t... V>
   columns4(sums, columns);
 }
 
-/// Without the translation.
+/// Transforms without the translation.
 [[gnu::always_inline]] inline Quad turned4(const Quad* c, const Quad& v) {
   return mul_add4(c[0], lane4<0>(v), mul_add4(c[1], lane4<1>(v), c[2] * lane4<2>(v)));
 }
 
-/// What skin_chunk() makes besides positions: normals by the matrix, or whatever the arguments ask for.
-/// Looking at them for each position takes time, but one more template for each mode, with tangents and
-/// without, would more than double the code.
+/// The outputs of skin_chunk() besides positions: normals by the matrix, or whatever the arguments ask for.
+/// Checking the arguments for each position takes time, but templates for each mode, with and without
+/// tangents, would more than double the code.
 enum class Skinned { kNothing, kNormals, kAny };
 
-/// Positions, tangents, and normals that are not normalized yet: x y z * one after the other.
+/// Positions, tangents, and normals that are not normalized yet, x y z * each.
 template <Skinned kOut, size_t kInfluences>
 void skin_chunk(const SkinArgs& given, float* vectors) {
   const SkinArgs args = given;
@@ -280,7 +280,7 @@ void sum_normals(const NormalArgs& given) {
         any_hard |= vertices[vertex] & kHardEdge;
       }
     }
-    // Apart: in the loop above, what is rare would take registers from the sums.
+    // A separate loop: in the loop above, the rare case would take registers from the sums.
     for (size_t i = 0; any_hard != 0 && i < count; ++i) {
       const float* direction = args.neutral_directions + (first + i) * 4;
       for (size_t k = first_vertex[i] - first_vertex[0]; k < first_vertex[i + 1] - first_vertex[0];

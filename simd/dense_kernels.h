@@ -9,7 +9,7 @@
 
 namespace mien {
 
-/// gather_inputs: inputs of a layer: to[i] = from[at[i]] for i < count; more, up to the next 16, may be
+/// gather_inputs: inputs of a layer: to[i] = from[at[i]] for i < count; up to the next multiple of 16 may be
 /// written.
 using GatherInputsKernel = void(const float* from, const uint16_t* at, size_t count, float* to);
 
@@ -21,10 +21,10 @@ using FloatsFromHalvesKernel = void(const uint16_t* from, size_t count, float* t
 ///
 ///     values   block 0: c0 r0..r15 | c1 r0..r15 | ... ; block 1: ...
 ///
-/// Even and odd columns are summed separately, then added: twice as many sums hide the latency of
-/// additions. Activation f: 0 itself, 1 max(0, v), 2 v or alpha * v below 0, 3 tanh, 4
-/// 1 / (1 + e^-v); the errors of the last two are within 3e-7. What overflows saturates. Rows past
-/// row_count, up to the next 16, may be written.
+/// Even and odd columns are summed separately, then added: twice the number of sums hides the latency of
+/// additions. Activation f: 0 itself, 1 max(0, v), 2 v or alpha * v below 0, 3 tanh, 4 1 / (1 + e^-v); the
+/// errors of the last two are within 3e-7. Values that overflow saturate. Rows past row_count, up to the next
+/// multiple of 16, may be written.
 struct DenseLayerArgs {
   const void* values;   // floats or halves, 64-byte aligned
   const float* biases;  // one for each row, in whole blocks, 64-byte aligned
@@ -36,8 +36,8 @@ struct DenseLayerArgs {
   uint8_t function;
   bool halves;
   bool portable;  // products are rounded before they are added, on every instruction set
-  /// Many inputs may be 0: those are looked for and skipped, which changes no bit of a result but the sign
-  /// of one that is 0. Inputs are then 64-byte aligned and read in whole blocks.
+  /// Many inputs may be 0: they are found and skipped, which changes no bit of a result but the sign of a
+  /// zero. Inputs are then 64-byte aligned and read in whole blocks.
   bool sparse;
 };
 using DenseLayerKernel = void(const DenseLayerArgs& args);
@@ -48,11 +48,11 @@ using DenseLayerKernel = void(const DenseLayerArgs& args);
 ///     outputs    [row][32]
 ///
 /// For lanes k < lane_count; those up to the next multiple of batch_step are computed as well. Rows past
-/// row_count, up to the next 16, may be written.
+/// row_count, up to the next multiple of 16, may be written.
 struct DenseBatchArgs {
   const float* values;  // as for dense_layer, but never halves
   const float* biases;  // as for dense_layer
-  const float* inputs;  // 64-byte aligned, and so are those that follow
+  const float* inputs;  // 64-byte aligned, and so are the following
   float* outputs;
   float alpha;
   uint32_t column_count;

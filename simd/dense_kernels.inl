@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include <utility>  // index_sequence, a mere type
+#include <utility>  // index_sequence, a type only
 
 #include "simd/dense_kernels.h"
 #include "simd/math.inl"
@@ -38,8 +38,8 @@ inline Vec activate(Vec v, uint8_t function, Vec alpha) {
   }
 }
 
-/// The bias of a row, saturation, and max(0, v) if that is the activation: a pass over all rows is left
-/// for the others.
+/// Adds the bias of a row, saturates, and applies max(0, v) if that is the activation. Other activations take
+/// another pass over all rows.
 struct Finish {
   Vec lowest, highest = broadcast(3.40282347e38f);
   explicit Finish(uint8_t function) : lowest(broadcast(function == 1 ? 0.0f : -3.40282347e38f)) {}
@@ -54,8 +54,8 @@ void floats_from_halves(const uint16_t* from, size_t count, float* to) {
   for (size_t i = 0; i < count; i += kWidth) store(to + i, load_half(from + i));
 }
 
-/// Vectors are written because vectors are read: a read that takes parts of several writes waits for the
-/// last of them to reach the cache.
+/// Writes vectors because vectors are read: a read that covers several smaller writes waits until the last of
+/// them has reached the cache.
 void gather_inputs(const float* from, const uint16_t* at, size_t count, float* to) {
   size_t i = 0;
   for (; i + kWidth <= count; i += kWidth) store(to + i, gather(from, at + i));
@@ -65,16 +65,16 @@ void gather_inputs(const float* from, const uint16_t* at, size_t count, float* t
   store(to + i, gather(from, last));
 }
 
-/// Rounding products apart is rare, and does without the code that skips inputs of 0.
+/// Separate rounding of products is rare, and does not use the code that skips inputs of 0.
 template <class How>
 constexpr bool kIsFast = false;
 template <>
 constexpr bool kIsFast<AsFast> = true;
 
-/// Layers with more columns are summed with all of them.
+/// Layers with more columns are summed over all of them.
 constexpr size_t kMaxSparseColumns = 512;
 
-/// Finds the inputs that are not 0: bit c % 64 of words[c / 64]. Returns whether there are others.
+/// Finds the inputs that are not 0: bit c % 64 of words[c / 64]. Returns whether any input is 0.
 inline bool find_inputs(const float* inputs, size_t count, uint64_t* words) {
   if (count > kMaxSparseColumns) return false;
   uint64_t zeros = 0;
@@ -92,15 +92,14 @@ inline bool find_inputs(const float* inputs, size_t count, uint64_t* words) {
   return zeros != 0;
 }
 
-/// Four inputs to a load, because loads are what takes the time: as many of weights as multiply-adds, and
-/// those of inputs. But widening halves takes longer than loading them, other than on AVX2, and products
-/// that are rounded apart leave no register for the four.
+/// Whether to load four inputs at once, because loads are the bottleneck: one of weights for each
+/// multiply-add, and those of inputs. Not for halves, unless on AVX2, where widening takes longer than
+/// loading; and not for products that are rounded separately, which leave no register for the four.
 template <class How, class Weight>
 constexpr bool kByFour = kIsFast<How> && (sizeof(Weight) == sizeof(float) || kIsa == Isa::kAvx2);
 
-/// The sums of sizeof...(K) neighboring vectors of rows in one walk over the columns, even and odd
-/// ones apart: over those in `words`, or over all if it is null. The pack makes each sum a register of
-/// its own.
+/// The sums of sizeof...(K) neighboring vectors of rows in one pass over the columns, even and odd ones
+/// separately: over those in `words`, or over all if it is null. The pack keeps each sum in its own register.
 template <class How, class Weight, size_t... K>
 inline void sum_rows(const Weight* values, const DenseLayerArgs& args, const uint64_t* words,
                      size_t first_vec, std::index_sequence<K...>) {
@@ -149,8 +148,8 @@ inline void sum_rows(const Weight* values, const DenseLayerArgs& args, const uin
    ...);
 }
 
-// Two sums each, and two of inputs, have to fit the registers; and weights, but for floats where they are
-// operands in memory. Of halves on AVX2 there is room for more, which takes longer.
+// Two sums each and two inputs have to fit the registers; weights, too, except floats where instructions take
+// them from memory. For halves, AVX2 has registers for more vectors, but that is slower.
 #if defined(MIEN_KERNEL_AVX512) || defined(MIEN_KERNEL_NEON)
 template <class Weight>
 constexpr size_t kMaxVecs = 8;
@@ -190,7 +189,7 @@ void sum_layer(const Weight* values, const DenseLayerArgs& args) {
   uint32_t walks = (vec_count + kMaxVecs<Weight> - 1) / kMaxVecs<Weight>;
   for (uint32_t v = 0; walks != 0; --walks) {
     const uint32_t left = vec_count - v;
-    const uint32_t count = walks == 1 ? left : (left + walks - 1) / walks;  // shared evenly
+    const uint32_t count = walks == 1 ? left : (left + walks - 1) / walks;  // in equal shares
     walk_over(v, count);
     v += count;
   }
@@ -216,7 +215,7 @@ void dense_layer(const DenseLayerArgs& args) {
 
 // Batches: lanes are characters, and a weight is the same for all of them -----------------------------
 
-/// The sums over every other column of neighboring rows, R counts them, for kBatchVecs vectors of lanes.
+/// The sums over every other column of neighboring rows (one for each R), for a pair of vectors of lanes.
 template <class How, size_t... R>
 inline void sum_columns(const float* weights, const float* inputs, size_t first_column,
                         size_t column_count, VecPair* sums, std::index_sequence<R...>) {
@@ -224,7 +223,7 @@ inline void sum_columns(const float* weights, const float* inputs, size_t first_
   for (size_t c = first_column; c < column_count; c += 2) {
     const Vec a = load(inputs + c * kBatchLanes), b = load(inputs + c * kBatchLanes + kWidth);
     const float* const column = weights + c * kBlockLanes;
-    // Row by row: compilers would load all weights first, for which there are no registers left.
+    // Row by row: compilers would load all weights first, which needs more registers than are left.
     const auto add = [&](VecPair& to, float value) {
       const Vec weight = broadcast(value);
       to.a = How::mul_add(weight, a, to.a);
@@ -242,7 +241,7 @@ constexpr size_t kMaxDenseRows = 8;
 constexpr size_t kMaxDenseRows = 6;
 #endif
 
-/// Rows `row` ... and lanes `lane` ...; `weights` begin with those of the first row.
+/// The rows from `row` on and the lanes from `lane` on; `weights` begin with those of the first row.
 template <class How, size_t kRows>
 inline void sum_batch_rows(const DenseBatchArgs& args, const float* weights, size_t row,
                            size_t lane, const Finish& finish) {
@@ -258,7 +257,7 @@ inline void sum_batch_rows(const DenseBatchArgs& args, const float* weights, siz
   }
 }
 
-/// Sums are more than a core has multiply-adds under way.
+/// There are more independent sums than multiply-adds that a core has in flight.
 template <class How>
 void sum_batch(const DenseBatchArgs& args) {
   const Finish finish(args.function);
@@ -266,7 +265,7 @@ void sum_batch(const DenseBatchArgs& args) {
     const float* weights = args.values + block * args.column_count;
     const size_t end = block + kBlockLanes < args.row_count ? block + kBlockLanes : args.row_count;
     for (size_t row = block; row < end;) {
-      const bool many = end - row > 4;  // what is computed ends with the block
+      const bool many = end - row > 4;  // computes no rows past the block
       for (size_t lane = 0; lane < args.lane_count; lane += 2 * kWidth) {
         if (many) {
           sum_batch_rows<How, kMaxDenseRows>(args, weights, row, lane, finish);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Runs before the choice of an instruction set, so it is built with baseline flags and never sees
-// xsimd. MIEN_BUILT_<ISA> comes from simd/CMakeLists.txt.
+// Runs before an instruction set is chosen, so it is built with baseline flags and never includes xsimd.
+// MIEN_BUILT_<ISA> comes from simd/CMakeLists.txt.
 //
-// A table of our own, not xsimd::dispatch():
+// Our own table, not xsimd::dispatch():
 // - A rig keeps the table it was made for, so a kernel is one indirect call, and two rigs with
-//   different instruction sets can stand side by side. xsimd decides at each call, for the process.
-// - The caller, MIEN_ISA and the tests ask for any table; xsimd takes the best of a list.
-// - The scalar table does without xsimd: it is the reference of the tests, and what runs on other
+//   different instruction sets can exist side by side. xsimd decides at each call, for the process.
+// - The caller, MIEN_ISA and the tests can ask for any table; xsimd takes the best of a list.
+// - The scalar table does without xsimd: it is the reference of the tests, and runs on other
 //   processors.
 // - Functors of xsimd are templates on the instruction set that all objects must see. Here no two
 //   objects share an inline function of xsimd (tests/check_isa_objects.py).
@@ -59,8 +59,8 @@ const KernelTable* kernels_for(Isa isa, [[maybe_unused]] const CpuFeatures& cpu)
 
 }  // namespace
 
-// Features are asked for once in the life of a process: under a hypervisor each question takes
-// microseconds, as many as opening the rest of a baked rig.
+// Features are queried once per process: under a hypervisor each query takes microseconds, as much as the
+// rest of opening a baked rig.
 const KernelTable* kernels_for(Isa isa) {
   static const CpuFeatures cpu = detect_cpu_features();
   if (isa != Isa::kBest) return kernels_for(isa, cpu);

@@ -12,12 +12,12 @@ namespace mien {
 
 /// Rows per block of a joint matrix.
 constexpr uint32_t kJointBlockRows = 8;
-/// Block rows are named by multiples of this, which are addresses with the least work.
+/// Block rows are numbered in multiples of this, which makes addresses cheap to compute.
 constexpr uint32_t kBlockRowUnit = 4;
-/// Bits of the number of an even block row: of a pair's number no others are looked at.
+/// Mask for the number of an even block row: the other bits of a pair's number are ignored.
 constexpr uint32_t kPairBlockRows = 0x10000 - 2 * kBlockRowUnit;
 
-/// Where a column of a joint matrix stands: blocks, and entries in `block_rows`.
+/// Where a column of a joint matrix begins: in its blocks, and in `block_rows`.
 struct JointColumn {
   uint32_t first_pair, pair_entry, first_single, single_entry;
 };
@@ -36,8 +36,8 @@ struct JointRun {
 ///     values  pair 0: r0 ... r15 | pair 1: r0 ... r15 | ... | block: r0 ... r7 | ...
 ///     block rows  the even block row of each pair | the block row of each block
 ///
-/// Pairs are aligned to their size, and so are other blocks; no block row comes twice in a run. For
-/// all runs in order:
+/// Pairs and single blocks are aligned to their size; no block row occurs twice in a run. For all runs in
+/// order:
 ///
 ///     sums[8 * (block row / kBlockRowUnit) + r] += values(r) * input
 ///
@@ -52,8 +52,8 @@ struct JointColumnsArgs {
 };
 using JointColumnsKernel = void(const JointColumnsArgs& args);
 
-/// At most kMaxStripBlockRows neighboring block rows of a joint matrix, and the inputs that one of them has a
-/// block for. A strip ends where the next one begins; one more comes at the end.
+/// At most kMaxStripBlockRows neighboring block rows of a joint matrix, and the inputs for which one of them
+/// has a block. A strip ends where the next one begins; the array has one more at the end.
 struct RowStrip {
   uint32_t first_block_row;
   uint32_t first_block, first_input;
@@ -90,8 +90,8 @@ struct InputBlock {
 ///
 ///     sums[k * stride + r] += values(blocks[i].block, r) * inputs[32 * blocks[i].input + k]
 ///
-/// starting from 0: as joint_columns does, with the same bits. Or, if nothing is to be added to them, as
-/// finish_sums makes them, in lanes: sums[32 * r + k].
+/// starting from 0, with the same operations and bits as joint_columns. Or, if nothing else is to be added,
+/// finished as by finish_sums and in lanes: sums[32 * r + k].
 struct JointBatchArgs {
   const void* values;  // as for joint_columns
   const InputBlock* blocks;
@@ -99,13 +99,13 @@ struct JointBatchArgs {
   float* sums;          // 64-byte aligned
   size_t stride;        // a multiple of 8
   const float* scales;  // [row], or null
-  bool finish;          // with scales, if there are any; in lanes
+  bool finish;          // apply the scales, if any, and write lanes
   uint32_t block_count;
   uint32_t lane_count;
   bool portable;  // as above
 };
 using JointBatchKernel = void(const JointBatchArgs& args);
-/// Blocks after the last one that joint_batch may prefetch: it reads their numbers.
+/// joint_batch reads the numbers of this many blocks past the last one, to prefetch them.
 constexpr uint32_t kBatchAhead = 16;
 
 /// finish_sums: sums[i] = sums[i] * scales[i] (unless scales is null), saturated, plus 0; count is a multiple

@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include <utility>  // index_sequence, a mere type
+#include <utility>  // index_sequence, a type only
 
 #include "simd/joint_kernels.h"
 #include "simd/quad.inl"
@@ -11,20 +11,20 @@
 namespace mien::MIEN_KERNEL_ISA {
 namespace {
 
-// A lane is a row and adds its columns in order, so no width changes a bit of the result. Sums stay
-// in the first-level cache, so what is read from afar is the values, one behind the other.
+// A lane is a row and adds its columns in order, so the width of vectors does not change the result. Sums
+// stay in the L1 cache; only the values come from farther away, and they are read in sequence.
 //
-// The time goes into reads and writes of the first-level cache, of three per block: values, sums
-// and sums again. So block row numbers are fetched four at a time, and a pair is one vector where
-// vectors are that wide. All sums are read before the first is written: they belong to different
-// block rows, which the processor cannot know.
+// The time goes into three accesses of the L1 cache per block: reading values, reading sums and writing them.
+// So block row numbers are loaded four at a time, and a pair is one vector where vectors are that wide. All
+// sums are read before the first is written: they belong to different block rows, which the processor cannot
+// know.
 
 /// The sums of a block row.
 inline float* sums_of(float* sums, size_t number) {
   return sums + number * (kJointBlockRows / kBlockRowUnit);
 }
 
-/// Four block row numbers in one read.
+/// Four block row numbers, loaded at once.
 struct FourBlockRows {
   uint64_t numbers;
   explicit FourBlockRows(const uint16_t* from) {
@@ -150,7 +150,7 @@ inline void add_pairs(const Value* values, const uint16_t* block_rows, size_t co
 
 template <class How, class Value>
 inline void add_columns(const JointColumnsArgs& args) {
-  // In names of their own: for all the compiler knows, sums could lie in `args`.
+  // Local copies, because the compiler must assume that writes to the sums alias `args`.
   const Value* const values = static_cast<const Value*>(args.values);
   const uint16_t* const block_rows = args.block_rows;
   float* const sums = args.sums;
@@ -172,10 +172,10 @@ void add_columns(const JointColumnsArgs& args) {
 void joint_columns(const JointColumnsArgs& args) { add_columns<float>(args); }
 void joint_columns_fixed(const JointColumnsArgs& args) { add_columns<int16_t>(args); }
 
-// Here sums stay in registers, and what is read is values and inputs, zeros and all: for small matrices
-// most of whose columns are in use.
+// Here sums stay in registers, and only values and inputs are read, including zeros: for small matrices most
+// of whose columns are in use.
 
-/// Vectors that the rows of a strip are cut into.
+/// The rows of a strip as vectors.
 struct InBlocks {
   using Rows = BlockVec;
   static constexpr size_t kRows = kBlockWidth;
@@ -206,7 +206,7 @@ using InPairs = InBlocks;
 template <class In, size_t kBlockRows>
 using VecsOf = std::make_index_sequence<kBlockRows * kJointBlockRows / In::kRows>;
 
-/// V counts the vectors of neighboring rows; the values of the next input are `stride` behind.
+/// One V per vector of neighboring rows; the values of the next input are `stride` later.
 template <class How, class In, class Value, size_t... V>
 inline void sum_strip(const Value* values, size_t stride, const uint16_t* inputs, size_t count,
                       const float* controls, float* sums, std::index_sequence<V...>) {
@@ -260,7 +260,7 @@ void joint_strips_fixed(const JointStripsArgs& args) { sum_strips<int16_t>(args)
 
 inline Vec finished(Vec sum) { return saturate(sum) + broadcast(0.0f); }
 
-// What became -0 is made 0: in a batch, who takes no part in a column adds 0 times its value.
+// Turns -0 into 0: in a batch, a character that does not use a column adds 0 times its values.
 void finish_sums(float* sums, const float* scales, size_t count) {
   for (size_t i = 0; i < count; i += kWidth) {
     Vec sum = load(sums + i);
@@ -269,8 +269,8 @@ void finish_sums(float* sums, const float* scales, size_t count) {
   }
 }
 
-// Lanes are characters here, and a block row's 8 rows are sums in registers. With 32 registers they
-// are two vectors each; with 16 only four rows fit twice, and are done before the other four.
+// Lanes are characters here, and the 8 rows of a block row are sums in registers. With 32 registers there are
+// two vectors for each row; 16 have room for four such rows, so the others come in a second pass.
 #if defined(MIEN_KERNEL_AVX512) || defined(MIEN_KERNEL_NEON)
 constexpr size_t kBatchVecs = 2, kBatchRows = kJointBlockRows;
 #elif defined(MIEN_KERNEL_SCALAR)
@@ -288,7 +288,7 @@ inline const float* block_values(const int16_t* values, float* made) {
   return made;
 }
 
-/// Rows `first` ... of lanes `lane` ...: R counts rows.
+/// The rows from `first` on of the lanes from `lane` on, one for each R.
 template <class How, class Value, size_t... R>
 inline void sum_block_row(const JointBatchArgs& args, size_t first, size_t lane, float* sums,
                           size_t stride, std::index_sequence<R...>) {
@@ -333,7 +333,7 @@ inline void sum_block_row(const JointBatchArgs& args) {
                                 std::make_index_sequence<kBatchRows>());
     }
     if (args.finish) continue;
-    // Rows become those of a character.
+    // Transposes rows into characters.
     float* const sums = args.sums + lane * stride;
     if constexpr (kBatchStep == 1) {
       for (size_t r = 0; r < kJointBlockRows; ++r) sums[r] = rows[r];
@@ -363,7 +363,7 @@ void sum_block_row(const JointBatchArgs& args) {
 void joint_batch(const JointBatchArgs& args) { sum_block_row<float>(args); }
 void joint_batch_fixed(const JointBatchArgs& args) { sum_block_row<int16_t>(args); }
 
-/// The first of four rows of four lanes.
+/// Four lanes of four rows, transposed: the four rows of each lane.
 struct FourRows {
   Quad lanes[4];
   explicit FourRows(const float* sums)
@@ -402,7 +402,7 @@ inline void scatter_target(const float* sums, size_t output, size_t lane_count, 
 
 template <size_t kRows>
 inline void scatter_each(const ScatterTargetsArgs& args) {
-  float* to[kBatchLanes];  // in memory that no joint value lies in, for all the compiler knows
+  float* to[kBatchLanes];  // a local copy: the compiler need not assume that joint values alias it
   for (size_t k = 0; k < args.lane_count; ++k) to[k] = args.to[k];
   const size_t lane_count = args.lane_count;
   const float* const sums = args.sums;

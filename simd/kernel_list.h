@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every kernel, one a line: its name and its type. The table (kernels.h), the tables of all instruction
+// Every kernel, one per line: its name and its type. The table (kernels.h), the tables of all instruction
 // sets (kernel_table.inl) and the check that each kernel has a test (tests/simd) are made from this list.
 #pragma once
 

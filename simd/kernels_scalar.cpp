@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Plain C++: what the other instruction sets are tested against, and the fall-back.
+// Plain C++: the reference for the other instruction sets, and the fallback.
 #define MIEN_KERNEL_ISA scalar
 #define MIEN_KERNEL_SCALAR 1
 

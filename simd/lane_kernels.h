@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Arrays of many characters, to and from lanes: one lane each (kBatchLanes).
+// Arrays of many characters, to and from lanes, one lane per character (kBatchLanes).
 #pragma once
 
 #include <stddef.h>
@@ -9,8 +9,8 @@
 
 namespace mien {
 
-/// gather_lanes: to[32 * i + k] = from[k][i] for i < count and k < lane_count, 0 for the other k < 32. Rows may
-/// lie anywhere.
+/// gather_lanes: to[32 * i + k] = from[k][i] for i < count and k < lane_count, 0 for the other k < 32. Rows
+/// need no alignment.
 using GatherLanesKernel = void(const float* const* from, uint32_t lane_count, size_t count,
                                float* to);
 

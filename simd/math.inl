@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Functions of numbers, for lanes. Nothing is fused, so every instruction set gives the same bits.
-// V is a Vec or a VecPair.
+// Elementary functions, for lanes. Nothing is fused, so every instruction set gives the same bits. V is a Vec
+// or a VecPair.
 //
 // | function              | for                | off by at most                                   |
 // |-----------------------|--------------------|--------------------------------------------------|
@@ -25,7 +25,7 @@ namespace {
 
 // Rounding ----------------------------------------------------------------------------------------
 
-// The lowest bits of a sum with 127 more are those of the exponent of the number's power of two.
+// The lowest bits of v plus this are the exponent bits of 2^v.
 constexpr float kPowerRounder = kRounder + 127.0f;
 
 template <class V>
@@ -46,7 +46,7 @@ inline V power_of_two(V n) {
 
 // Exponentials ------------------------------------------------------------------------------------
 
-// What is not a number gives 0. The polynomial for -1/2 ... 1/2 is within 1e-7 and gives 1 for 0.
+// NaN gives 0. The polynomial for -1/2 ... 1/2 is within 1e-7 and gives 1 for 0.
 template <class V>
 inline V power_of_two_or_zero(V y) {
   using M = Make<V>;
@@ -59,8 +59,8 @@ inline V power_of_two_or_zero(V y) {
   return keep(less(M::of(-126.0f), y), p * power);
 }
 
-// Cody-Waite reduction to |r| <= ln(2)/2, then the series to the seventh power (its next term is below
-// 6e-9 there), in halves that do not wait for each other.
+// Cody-Waite reduction to |r| <= ln(2)/2, then the series to the seventh power (its next term is below 6e-9
+// there), in two independent halves.
 template <class V>
 inline V exp_of_negative(V x) {
   using M = Make<V>;
@@ -77,9 +77,9 @@ inline V exp_of_negative(V x) {
 
 // Angles ------------------------------------------------------------------------------------------
 
-// The angle of a rotation whose quaternion has this real part, of either sign: 2 acos |w|, 0 where |w| is
-// 1 or more. sqrt(1 - |w|) times a polynomial (Abramowitz and Stegun 4.4.46), whose doubled coefficients
-// are the 2. (As acos(2 w^2 - 1) small angles would lose digits, and large ones need a reflection.)
+// The angle of a rotation whose quaternion has this real part, of either sign: 2 acos |w|, 0 where |w| is 1
+// or more. sqrt(1 - |w|) times a polynomial (Abramowitz and Stegun 4.4.46), whose coefficients are doubled
+// for the factor 2. (With acos(2 w^2 - 1) small angles would lose digits, and large ones need a reflection.)
 template <class V>
 inline V quick_rotation_angle(V w) {
   using M = Make<V>;
@@ -92,7 +92,7 @@ inline V quick_rotation_angle(V w) {
   return (high * (a2 * a2) + low) * square_root(M::of(1.0f) - a);
 }
 
-/// p times powers of x, plus the terms: ((p x + term) x + term) ... (A loop over an array would stay one.)
+/// Horner's scheme: ((p x + term) x + term) ... (Compilers would not unroll a loop over an array.)
 template <class V, class... Terms>
 inline V polynomial(V x, V p, Terms... terms) {
   ((p = p * x + Make<V>::of(terms)), ...);
@@ -118,18 +118,18 @@ inline V bounded_cosine(V x) {
 constexpr float kPi = 3.14159274f, kHalfPi = 1.57079637f;
 constexpr float kPiRest = -2.78275342e-8f;  // (pi - kPi) / kPi
 
-/// x = n * pi/2 + rest, where |rest| is at most pi/4; `bits` has n in its low bits. For x too large
-/// to be reduced in floats: by the bits of 2/pi that count, in integers (Payne and Hanek).
+/// x = n * pi/2 + rest, where |rest| is at most pi/4; `bits` has n in its low bits. For x too large to be
+/// reduced in floats: with the bits of 2/pi that matter, in integers (Payne and Hanek).
 inline void reduce_large_angle(float x, float& rest, float& bits) {
-  // 2/pi, after 32 bits before the point.
+  // 2/pi, after 32 zero bits of its integer part.
   static constexpr uint32_t kTwoOverPi[] = {0,          0xA2F9836E, 0x4E441529, 0xFC2757D1,
                                             0xF534DDC0, 0xDB629599, 0x3C439041, 0xFE5163AB};
   const uint32_t exponent = bits_of(x) >> 23 & 0xFF;
   bits = kRounder;
   rest = x - x;
-  if (exponent == 0xFF) return;  // not a number
-  // |x| = fraction * 2^shift. What comes before gives multiples of 4, what comes after the 96 bits
-  // less than 2^-70.
+  if (exponent == 0xFF) return;  // infinite or NaN
+  // |x| = fraction * 2^shift. Bits of 2/pi before the 96 used contribute multiples of 4, bits after them less
+  // than 2^-70.
   const uint64_t fraction = (bits_of(x) & 0x7FFFFF) | 0x800000;
   const uint32_t first = exponent - 150 + 30, word = first / 32, bit = first % 32;
   const auto part = [&](uint32_t i) {
@@ -138,7 +138,7 @@ inline void reduce_large_angle(float x, float& rest, float& bits) {
   };
   const uint64_t low = fraction * part(2), middle = fraction * part(1) + (low >> 32);
   const uint64_t high = fraction * part(0) + (middle >> 32);
-  const uint64_t quarters = high << 32 | (middle & 0xFFFFFFFF);  // 2 bits, then 62 behind the point
+  const uint64_t quarters = high << 32 | (middle & 0xFFFFFFFF);  // 2 + 62 bits
   const uint64_t n = (quarters + (uint64_t{1} << 61)) >> 62;
   const auto left = static_cast<int64_t>(quarters - (n << 62));
   const float turn = static_cast<float>(static_cast<double>(left) * (0x1p-62 * 1.5707963267948966));
@@ -147,9 +147,9 @@ inline void reduce_large_angle(float x, float& rest, float& bits) {
   bits = kRounder + static_cast<float>(negative ? -static_cast<int>(n) : static_cast<int>(n));
 }
 
-// Cody-Waite reduction to |r| <= pi/4: the first two parts of pi/2 have sixteen bits and n at most
-// eight, so their products are exact; what the second difference loses is added at the end. Then
-// minimax polynomials, within 4e-9.
+// Cody-Waite reduction to |r| <= pi/4: the first two parts of pi/2 have sixteen bits and n at most eight, so
+// their products are exact; the rounding error of the second difference is added at the end. Then minimax
+// polynomials, within 4e-9.
 template <class V>
 [[gnu::always_inline]] inline void sine_cosine(V x, V& sine, V& cosine) {
   using M = Make<V>;
@@ -170,8 +170,8 @@ template <class V>
     r = M::from(rests);
     sum = M::from(sums);
   }
-  // Up to 2^-14 the sine is r, and the cosine 1. Powers would be too small for normal numbers from 2^-31
-  // on, which takes processors a hundred cycles. What is not a number stays so.
+  // Up to 2^-14 the sine is r, and the cosine 1. From 2^-31 on powers would be subnormal, which takes
+  // processors a hundred cycles. NaN stays NaN.
   const V bounded = at_least(M::of(0x1p-14f), absolute(r)), r2 = bounded * bounded;
   const V s = r + (r * r2) * (M::of(-0.166666552f) +
                               r2 * (M::of(0.00833218824f) + r2 * M::of(-0.000195180954f)));
@@ -185,16 +185,16 @@ template <class V>
   cosine = flip_sign(flip_sign(select(swapped, s, c), upper), odd);
 }
 
-// The smaller by the larger magnitude, and a minimax polynomial within 2e-8. `steep` tells whether y is
-// the larger one.
+// The smaller divided by the larger magnitude, and a minimax polynomial within 2e-8. `steep` tells whether y
+// is the larger one.
 template <class V, class Lanes>
 [[gnu::always_inline]] inline V arc_tangent_of_octant(V ay, V ax, Lanes& steep) {
   using M = Make<V>;
   steep = less(ax, ay);
   const V low = select(steep, ax, ay), high = select(steep, ay, ax);
   const V a = divide(low, high + keep(less(high, M::of(0x1p-149f)), M::of(1.0f)));
-  // Up to 2^-14 the series is a. Its powers would be too small for normal numbers from 2^-16 on, which
-  // takes processors a hundred cycles.
+  // Up to 2^-14 the series is a. From 2^-16 on its powers would be subnormal, which takes processors a
+  // hundred cycles.
   const V bounded = at_least(a, M::of(0x1p-14f)), u = bounded * bounded, u2 = u * u;
   const V even = (M::of(0.00291873305f) * u + M::of(-0.0163611509f)) * u2 +
                  (M::of(0.0432025157f) * u + M::of(-0.0755155608f));
@@ -203,8 +203,8 @@ template <class V, class Lanes>
   return a + (a * u) * (even * (u2 * u2) + rest);
 }
 
-// The angle of (x, y), -pi ... pi, with the signs of zeros as C has them: that of the octant, and what
-// the octant adds to it. Not a number if both are infinite.
+// The angle of (x, y), -pi ... pi, with the signs of zeros as in C: the angle within the octant, plus the
+// offset of the octant. NaN if both are infinite.
 template <class V>
 [[gnu::always_inline]] inline V arc_tangent(V y, V x) {
   using M = Make<V>;
@@ -226,8 +226,8 @@ template <class V>
   return with_sign(base + (added + base * M::of(kPiRest)), y);
 }
 
-// From the arc sine z + z^3 p(z^2) for z up to 1/2, within 5e-9: pi/2 - asin(x), and for larger x
-// twice the arc sine of sqrt((1 - x) / 2).
+// From the arc sine z + z^3 p(z^2) for z up to 1/2, within 5e-9: pi/2 - asin(x), and for larger x twice the
+// arc sine of sqrt((1 - x) / 2).
 template <class V>
 [[gnu::always_inline]] inline V arc_cosine(V x) {
   using M = Make<V>;

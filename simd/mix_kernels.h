@@ -21,15 +21,15 @@ enum class BlendMode : uint8_t {
 /// between during a transition from one to the other (x is then already multiplied by it); null: 1
 /// everywhere. kAdd and kScreen do not need it, because x is 0 where it is 0.
 ///
-/// A curve to which nothing is added keeps its bits, as with a = 0; kOverride with a = 1 and cover = 1
-/// gives those of x. Weights and masks are at most 1.
+/// A curve to which nothing is added keeps its bits, as with a = 0; with a = 1 and cover = 1, kOverride gives
+/// the bits of x. Weights and masks are at most 1.
 struct BlendArgs {
   const float *x, *cover, *mask;
   float* row;
   size_t count;
   float weight;
   BlendMode mode;
-  float scale = 1;  // of x; with a cover it is 1
+  float scale = 1;  // multiplies x; 1 if there is a cover
 };
 using BlendRowKernel = void(const BlendArgs& args);
 
@@ -52,7 +52,7 @@ using LimitRowKernel = void(const float* lower, const float* upper, size_t count
 constexpr uint32_t kGuardVector = 8;
 struct GuardGains {
   const float* gains;        // [1 + place_count + product_count][kGuardVector], 64-byte aligned
-  const uint16_t* products;  // [product] the places of both
+  const uint16_t* products;  // [product] its two places
   uint32_t place_count, product_count;  // multiples of 4
 };
 /// guard_distances: out[g] = rest of guard g + sum of gain * row[place] + sum of gain * (row[a] * row[b]); four

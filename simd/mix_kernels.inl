@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rows of a mix: a layer over those before it, one clip into another, transitions, limits; the
-// distances of guards.
+// Rows of a mix: blending a layer, crossing clips, transitions, limits; distances of guards.
 
 #pragma once
 
@@ -21,7 +20,7 @@ struct Scaled {
   Vec operator()(size_t i) const { return scale * load(x + i); }
 };
 
-/// 1 and no lane of memory, or what the source covers.
+/// The cover of the source, or 1 everywhere without a load.
 struct Covered {
   const float* cover;
   Vec operator()(size_t i) const {
@@ -32,7 +31,7 @@ struct Whole {
   Vec operator()(size_t) const { return broadcast(1.0f); }
 };
 
-/// What a mode adds to a curve, by o, x, c and a.
+/// What a mode adds to a curve: a function of o, x, c and a.
 struct BlendOverride {
   Vec operator()(Vec o, Vec x, Vec c, Vec a) const { return a * (x - c * o); }
 };
@@ -57,7 +56,7 @@ struct BlendScale {
 template <bool kReplaces, class Added, class Values, class Cover>
 void blend_lanes(const BlendArgs& args, Added added, Values values, Cover cover) {
   const Vec weight = broadcast(args.weight), zero = broadcast(0.0f), one = broadcast(1.0f);
-  // Read once: what is stored could be the arguments, for all that compilers know.
+  // Local copies, because the compiler must assume that the writes alias the arguments.
   const float* const mask = args.mask;
   float* const row = args.row;
   const size_t count = args.count;
@@ -89,7 +88,7 @@ void blend_whole(const BlendArgs& args, Added added) {
 void blend_row(const BlendArgs& args) {
   switch (args.mode) {
     case BlendMode::kOverride:
-      // With less weight no lane is replaced.
+      // With a smaller weight no value is replaced.
       if (args.weight < 1.0f) return blend_covered<false>(args, BlendOverride{});
       return blend_covered<true>(args, BlendOverride{});
     case BlendMode::kAdd: return blend_whole(args, BlendAdd{});
@@ -116,7 +115,7 @@ void add_quintics(const QuinticRows& quintics, float u, size_t count, const floa
     const Vec w = one - v;
     const Vec inner = c0 + v * (load(quintics.c1 + i) + v * load(quintics.c2 + i));
     const Vec offset = w * w * w * inner;
-    // Rounding near the end.
+    // Near the end rounding could give an offset the wrong sign: 0 instead.
     store(to + i, load(from + i) + select(less(offset * c0, zero), zero, offset));
   }
 }
@@ -129,7 +128,7 @@ void limit_row(const float* lower, const float* upper, size_t count, float* row)
   }
 }
 
-/// The distances of all guards at once. A partial sum waits for itself only.
+/// The distances of all guards at once, in independent partial sums.
 constexpr size_t kGuardVecs = kGuardVector / kBlockWidth;
 struct GuardSums {
   BlockVec of[4][kGuardVecs];

@@ -22,7 +22,7 @@ inline VecQuaternion from_half_angles(const float* half_angles, const uint8_t* a
   return {q[0], q[1], q[2], q[3]};
 }
 
-/// Unit length; the identity for a quaternion without direction.
+/// Normalized; the identity for a quaternion without direction.
 inline VecQuaternion unit(const VecQuaternion& q) {
   const Vec zero = broadcast(0.0f), one = broadcast(1.0f);
   const Vec squared = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;

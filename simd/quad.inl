@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Quads: four floats on every instruction set. A column of a matrix, or a point and one float that
-// nobody looks at.
+// Quads: four floats on every instruction set. A column of a matrix, or a point and a fourth float that is
+// ignored.
 //
 // | name                   | meaning                                                              |
 // |------------------------|----------------------------------------------------------------------|
@@ -205,7 +205,7 @@ inline Quad mul_sub4(Quad a, Quad b, Quad c) { return _mm_fmsub_ps(a, b, c); }
 inline Quad load_lanes4(const float* from) {
   Quad q = load4(from);
 #if !defined(MIEN_KERNEL_SSE2)
-  __asm__("" : "+x"(q.data));  // the compiler no longer knows that it came from memory
+  __asm__("" : "+x"(q.data));  // makes the compiler forget that it came from memory
 #endif
   return q;
 }
@@ -228,7 +228,7 @@ inline Quad lower4(Quad a, Quad b) { return xsimd::min(a, b); }
 inline Quad gather4(const float* from, const uint16_t* at, size_t stride) {
   float first = from[at[0]];
 #if defined(__wasm__)
-  // Clang 14 would otherwise move this load behind stores that follow.
+  // Clang 14 would otherwise move this load after the stores that follow.
   __asm__("" : "+r"(first));
 #endif
   return _mm_setr_ps(first, from[at[stride]], from[at[2 * stride]], from[at[3 * stride]]);
@@ -270,7 +270,7 @@ inline void columns4(const ColumnVec* m, Quad* columns) {
   columns[2] = _mm512_extractf32x4_ps(m[0], 2);
   columns[3] = _mm512_extractf32x4_ps(m[0], 3);
 #else
-  // Without a loop, which some compilers would keep, and the columns in memory for it.
+  // Without a loop, because some compilers would keep it and store the columns in memory.
   columns[0] = m[0];
   columns[1] = m[1];
   columns[2] = m[2];
@@ -360,7 +360,7 @@ inline void store_pair4(float* to, const QuadPair& q) {
 }
 #endif
 
-// By single loads: gathers of processors are not faster, and some are slow by a fix of microcode.
+// Single loads: gather instructions are not faster, and some are slowed down by microcode updates.
 inline Vec gather(const float* from, const uint16_t* at) {
 #if defined(MIEN_KERNEL_SCALAR)
   return from[*at];

@@ -4,7 +4,7 @@
 
 #pragma once
 
-#include <utility>  // index_sequence, a mere type
+#include <utility>  // index_sequence, a type only
 
 #include "simd/quad.inl"
 #include "simd/rbf_kernels.inl"
@@ -46,8 +46,8 @@ inline VecPair batch_angle(const float* targets, size_t stride, const VecPair* i
   return quick_rotation_angle(dot);
 }
 
-/// Distances of kCount numbers per rotation. One rotation stays in registers for all poses; of several
-/// the squares are summed, one after the other.
+/// Distances of kCount numbers per rotation. A single rotation stays in registers for all poses; the squares
+/// of several are summed one after another.
 template <size_t kCount, class Weigh>
 inline void weigh_angles(const RbfSolverPlan& solver, const RbfBatchArgs& args, size_t stride,
                          size_t lane, const Weigh& weigh) {
@@ -105,8 +105,8 @@ inline void weigh_poses(const RbfSolverPlan& solver, const RbfBatchArgs& args, s
   }
 }
 
-/// Results of the inverse times the weights, for poses `pose` ...: P counts them. The pack makes each sum a
-/// register of its own.
+/// The inverse times the weights, for the poses from `pose` on, one for each P. The pack keeps each sum in
+/// its own register.
 template <size_t... P>
 inline void batch_interpolate(const RbfSolverPlan& solver, const RbfBatchArgs& args, size_t pose,
                               size_t lane, std::index_sequence<P...>) {
@@ -126,7 +126,7 @@ inline void batch_interpolate(const RbfSolverPlan& solver, const RbfBatchArgs& a
    ...);
 }
 
-/// Partial sum `i` of sum_of() of rbf_kernels.inl; of lanes without a pose 0.
+/// Partial sum `i` of sum_of() of rbf_kernels.inl; 0 for lanes without a pose.
 inline VecPair batch_partial_sum(const float* weights, size_t i, size_t count) {
   using M = Make<VecPair>;
   alignas(64) static constexpr float kNone[2 * kWidth] = {};
@@ -137,7 +137,7 @@ inline VecPair batch_partial_sum(const float* weights, size_t i, size_t count) {
   return sum;
 }
 
-/// As sum_of(), whose halvings are these additions: partial sums i, i + kStep, i + 2 kStep ...
+/// As sum_of(), which adds halves in this order: partial sums i, i + kStep, i + 2 kStep ...
 template <size_t kStep = 1>
 [[gnu::always_inline]] inline VecPair batch_sum(const float* weights, size_t count, size_t i = 0) {
   if constexpr (kStep == kBlockLanes) {
@@ -148,7 +148,7 @@ template <size_t kStep = 1>
   }
 }
 
-/// Where the results of a solver go: the lanes of its controls, or else scratch memory.
+/// Where the results of a solver go: the lanes of its controls, or scratch memory.
 inline float* results_of(const RbfSolverPlan& solver, const RbfBatchArgs& args) {
   if (solver.first_control == kNoFirstControl) return args.weights[solver.interpolative];
   return args.controls + size_t{solver.first_control} * kBatchLanes;
@@ -176,7 +176,7 @@ inline void batch_solver(const RbfSolverPlan& solver, const RbfBatchArgs& args, 
   const VecPair zero = M::of(0.0f), one = M::of(1.0f), sum = batch_sum(weights, count);
   const auto divides = solver.always_normalize ? less(zero, sum) : less(one, sum);
   VecPair scale = select(divides, divide(one, sum), one);
-  scale = keep(less(scale, M::of(3.4e38f)), scale);  // of weights that all but vanish
+  scale = keep(less(scale, M::of(3.4e38f)), scale);  // all weights are nearly 0
   const VecPair threshold = M::of(solver.threshold);
   const float* const pose_scales = args.pose_scales + solver.first_lane;
   const float* const pose_factors = args.pose_factors + solver.first_lane;
@@ -186,7 +186,7 @@ inline void batch_solver(const RbfSolverPlan& solver, const RbfBatchArgs& args, 
   }
 }
 
-/// As part_rotations(): one rotation of all lanes.
+/// As part_rotations(), for one rotation of all characters.
 inline void batch_part(const RbfBatchArgs& args, size_t rotation, size_t lane) {
   using M = Make<VecPair>;
   const uint16_t* inputs =

@@ -10,7 +10,7 @@ namespace mien {
 
 /// An RBF solver. Its poses are lanes, in blocks of 16:
 ///
-///     targets    [input][lane]: NaN for what fills the last block; without inputs one row of 0
+/// targets    [input][lane]: NaN in the padding of the last block; without inputs one row of 0
 ///     inverses   if interpolative: blocks of 16 poses, [column][lane], a column for each pose;
 ///                0 for what fills the last block
 ///
@@ -27,7 +27,7 @@ struct RbfSolverPlan {
   uint64_t first_target, first_inverse;
   uint32_t first_input, input_count;  // whole angles; into inputs, or the lane of rotations
   uint32_t first_lane, pose_count;
-  uint32_t first_control;  // where results go instead, one behind the other, or kNoFirstControl
+  uint32_t first_control;  // results go to controls from here on, or kNoFirstControl
   float scale, threshold;
   uint8_t function;
   uint8_t angle_inputs;  // 0: Euclidean; else 4, 3 or 2

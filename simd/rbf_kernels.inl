@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// RBF solvers: distances, weights, interpolation, normalization. Products and sums are rounded one
-// by one, in an order that does not depend on the width.
+// RBF solvers: distances, weights, interpolation, normalization. Products and sums are rounded separately, in
+// an order that does not depend on the width.
 
 #pragma once
 
@@ -24,8 +24,8 @@ inline RotationInput rotation_input(const RbfSolverPlan& solver, const RbfArgs& 
   return {a, 3 * kBlockLanes};
 }
 
-// The angle between two rotations: the dot product of their quaternions is the real part of what is
-// between.
+// The angle between two rotations: the dot product of their quaternions is the real part of the rotation from
+// one to the other.
 template <class V>
 [[gnu::always_inline]] inline V angle_between(const float* targets, size_t stride,
                                               RotationInput input, size_t count) {
@@ -63,12 +63,12 @@ template <class V>
   return square_root(sum);
 }
 
-/// Calls f(weight of a distance), with the choice of the function made once for all distances.
+/// Calls f(weight of a distance); the function is chosen once for all distances.
 template <class V, class F>
 [[gnu::always_inline]] inline void with_weight(const RbfSolverPlan& solver, F&& f) {
   using M = Make<V>;
-  // A radius below zero makes weights grow with the distance: up to 2^60, so that the product with
-  // scale and factor of a pose does not overflow.
+  // With a radius below zero, weights grow with the distance: up to 2^60, so that the product with scale and
+  // factor of a pose does not overflow.
   constexpr float kMax = 60, kMaxWeight = 1.152921505e18f;
   const V scale = M::of(solver.scale);
   if (solver.function < 2) {
@@ -133,7 +133,7 @@ void interpolate(const RbfSolverPlan& solver, const RbfArgs& args) {
   for (; p < stride; p += kWidth) store(args.results + solver.first_lane + p, broadcast(0.0f));
 }
 
-/// Of whole blocks: sixteen sums, then one half added to the other until one is left.
+/// Of whole blocks: sixteen sums, then one half is added to the other until one is left.
 inline float sum_of(const float* values, size_t count) {
   Vec sums[kVecsPerBlock];
   for (size_t v = 0; v < kVecsPerBlock; ++v) {
@@ -152,7 +152,7 @@ void normalize(const RbfSolverPlan& solver, const RbfArgs& args) {
   const float sum = sum_of(weights, count);
   float scale = 1.0f;
   if (sum > 1.0f || (solver.always_normalize && sum > 0.0f)) scale = 1.0f / sum;
-  if (!(scale < 3.4e38f)) scale = 0.0f;  // of weights that all but vanish
+  if (!(scale < 3.4e38f)) scale = 0.0f;  // all weights are nearly 0
   const Vec threshold = broadcast(solver.threshold);
   float* results = args.results + at;
   if (solver.first_control != kNoFirstControl) results = args.controls + solver.first_control;
@@ -167,7 +167,7 @@ void normalize(const RbfSolverPlan& solver, const RbfArgs& args) {
   }
 }
 
-/// Sixteen rotations, each as its swing or its twist (docs/rig-evaluation.md, 6.2 "Preparation of
+/// Turns each of sixteen rotations into its swing or its twist (docs/rig-evaluation.md, 6.2 "Preparation of
 /// inputs and targets").
 void part_rotations(float* rotations, const float* swings) {
   for (size_t v = 0; v < kBlockLanes; v += kWidth) {
@@ -184,7 +184,7 @@ void part_rotations(float* rotations, const float* swings) {
   }
 }
 
-// Step by step for all of them: what one solver waits for, another has ready.
+// Each step for all solvers, so that the latencies of one are hidden by the others.
 void rbf_solvers(const RbfArgs& args) {
   for (size_t b = args.first_block; b < args.first_block + size_t{args.block_count}; ++b) {
     part_rotations(args.rotations + b * 4 * kBlockLanes, args.swings + b * kBlockLanes);

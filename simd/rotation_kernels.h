@@ -37,7 +37,7 @@ using QuaternionJointsKernel = void(const QuaternionJointArgs& args);
 ///
 ///     rotations   joint: characters 0..15: x0..x15 y z w | characters 16..31, if there are any | next joint
 struct QuaternionBatchArgs {
-  const void* values;  // as above, and so are the others but for what has a comment
+  const void* values;  // as above; so are the others unless noted
   const uint16_t* columns;
   const uint32_t* first_steps;
   const uint32_t* step_counts;
@@ -63,14 +63,14 @@ struct EulerForm {
 ///     quaternions   block 0: x0..x15 y0..y15 z0..z15 w0..w15 | block 1: ...
 ///     angles        block 0: x0..x15 y0..y15 z0..z15 *       | block 1: ...
 ///
-/// Quaternions need not be unit: lengths up to 1e9 and down to 1e-9 have the angles of the unit one, 0
-/// those of the identity. Angles are any finite ones. Nothing is fused: every instruction set gives the
-/// same bits. Arrays are 64-byte aligned.
+/// Quaternions need not be unit: those of length 1e-9 ... 1e9 have the angles of the unit one, 0 those of the
+/// identity. Angles are any finite ones. Nothing is fused: every instruction set gives the same bits. Arrays
+/// are 64-byte aligned.
 struct EulerArgs {
   EulerForm form;
   const float* from;
   float* to;
-  uint32_t count;  // of rotations; what else fills a vector is computed, too
+  uint32_t count;  // rotations; the rest of the last vector is computed, too
 };
 /// angles_from_quaternions, quaternions_from_angles
 using EulerKernel = void(const EulerArgs& args);
@@ -82,10 +82,10 @@ using EulerKernel = void(const EulerArgs& args);
 ///     lanes       block 0: ux uy uz, blend, swing | block 1: ...
 ///     rotations   block 0: x y z w | block 1: ...
 ///
-/// (ux uy uz) selects the axis of the twist: 1 there, or -1 for its inverse, else 0. `swing` is 1 for
-/// the outputs of a swing, where the twist is inverted, else 0. Inputs are used as they are, unless
-/// their length is beyond 1e-9 ... 1e9: then they are made unit, and so is what comes out. 0 is the
-/// identity. Nothing is fused, as above.
+/// (ux uy uz) selects the axis of the twist: 1 there, or -1 for its inverse, else 0. `swing` is 1 for the
+/// outputs of a swing, where the twist is inverted, else 0. Inputs are used as they are, unless their length
+/// is beyond 1e-9 ... 1e9: then they are normalized, and the outputs are unit. 0 is the identity. Nothing is
+/// fused, as above.
 struct TwistSwingArgs {
   const uint16_t* inputs;
   const float* lanes;

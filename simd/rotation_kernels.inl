@@ -25,7 +25,7 @@ inline VecQuaternion load_quaternion(const uint16_t* at) {
           load_half(at + 3 * kBlockLanes)};
 }
 
-/// By a true root and division: estimates would bend the joints.
+/// With a true root and division: estimates would bend the joints.
 template <class V>
 inline LaneQuaternion<V> made_unit(const LaneQuaternion<V>& q) {
   const V length = square_root(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
@@ -42,20 +42,20 @@ inline LaneQuaternion<V> multiply(const LaneQuaternion<V>& a, const LaneQuaterni
 
 // Joints represented by quaternions ---------------------------------------------------------------
 
-// Controls this large turn no joint any further. Up to 2^24, 1 - weight is exact, so that the
-// identity blended with itself never vanishes.
+// Larger controls turn no joint any further. Up to 2^24, 1 - weight is exact, so that the identity blended
+// with itself never vanishes.
 template <class V>
 inline V bounded(V weight) {
   constexpr float kLargest = 1e7f;
   return at_most(at_least(weight, Make<V>::of(-kLargest)), Make<V>::of(kLargest));
 }
 
-// Blends with weights of 0 to 1 are between 0.7 and 1 long, so their product is made unit at its end
-// only; before that after other weights, and after so many steps.
+// Blends with weights of 0 to 1 have lengths of 0.7 to 1, so their product is normalized at the end, and
+// after this number of steps. With other weights it is normalized at once.
 constexpr size_t kStepsUntilUnit = 32;
 
-/// The product, so far, of the steps of some joints or characters. What happens to a lane depends on
-/// that lane alone.
+/// The product, so far, of the steps of some joints or characters. The result of a lane depends on that lane
+/// alone.
 template <class V>
 struct Turn {
   using M = Make<V>;
@@ -82,7 +82,8 @@ struct Turn {
     store(out + 2 * kBlockLanes, without_sign_of_zero(unit.z));
     store(out + 3 * kBlockLanes, without_sign_of_zero(unit.w));
   }
-  // Products with identities, which others may skip, differ in it. (0 + -0 depends on how the host rounds.)
+  // -0 becomes 0: products with identities, which others may skip, differ in it. (0 + -0 depends on the
+  // rounding mode.)
   static V without_sign_of_zero(V v) { return keep(less(M::of(0.0f), absolute(v)), v); }
 };
 
@@ -124,7 +125,7 @@ struct Lanes {
 };
 
 /// Calls f(first lane in memory of `rows` rows, Make<V>) for the vectors of `count` lanes, two at a time
-/// where there are as many.
+/// where there are two.
 template <class F>
 inline void for_each_vector(size_t count, size_t rows, F&& f) {
   constexpr bool kPairsFit = 2 * kWidth <= kBlockLanes;
@@ -170,7 +171,7 @@ template <class V>
   const V u = select(upper, u1, u2), v = select(upper, zero - v1, v2), twice = u * v;
   const V third =
       arc_tangent(select(pole, twice + twice, vu - uv), select(pole, (u - v) * (u + v), uu + vv));
-  // One by one: compilers would copy an array of them through memory, in parts.
+  // Single variables: compilers would copy an array through memory, in parts.
   const auto put = [&](size_t axis, V angle) {
     L::put(to, axis, angle * M::of(form.from_radians[axis]));
   };
@@ -214,7 +215,7 @@ void quaternions_from_angles(const EulerArgs& args) {
 
 // Twists and swings -------------------------------------------------------------------------------
 
-/// Up to a quarter turn by the series alone.
+/// Up to a quarter turn the series is enough.
 template <class V>
 [[gnu::always_inline]] inline V sine_of(V x) {
   const V near = bounded_sine(x);
@@ -252,7 +253,7 @@ inline LaneQuaternion<V> inverse(const LaneQuaternion<V>& q) {
 
 constexpr float kShortest = 1e-18f, kLongest = 1e18f;  // squared
 
-/// The squares of what is far from unit length would overflow, or vanish: it is made unit.
+/// For lengths far from 1, squares would overflow or vanish: normalizes those.
 template <class V>
 [[gnu::noinline]] LaneQuaternion<V> bound_lanes(LaneQuaternion<V> q) {
   constexpr size_t kCount = sizeof(V) / sizeof(float);
@@ -283,7 +284,8 @@ inline LaneQuaternion<V> bounded(LaneQuaternion<V> q) {
   if (__builtin_expect(any(less(zero, far)), false)) {
     if constexpr (sizeof(V) == sizeof(Vec)) {
       const LaneQuaternion<V> in = bound_lanes(q);
-      return {in.x, in.y, in.z, in.w};  // so that q stays in registers, where pairs do not fit
+      return {in.x, in.y, in.z,
+              in.w};  // so that q stays in registers, which do not have room for pairs
     } else {
       return bound_lanes(q);
     }
@@ -291,7 +293,7 @@ inline LaneQuaternion<V> bounded(LaneQuaternion<V> q) {
   return q;
 }
 
-/// Calls f(vector) for the one or two that V is.
+/// Calls f(vector) for the one or two vectors of V.
 template <class V, class F>
 inline V each_vector(F&& f) {
   if constexpr (sizeof(V) == sizeof(Vec)) {
@@ -301,7 +303,7 @@ inline V each_vector(F&& f) {
   }
 }
 
-/// The twist of q about the axis u, or its swing, on the way to the identity.
+/// The twist of q about the axis u, or its swing, blended toward the identity.
 template <class V>
 [[gnu::always_inline]] inline LaneQuaternion<V> twist_or_swing(LaneQuaternion<V> q, const V (&u)[3],
                                                                V blend, V is_swing) {
@@ -325,7 +327,7 @@ template <class V>
                                    select(swing, both.z, part.z), select(swing, both.w, part.w)});
 }
 
-/// What one vector waits for, another has ready: two together take little longer than one.
+/// Two vectors hide each other's latency: together they take little longer than one.
 template <class V>
 [[gnu::always_inline]] inline void twist_swing_lanes(const TwistSwingArgs& args, size_t lane) {
   const auto at = [lane](size_t vec, size_t rows, size_t row) {
@@ -360,7 +362,7 @@ void twist_swing(const TwistSwingArgs& args) {
   if (lane < count) twist_swing_lanes<Vec>(args, lane);
 }
 
-// Batches: lanes are characters, and what a joint has is the same for all of them ----------------------
+// Batches: lanes are characters, and a joint is the same for all of them --------------------------
 
 /// Calls f(first lane, where its rotation is in rows of quaternions), V lanes at a time.
 template <class V, class F>
@@ -418,7 +420,7 @@ void quaternion_batch(const QuaternionBatchArgs& args) {
   args.halves ? turn_characters<uint16_t>(args) : turn_characters<float>(args);
 }
 
-/// Two vectors, where a row of a block has as many: what one waits for, the other has ready.
+/// Two vectors where a row of a block has two: they hide each other's latency.
 constexpr auto twist_vec() {
   if constexpr (2 * kWidth <= kBlockLanes) {
     return Make<VecPair>();

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Vectors of floats: our names over xsimd. This file and quad.inl are the only ones that know xsimd
-// and the only ones that ask which instruction set this is; a kernel written with their names is
-// right for every width.
+// Vectors of floats: our names over xsimd. Only this file and quad.inl know xsimd and ask which instruction
+// set this is; a kernel written with their names is right for every width.
 //
 // | name                   | meaning                                                              |
 // |------------------------|----------------------------------------------------------------------|
@@ -55,8 +54,8 @@
 //
 // Single floats: bits_of, and higher_of and lower_of, where NaN becomes the bound.
 //
-// Some intrinsics stay, for what xsimd 8.1 lacks: halves, widening of 16-bit integers, stores under
-// a mask, parts of a vector, the bits of a mask. Others say there what xsimd does otherwise.
+// Some intrinsics remain, for what xsimd 8.1 lacks: halves, widening of 16-bit integers, stores under a mask,
+// parts of a vector, the bits of a mask. Other intrinsics have comments that say how xsimd differs.
 //
 // The including kernels_<isa>.cpp defines first:
 //
@@ -101,7 +100,7 @@ inline float float_of(uint32_t bits) {
   return value;
 }
 
-// By intrinsic: compilers make branches of the comparison.
+// With an intrinsic: compilers turn the comparison into branches.
 #if defined(MIEN_KERNEL_SSE2) || defined(MIEN_KERNEL_AVX2) || defined(MIEN_KERNEL_AVX512)
 inline float higher_of(float value, float bound) {
   return _mm_cvtss_f32(_mm_max_ss(_mm_set_ss(value), _mm_set_ss(bound)));
@@ -125,7 +124,7 @@ using Mask = bool;
 
 inline Vec load(const float* from) { return *from; }
 inline Vec load_half(const uint16_t* from) {
-  // Sign, exponent and fraction go where floats have them; the factor makes up for the bias of the
+  // Moves sign, exponent and fraction to their places in a float. The factor makes up for the bias of the
   // exponent, 15 instead of 127, and is exact for subnormal halves, too.
   return float_of((*from & 0x8000u) << 16 | (*from & 0x7FFFu) << 13) * 0x1p112f;
 }
@@ -191,7 +190,7 @@ constexpr Isa kIsa = Isa::kSse2;
 using Vec = xsimd::batch<float, xsimd::sse2>;
 inline Vec mul_add(Vec a, Vec b, Vec c) { return a * b + c; }
 inline Vec load_half(const uint16_t* from) {
-  // As the scalar one. The shift copies the sign to the right, where the mask takes it off again.
+  // As in the scalar version. The shift copies the sign to the right, where the mask removes it.
   const __m128i halves = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(from));
   const __m128i high = _mm_unpacklo_epi16(_mm_setzero_si128(), halves);
   const __m128i bits =
@@ -349,7 +348,7 @@ inline Vec at_most_or_nan(Vec v, Vec high) { return select(high < v, high, v); }
 #elif defined(__wasm__)
 inline Vec square_root(Vec v) { return xsimd::sqrt(v); }
 inline Vec divide(Vec a, Vec b) { return a / b; }
-// Those of x86 below, which Emscripten's headers make of a comparison and a selection of bits.
+// As on x86 below, where Emscripten's headers would use a comparison and a selection of bits.
 inline Vec at_least(Vec v, Vec low) {
   return __m128(wasm_f32x4_pmax(v128_t(__m128(low)), v128_t(__m128(v))));
 }
@@ -366,7 +365,7 @@ inline Vec at_most(Vec v, Vec high) { return xsimd::min(v, high); }
 inline Vec at_most_or_nan(Vec v, Vec high) { return xsimd::min(high, v); }
 #endif
 
-// By intrinsics: xsimd does not give the bits of a mask.
+// With intrinsics: xsimd does not give the bits of a mask.
 #if defined(MIEN_KERNEL_NEON)
 inline uint32_t different_lanes(Vec a, Vec b) {
   const uint32_t bits[] = {1, 2, 4, 8};
@@ -390,7 +389,7 @@ inline uint32_t different_lanes(Vec a, Vec b) {
 }
 #endif
 
-// By intrinsics: the bits of several masks at once. The sign is the highest bit of the first byte.
+// With intrinsics: the bits of several masks at once. The sign is the highest bit of the first byte.
 inline uint32_t nonzero_of_file(const uint8_t* from) {
 #if defined(MIEN_KERNEL_NEON)
   uint32_t bits = 0;
@@ -410,7 +409,7 @@ inline uint32_t nonzero_of_file(const uint8_t* from) {
   };
   const __m256i low = _mm256_packs_epi32(zeros(0), zeros(1));
   const __m256i high = _mm256_packs_epi32(zeros(2), zeros(3));
-  // Fours of each half of each vector, in the order 0 2 4 6 1 3 5 7.
+  // Groups of four from each half of each vector, in the order 0 2 4 6 1 3 5 7.
   const __m256i order = _mm256_setr_epi32(0, 4, 1, 5, 2, 6, 3, 7);
   return ~static_cast<uint32_t>(
       _mm256_movemask_epi8(_mm256_permutevar8x32_epi32(_mm256_packs_epi16(low, high), order)));
@@ -461,15 +460,15 @@ inline BlockVec load_block(const int16_t* from) {
 
 // Rounding ----------------------------------------------------------------------------------------
 
-// Floats near 1.5 * 2^23 are whole numbers: adding it rounds, and the lowest bits of the sum are those
-// of the number, in two's complement.
+// Floats near 1.5 * 2^23 are whole numbers: adding it rounds, and the lowest bits of the sum are those of the
+// number, in two's complement.
 constexpr float kRounder = 12582912.0f;
 
 #if defined(MIEN_KERNEL_AVX2) || defined(MIEN_KERNEL_AVX512)
 constexpr int kToNearest = _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC;
 #endif
-/// To the nearest whole number, ties to even, for |v| up to 2^22. Hosts may have told the processor
-/// to round in another direction: then still to the nearest, ties to either side. For 0 either zero.
+/// To the nearest whole number, ties to even, for |v| up to 2^22. If the host has changed the rounding mode:
+/// still to the nearest, ties to either side. For 0 either zero.
 #if defined(MIEN_KERNEL_AVX512)
 inline Vec nearest_whole(Vec v) { return _mm512_roundscale_ps(v, kToNearest); }
 #elif defined(MIEN_KERNEL_AVX2)
@@ -478,8 +477,8 @@ inline Vec nearest_whole(Vec v) { return _mm256_round_ps(v, kToNearest); }
 inline Vec nearest_whole(Vec v) { return vrndnq_f32(v); }
 #elif defined(MIEN_KERNEL_SSE2)
 inline Vec nearest_whole(Vec v) {
-  // Another direction leaves up to 1: more than 1/2 is 1 or more after the product, and truncated
-  // to 1 whatever the direction is.
+  // In other rounding modes the rest is up to 1: if it is more than 1/2 the product is 1 or more, which
+  // truncates to 1 in any mode.
   const Vec rounder = broadcast(kRounder), n = (v + rounder) - rounder;
   const Vec missed = (v - n) * broadcast(0x1.fffffep+0f);
   return n + Vec(_mm_cvtepi32_ps(_mm_cvttps_epi32(missed)));
@@ -495,7 +494,7 @@ inline Vec nearest_whole(Vec v) {
 
 constexpr size_t kVecsPerBlock = kBlockLanes / kWidth;
 
-// By intrinsics: the order of the additions is part of the promise, that of xsimd is not.
+// With intrinsics: the order of the additions is guaranteed, that of xsimd is not.
 inline float sum_of_lanes(const Vec (&vecs)[kVecsPerBlock]) {
 #if defined(MIEN_KERNEL_SCALAR)
   float sums[8], four[4];
@@ -524,15 +523,14 @@ inline float sum_of_lanes(const Vec (&vecs)[kVecsPerBlock]) {
 #endif
 }
 
-// Sums of finite products can overflow, and infinities of both signs cancel to nothing sensible.
-// What is not a number becomes the lowest.
+// Sums of finite products can overflow, and infinities of both signs give NaN. NaN becomes the lowest float.
 inline Vec saturate(Vec v) {
   constexpr float kLargest = 3.40282347e38f;
   return at_most(at_least(v, broadcast(-kLargest)), broadcast(kLargest));
 }
 
-// How a kernel multiplies and adds: as the hardware does best, or with the same bits on every
-// instruction set.
+// How a kernel multiplies and adds: as is fastest on the hardware, or with the same bits on every instruction
+// set.
 struct AsFast {
   template <class V>
   static V mul_add(V a, V b, V c) {
@@ -540,7 +538,7 @@ struct AsFast {
   }
 };
 #if defined(MIEN_KERNEL_SCALAR) || defined(MIEN_KERNEL_SSE2)
-using AsPortable = AsFast;  // these always round twice: one copy of each kernel serves both
+using AsPortable = AsFast;  // these always round twice: one copy of each kernel is enough
 #else
 struct AsPortable {
   template <class V>
@@ -552,7 +550,7 @@ struct AsPortable {
 
 // Pairs of vectors --------------------------------------------------------------------------------
 
-/// Neither waits for the other, and they share what is loaded for both.
+/// Two independent vectors that share what is loaded for both.
 struct VecPair {
   Vec a, b;
 };
@@ -592,7 +590,7 @@ inline void store(float* to, VecPair v) {
   store(to + kWidth, v.b);
 }
 
-/// For what is written for V, one vector or two.
+/// For code that is written for V, one vector or two.
 template <class V>
 struct Make;
 template <>

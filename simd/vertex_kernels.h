@@ -6,7 +6,7 @@
 
 namespace mien {
 
-/// Same numbers as MIEN_VERTEX_FORMAT_... in mien.h.
+/// The values of MIEN_VERTEX_FORMAT_... in mien.h.
 enum class VertexFormat : uint32_t {
   kFloat32x3 = 0,
   kFloat32x4 = 1,
@@ -22,10 +22,9 @@ struct VertexStream {
   VertexFormat format;
 };
 
-/// Deformed vertices -> the caller's memory, in the order of the vertices; each byte is
-/// written once and never read. Tangents are made perpendicular to the normal and normalized; one
-/// that loses its direction becomes an arbitrary perpendicular. A fourth component is 1 for
-/// positions, 0 for normals, w for tangents.
+/// Deformed vertices -> the caller's memory, in the order of the vertices; each byte is written once and
+/// never read. Tangents are made perpendicular to the normal and normalized; one that loses its direction
+/// becomes an arbitrary perpendicular. A fourth component is 1 for positions, 0 for normals, w for tangents.
 ///
 /// Snorm: round(clamp(v, -1, 1) * (2^(bits - 1) - 1)), ties to even, in two's complement; x in the
 /// lowest bits. Nothing is fused: the same floats give the same bytes on every instruction set.

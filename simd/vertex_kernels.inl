@@ -39,7 +39,7 @@ inline Target target_of(const VertexStream& stream, size_t first, size_t count) 
   return {stream.data + first * stream.stride, stream.stride, count};
 }
 
-/// v in -1 ... 1 times `scale`, rounded to the nearest whole number, which is left in the low bits.
+/// v in -1 ... 1 times `scale`, rounded to the nearest whole number, in the low bits.
 inline Quad to_snorm(const Quad& v, float scale) {
   const Quad clamped = lower4(higher4(v, broadcast4(-1.0f)), broadcast4(1.0f));
   return clamped * broadcast4(scale) + broadcast4(kRounder);
@@ -88,7 +88,7 @@ inline void set_perpendicular(const float* n, float* out) {
 
 /// Tangents without their part along the normals, normalized.
 inline void make_perpendicular(const Quads& n, Quads& t) {
-  // What is left of a tangent along the normal is rounding: below 1e-5 of its length.
+  // A tangent along the normal leaves only rounding errors, below 1e-5 of its length.
   constexpr float kMinSquaredPart = 1e-10f;
   const Quad before = t.x * t.x + t.y * t.y + t.z * t.z;
   const Quad along = n.x * t.x + n.y * t.y + n.z * t.z;
@@ -147,8 +147,8 @@ inline void write_tangents(const VertexStream& stream, const Target& to, Quads t
   for (size_t k = 0; k < to.count; ++k) store4(to.floats(k), vectors[k]);
 }
 
-/// Four vertices at a time, all their attributes: interleaved streams fill whole cache lines, which
-/// is what write-combining memory needs.
+/// Four vertices at a time, with all their attributes: interleaved streams then fill whole cache lines, which
+/// write-combining memory needs.
 void write_vertices(const VertexArgs& given) {
   const VertexArgs args = given;
   for (size_t i = 0; i < args.count; i += 4) {
