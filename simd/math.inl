@@ -138,7 +138,7 @@ inline void reduce_large_angle(float x, float& rest, float& bits) {
   };
   const uint64_t low = fraction * part(2), middle = fraction * part(1) + (low >> 32);
   const uint64_t high = fraction * part(0) + (middle >> 32);
-  const uint64_t quarters = high << 32 | (middle & 0xFFFFFFFF);  // 2 + 62 bits
+  const uint64_t quarters = high << 32 | (middle & 0xFFFFFFFF);  // in units of 2^-62
   const uint64_t n = (quarters + (uint64_t{1} << 61)) >> 62;
   const auto left = static_cast<int64_t>(quarters - (n << 62));
   const float turn = static_cast<float>(static_cast<double>(left) * (0x1p-62 * 1.5707963267948966));

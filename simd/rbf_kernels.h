@@ -10,7 +10,7 @@ namespace mien {
 
 /// An RBF solver. Its poses are lanes, in blocks of 16:
 ///
-/// targets    [input][lane]: NaN in the padding of the last block; without inputs one row of 0
+///     targets    [input][lane]: NaN in the padding of the last block; without inputs one row of 0
 ///     inverses   if interpolative: blocks of 16 poses, [column][lane], a column for each pose;
 ///                0 for what fills the last block
 ///

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The expressions of ARKit as raw controls of heads that name them in the other usual way. Those of
-// the same names need no table: bindings find them (binding.h).
+// The expressions of ARKit as raw controls of heads that use other names for them. Controls that have the
+// names of ARKit need no table: bindings find them (binding.h).
 #pragma once
 
 #include "runtime/base/span.h"

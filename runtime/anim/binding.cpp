@@ -14,7 +14,7 @@ constexpr uint8_t kByChannel = 1, kByMatrix = 2, kByGui = 3;
 
 // Building ----------------------------------------------------------------------------------------
 
-/// Memory for the time of binding. Targets are raw controls, then GUI controls.
+/// Scratch memory of binding. Targets are raw controls, then GUI controls.
 struct Scratch {
   Allocator allocator;
   size_t block_size = 0;
@@ -38,7 +38,7 @@ struct Scratch {
   }
 };
 
-/// Lists begin empty, with room for the most that there can be.
+/// Lists begin empty, with room for their largest size.
 void place_binding(Placer& placer, const Clip& clip, const Rig& rig, size_t entries,
                    Binding& binding) {
   const uint32_t channels = clip.channel_count, raws = rig.raw_count;

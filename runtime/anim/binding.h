@@ -45,7 +45,7 @@ struct BoundTerm {
 /// A row of the rig's table: docs/rig-evaluation.md, 2.3 "GUI controls to raw controls".
 struct BoundRow {
   uint16_t gui, control;
-  uint32_t run_end;  // the row after those of which only the first that fires counts
+  uint32_t run_end;  // end of the rows of which only the first match counts
   float from, to, slope, cut;
 };
 
@@ -71,16 +71,16 @@ struct Binding {
   uint32_t missing_entries = 0;     // of the matrix: no such channel or no such control
 };
 
-/// On success `out` is to be given back by release_binding(). kInvalidArgument for weights that are
-/// not finite, kMemory.
+/// On success, release `out` with release_binding(). kInvalidArgument for weights that are not finite,
+/// kMemory.
 Status bind_clip(const Clip& clip, const Rig& rig, Span<const MatrixEntry> matrix,
                  const Allocator& allocator, Binding*& out, Error& error);
 void release_binding(Binding* binding);
 
-/// Writes the raw controls in `binding.controls` and leaves the others alone; without `constants` also
-/// those that had their value from the beginning of the clip on. `values` comes from
-/// sample_clip(); `gui` is scratch of gui_count floats. Values that go to raw controls directly keep
-/// their bits; GUI controls give the bits of the rig's own mapping.
+/// Writes the raw controls in `binding.controls` and leaves the others alone; without `constants`, it also
+/// leaves alone those that are constant from the beginning of the clip on. `values` comes from sample_clip();
+/// `gui` is scratch of gui_count floats. Values that go to raw controls directly keep their bits; GUI
+/// controls give the bits of the rig's own mapping.
 void apply_binding(const Binding& binding, Span<const float> values, Span<float> gui,
                    Span<float> raw_controls, bool constants = true);
 

@@ -176,7 +176,7 @@ uint32_t find_channel(const Clip& clip, Span<const char> name) {
 }
 
 uint32_t crc32c(const uint8_t* bytes, size_t size) {
-  // Bit 0 first. A small table is fast enough for a check that is made on request.
+  // Bit 0 first. A small table is fast enough for a check on request.
   uint32_t table[16];
   for (uint32_t i = 0; i < 16; ++i) {
     table[i] = i;

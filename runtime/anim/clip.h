@@ -49,10 +49,10 @@ enum ClipFlags : uint32_t {
   kClipIsDelta = 8,   // values are differences from a reference, to be added to other values
 };
 
-/// Where the fields of the header are that are not in kClipFields.
+/// Offsets of the header fields that are not in kClipFields.
 enum ClipHeaderOffset : size_t {
   kAtMagic = 0,
-  kAtChecksum = 8,  // u32: CRC-32C of all that follows this field
+  kAtChecksum = 8,  // u32: CRC-32C of everything after this field
   kAtVersion = 12,  // u32
   kAtSize = 16,     // u64: of the file
 };
@@ -68,7 +68,7 @@ struct ClipEvent {
   float value;
 };
 
-/// A checked view of the bytes, which have to outlive it. May be used by any number of threads.
+/// A checked view of the bytes, which must outlive it. May be used by any number of threads.
 struct Clip {
   const uint8_t* bytes = nullptr;
   size_t size = 0;
@@ -144,8 +144,8 @@ constexpr uint32_t kDefaultSnap = 11;
 
 constexpr uint32_t kNoChannel = ~uint32_t{0};
 
-/// Makes `out` a view of bytes at any address. Checks everything before the blocks, which takes time
-/// for channels and events but not for frames, and no memory. Blocks are checked when they are
+/// Makes `out` a view of bytes at any address. Checks everything before the blocks, in time that depends on
+/// the channels and events but not on the frames, without allocating. Blocks are checked when they are
 /// decoded. kClipSignature, kClipVersion, kClipTruncated or kClipStructure.
 Status open_clip(const uint8_t* bytes, size_t size, Clip& out, Error& error);
 
@@ -155,20 +155,20 @@ uint32_t find_channel(const Clip& clip, Span<const char> name);
 /// Events before a tick, or before and at it.
 int64_t count_events(const Clip& clip, int64_t tick, bool at_too);
 
-/// How the bytes of names are ordered: negative, 0 or positive.
+/// The order of names, by their bytes: negative, 0 or positive.
 int compare_names(Span<const char> a, Span<const char> b);
 
 /// Ticks per frame, rounded to the nearest integer (an error of less than a nanosecond per frame, and
 /// none at common rates); 0 for a rate out of range. A whole number makes loops exact.
 int64_t ticks_per_frame(uint32_t rate_numerator, uint32_t rate_denominator);
 
-/// The layout of a clip with the counts of one.
+/// The layout of a clip with the given counts.
 ClipLayout clip_layout(const Clip& clip);
 
 /// CRC-32C (Castagnoli) of bytes.
 uint32_t crc32c(const uint8_t* bytes, size_t size);
 
-/// The number that belongs into the header.
+/// The checksum that belongs in the header.
 inline uint32_t clip_checksum(const uint8_t* bytes, size_t size) {
   return crc32c(bytes + kAtVersion, size - kAtVersion);
 }

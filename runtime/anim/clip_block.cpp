@@ -76,7 +76,7 @@ void read_channel(BitReader& reader, BlockMode mode, uint32_t frame_count, Lane 
   lanes.linear[lane.at] = linear ? ~0u : 0;
   lanes.samples[lane.at] = samples;
 
-  // The first sample is a run by itself, of no width: it repeats the prediction.
+  // The first sample is a run of its own, of width 0: it repeats the prediction.
   const uint32_t count = bit_count(samples);
   const uint32_t residuals = count > 0 ? count - 1 : 0;
   const uint32_t runs = (residuals + kRunSamples - 1) / kRunSamples;
@@ -104,9 +104,8 @@ void read_channel(BitReader& reader, BlockMode mode, uint32_t frame_count, Lane 
   }
 }
 
-/// Sets up the lanes; false if the bytes are not a block. This is where all bounds are checked: what
-/// is decoded later lies within the widths that were added up here. `slack` is the number of bits
-/// after the last channel.
+/// Sets up the lanes; false if the bytes are not a block. All bounds are checked here: decoding stays within
+/// the widths that are added up here. `slack` is the number of bits after the last channel.
 bool read_block(BlockDecoder& decoder, uint32_t block, uint64_t& slack) {
   const Clip& clip = *decoder.clip;
   const auto block_end = [&](uint32_t b) {
@@ -135,10 +134,10 @@ bool read_block(BlockDecoder& decoder, uint32_t block, uint64_t& slack) {
   return true;
 }
 
-/// Lanes of zeros.
+/// Sets all lanes to zeros.
 void clear_groups(BlockDecoder& decoder) {
   for (ClipLanes& group : decoder.groups) {
-    // What tells of runs is set where a channel has some.
+    // The fields of runs are set for channels that have runs.
     for (uint32_t k = 0; k < kClipLanes; ++k) {
       group.bit[k] = group.width[k] = group.mask[k] = group.last[k] = group.slope[k] = 0;
       group.linear[k] = group.present[k] = 0;
@@ -164,8 +163,8 @@ uint64_t enter_block(BlockDecoder& decoder, uint32_t block) {
   return slack;
 }
 
-/// What begins at a frame of the block in a lane: a run, a stretch of zeros, or the rest of a run
-/// after one.
+/// Starts what begins in a lane at a frame of the block: a run, a stretch of zeros, or the rest of a run
+/// after such a stretch.
 void turn_lane(ClipLanes& lanes, uint32_t k, uint32_t frame) {
   const uint64_t ahead = lanes.samples[k] >> frame;
   const bool present = (ahead & 1) != 0;
@@ -195,7 +194,7 @@ void turn_lanes(BlockDecoder& decoder, uint32_t frame) {
   for (ClipLanes& group : decoder.groups) {
     if ((group.turns >> frame & 1) == 0) continue;
     constexpr uint64_t kLow7 = 0x7F7F7F7F7F7F7F7F;
-    // Bytes are below 128, so that no carry leaves one.
+    // Bytes are below 128, so no carry reaches the next byte.
     const uint64_t other = load_little_endian<uint64_t>(group.turn) ^ (kLow7 / 0x7F * frame);
     for (uint64_t due = ~(other + kLow7) & ~kLow7; due != 0; due &= due - 1) {
       turn_lane(group, lowest_bit(due) / 8, frame);

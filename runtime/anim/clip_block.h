@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The blocks of a clip: 64 stored frames (the last block: what is left) of every changing channel,
-// one channel after the other, as one stream of bits, lowest bit of a byte first.
+// The blocks of a clip: 64 stored frames of every changing channel (the last block: the rest), one channel
+// after the other, as one stream of bits, lowest bit of a byte first.
 //
 //     mode     2 bits   zero | constant | grid | float
 //     constant          32 bits: the float
@@ -15,22 +15,21 @@
 //
 // A sample is a 32-bit number: in a grid the integer k of the value k / scale; else the bits of the
 // float, ordered like the values and without the `shift` lowest bits, which are zero in the whole
-// block. A residual is sample - prediction modulo 2^32, zigzag coded: 0, -1, 1, -2, 2 ... Before the
-// second sample, b is a. Widths of runs are written without the least one; 31 and above stand for 32.
+// block. A residual is sample - prediction modulo 2^32, zigzag coded: 0, -1, 1, -2, 2 ... Before the second
+// sample, b is a. Widths of runs are written less the least one; 31 and above mean 32.
 //
 //     mask     3 bits: n. n > 0: n places of 6 bits each, where runs of zeros and others alternate,
 //              beginning with zeros; n = 0: 64 bits, one set for each sample that is there
 //
-// All widths stand before the residuals. So the end of a channel is known without its residuals, and
-// decoding reads nothing else.
+// All widths precede the residuals. So the end of a channel is known without its residuals, and decoding
+// reads nothing else.
 //
-// Why these choices, measured on the curves of tests/support/clip_curves.h: runs of 8 samples,
-// widths of 5 bits and masks by their edges make clips 7 to 21 % smaller than runs of 16, widths of
-// 6 bits and masks of 64 bits do (dense noise: the same). Widths without the least one take 2 to 6 %
-// off noise that was rounded, and nothing off the rest. Left out: a mode for a block that repeats the
-// block of another channel and predictions by the mean of some samples (1 % smaller at best), by
-// 3a - 3b + c (4 % for smooth curves that were rounded), and Rice codes, with which noise is 3 % smaller
-// still and takes twice the time to decode.
+// Reasons, measured on the curves of tests/support/clip_curves.h: runs of 8 samples, widths of 5 bits and
+// masks by their edges make clips 7 to 21 % smaller than runs of 16, widths of 6 bits and masks of 64 bits
+// (dense noise: no difference). Writing widths less the least one saves 2 to 6 % for rounded noise and
+// nothing for other curves. Left out: a mode for a block that repeats the block of another channel, and
+// predictions by the mean of some samples (1 % smaller at best) or by 3a - 3b + c (4 % for smooth curves that
+// were rounded); and Rice codes, which make noise 3 % smaller but take twice the time to decode.
 #pragma once
 
 #include "runtime/anim/clip.h"
@@ -56,23 +55,23 @@ inline uint32_t ordered_from_bits(uint32_t bits) { return bits >> 31 ? ~bits : b
 
 /// Groups of lanes: the i-th changing channel is lane i % kClipLanes of group i / kClipLanes.
 constexpr size_t clip_groups(size_t changing) { return (changing + kClipLanes - 1) / kClipLanes; }
-/// Floats of a row of changing channels: whole groups are written.
+/// Floats of a row of changing channels: groups are written as a whole.
 constexpr size_t clip_row_floats(size_t changing) { return clip_groups(changing) * kClipLanes; }
 
-/// Decodes stored frames. Going on to a later frame of a block decodes those between; any other
-/// frame costs decoding its block from the beginning.
+/// Decodes stored frames. A later frame of the same block costs the frames between; any other frame costs
+/// decoding its block from the beginning.
 struct BlockDecoder {
   const Clip* clip = nullptr;
   const KernelTable* kernels = nullptr;
   Span<ClipLanes> groups;
   uint64_t turns = 0;             // of all groups
   const uint8_t* data = nullptr;  // of the block
-  uint32_t next = 0;              // stored frame that is decoded next,
-  uint32_t end = 0;               // one of the block if it is below this
-  bool damaged = false;           // some block was not what a block is; it gave zeros
+  uint32_t next = 0;              // stored frame that is decoded next
+  uint32_t end = 0;               // end of the stored frames of the block
+  bool damaged = false;           // some block was invalid, and gave zeros
 };
 
-/// The memory stays in use: clip_groups() of the changing channels.
+/// Uses the memory until the decoder is done: clip_groups() of the changing channels.
 void begin_decoding(const Clip& clip, const KernelTable& kernels, Span<ClipLanes> groups,
                     BlockDecoder& decoder);
 
@@ -82,12 +81,12 @@ void decode_frame(BlockDecoder& decoder, uint32_t frame, float* row);
 /// A frame that a half-rate clip does not store, from its neighbors.
 inline float half_rate_mean(float a, float b) { return a * 0.5f + b * 0.5f; }
 
-/// Copies `count` frames from `first` on: frame f of all channels goes to out + (f - first) * stride.
-/// Takes 34 KiB of stack. False if a block was damaged, which gave zeros.
+/// Copies `count` frames from `first` on: frame f of all channels goes to out + (f - first) * stride. Takes
+/// 34 KiB of stack. False if a block was damaged: it gives zeros.
 bool read_frames(const Clip& clip, uint32_t first, uint32_t count, float* out, size_t stride);
 
-/// Whether the bytes are those that were written: the checksum, then every block. kClipChecksum or
-/// kClipStructure.
+/// Whether the bytes are unchanged since they were written: checks the checksum, then every block.
+/// kClipChecksum or kClipStructure.
 Status verify_clip(const Clip& clip, Error& error);
 
 }  // namespace mien

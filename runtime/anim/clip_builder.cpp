@@ -11,12 +11,12 @@
 namespace mien {
 namespace {
 
-/// What is found out before anything is written.
+/// The analysis, before anything is written.
 struct Build {
   Allocator allocator;
   size_t block_size = 0;
   ClipDesc desc;
-  Clip clip;                   // counts, flags, rate and layout of what is made
+  Clip clip;                   // counts, flags, rate and layout of the clip to be made
   Span<uint16_t> by_name;      // channels
   Span<uint8_t> is_changing;   // [channel]
   Span<uint16_t> changing;     // channels
@@ -69,7 +69,7 @@ Status check_desc(const ClipDesc& desc, Error& error) {
   return Status::kOk;
 }
 
-/// Names are there, and those of channels differ.
+/// Checks that there are names, and that those of channels differ.
 Status check_names(Build& build, Error& error) {
   const Span<const Span<const char>>& names = build.desc.names;
   uint64_t bytes = 0;
@@ -114,7 +114,7 @@ Status sort_events(Build& build, Error& error) {
   return Status::kOk;
 }
 
-/// Which channels change; and that all values are finite.
+/// Finds the channels that change, and checks that all values are finite.
 Status find_changes(Build& build, Span<ChannelReport> reports, Error& error) {
   Clip& clip = build.clip;
   for (uint32_t f = 0; f < clip.frame_count; ++f) {
@@ -236,8 +236,8 @@ Status build_with_scratch(Build& build, Span<ChannelReport> reports, ClipBytes& 
   if (is_half_rate(build)) clip.flags |= kClipHalfRate;
   clip.at = clip_layout(clip);
 
-  // Encoded twice, the first time to learn the size: so there is one block of memory, of the size of
-  // the clip.
+  // Encoded twice, the first time to learn the size: so there is one block of memory, of the size of the
+  // clip.
   const uint64_t block_bytes = encode_blocks(build, nullptr, {});
   const uint64_t size = align_up(clip.at.blocks + block_bytes + kClipPadding, 8);
   if (block_bytes > UINT32_MAX || size > SIZE_MAX / 2) {

@@ -21,7 +21,7 @@ struct ClipDesc {
   size_t frame_stride = 0;             // floats from frame to frame; 0: the number of channels
   Span<const Span<const char>> names;  // one for each channel, all different, none empty
   Span<const uint8_t> snaps;           // [channel] n or kNoSnap, or empty: kNoSnap
-  Span<const ClipEventDesc> events;    // in any order; those of one tick keep theirs
+  Span<const ClipEventDesc> events;    // in any order; events of one tick keep their order
   Span<const Span<const char>> event_names;
   bool wraps = false, is_delta = false;  // as in ClipFlags
 };
@@ -40,15 +40,15 @@ struct ClipBytes {
   size_t size = 0;
 };
 
-/// `reports` has an element for each channel or is empty. On success `out` is one block of the
-/// allocator, to be given back by release_clip(). kClipValue for a number that is not finite, with
-/// its channel and frame; kName for a name that is empty or there twice; kClipLimit for more than the
-/// format can number; kInvalidArgument; kMemory. The same input gives the same bytes everywhere.
+/// `reports` has an element for each channel or is empty. On success `out` is one block of the allocator;
+/// release it with release_clip(). kClipValue for a number that is not finite, with its channel and frame;
+/// kName for a name that is empty or occurs twice; kClipLimit for more than the format can number;
+/// kInvalidArgument; kMemory. The same input gives the same bytes everywhere.
 Status build_clip(const ClipDesc& desc, const Allocator& allocator, Span<ChannelReport> reports,
                   ClipBytes& out, Error& error);
 void release_clip(ClipBytes& clip);
 
-/// The value that snapping with n makes of a value; those beyond the grid stay.
+/// The value that snapping with n turns a value into; values beyond the grid do not change.
 float snapped_value(float value, uint32_t n);
 
 }  // namespace mien

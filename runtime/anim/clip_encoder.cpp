@@ -29,13 +29,13 @@ struct Samples {
   uint32_t numbers[kBlockFrames];
 };
 
-/// The coarsest grid that has all the values.
+/// Finds the coarsest grid that has all the values.
 bool find_grid(const float* values, uint32_t count, Samples& samples) {
   for (uint32_t g = 0; g < 16; ++g) {
     uint32_t i = 0;
     for (; i < count; ++i) {
       const double number = std::floor(static_cast<double>(values[i]) * kGridScales[g] + 0.5);
-      if (!(std::abs(number) < kMaxGridNumber)) return false;  // nor would a finer grid do
+      if (!(std::abs(number) < kMaxGridNumber)) return false;  // and a finer grid would not help
       const auto k = static_cast<int32_t>(number);
       if (bits_of(static_cast<float>(k) / kGridScales[g]) != bits_of(values[i])) break;
       samples.numbers[i] = static_cast<uint32_t>(k);
@@ -74,8 +74,8 @@ void put_mask(uint64_t mask, uint32_t count, BitWriter& writer) {
   for (uint32_t i = 0; i < edges; ++i) writer.put(places[i], 6);
 }
 
-/// Codes of the widths of runs, and how they are written. With few bits each the smallest of them
-/// grow: the residuals then take more.
+/// Writes the widths of runs as codes. With fewer bits for each code the smallest widths have to grow, which
+/// makes the residuals larger.
 void put_widths(uint32_t* widths, uint32_t runs, uint32_t residuals, BitWriter& writer) {
   uint32_t largest = 0, best = 0, best_bits = ~0u;
   for (uint32_t r = 0; r < runs; ++r) largest = std::max(largest, widths[r]);
@@ -99,7 +99,7 @@ void put_widths(uint32_t* widths, uint32_t runs, uint32_t residuals, BitWriter& 
   }
 }
 
-/// `mask` has a bit for each sample that is not left out: some, or all of them.
+/// `mask` has a bit for each sample that is not left out: for some of the samples, or all.
 void put_samples(const Samples& samples, uint32_t count, uint64_t mask, bool linear,
                  BitWriter& writer) {
   const bool grid = samples.mode == kBlockGrid;
@@ -141,7 +141,7 @@ void put_samples(const Samples& samples, uint32_t count, uint64_t mask, bool lin
   }
 }
 
-/// The way of writing that takes fewest bits so far.
+/// The encoding with the fewest bits so far.
 struct Best {
   Samples samples;
   uint64_t mask;

@@ -20,7 +20,7 @@ Status check_speed(int32_t numerator, int32_t denominator, Error& error) {
               "a speed is a fraction of whole numbers up to %d, the lower one above 0", kMaxSpeed);
 }
 
-/// Returns the loops on the way there from the first one.
+/// Returns the number of loops between the first one and `tick`.
 int64_t put_position(ClipSampler& sampler, int64_t tick) {
   if (sampler.wraps) {
     const int64_t rest = tick % sampler.length;
@@ -32,13 +32,13 @@ int64_t put_position(ClipSampler& sampler, int64_t tick) {
   return 0;
 }
 
-/// Loops of a tick, at the highest speed, are 2^60 in a step: counting ends before they overflow.
+/// With loops of one tick at the highest speed, a step has 2^60 loops: counting stops before it overflows.
 void count_loops(ClipSampler& sampler, int64_t passed) {
   const int64_t loops = sampler.loops + passed;
   sampler.loops = loops < -kMaxLoops ? -kMaxLoops : loops > kMaxLoops ? kMaxLoops : loops;
 }
 
-/// Decodes a whole block for playing backward.
+/// Decodes a whole block, for playing backward.
 void fill_block_rows(ClipSampler& sampler, uint32_t block) {
   const uint32_t first = block * kBlockFrames;
   const uint32_t left = sampler.clip->stored_frame_count() - first;
@@ -49,7 +49,7 @@ void fill_block_rows(ClipSampler& sampler, uint32_t block) {
   sampler.block_of_rows = block;
 }
 
-/// Leaves a stored frame in `row`.
+/// Decodes a stored frame into `row`.
 void copy_frame(ClipSampler& sampler, uint32_t frame, float* row) {
   BlockDecoder& decoder = sampler.decoder;
   const uint32_t block = frame / kBlockFrames;
@@ -62,8 +62,8 @@ void copy_frame(ClipSampler& sampler, uint32_t frame, float* row) {
   memcpy(row, sampler.block_rows.data + frame % kBlockFrames * count, count * sizeof(float));
 }
 
-/// The values of a frame. They stay until kSamplerRows other frames were needed, among them the
-/// neighbors of frames that a half-rate clip does not store.
+/// The values of a frame. They are kept until kSamplerRows other frames were needed, including the neighbors
+/// of frames that a half-rate clip does not store.
 const float* frame_row(ClipSampler& sampler, uint32_t frame) {
   ++sampler.uses;
   for (uint32_t i = 0; i < kSamplerRows; ++i) {
@@ -92,15 +92,15 @@ const float* frame_row(ClipSampler& sampler, uint32_t frame) {
   return row.data;
 }
 
-/// Limited to the range of two values; one of them if `x` is not a number.
+/// Limited to the range of two values; one of them if `x` is NaN.
 float clamp_between(float x, float a, float b) {
   const float low = a < b ? a : b, high = a < b ? b : a;
   const float raised = x > low ? x : low;
   return raised < high ? raised : high;
 }
 
-// The clamp keeps values finite if the difference overflows, and within the range of the frames in
-// spite of rounding.
+// The clamp keeps values finite if the difference overflows, and within the range of the frames despite
+// rounding.
 void linear(const float* a, const float* b, float t, size_t count, float* out) {
   for (size_t i = 0; i < count; ++i) out[i] = clamp_between(a[i] + (b[i] - a[i]) * t, a[i], b[i]);
 }

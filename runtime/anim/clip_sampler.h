@@ -32,7 +32,7 @@ constexpr uint32_t kSamplerRows = 6;  // what Catmull-Rom needs where a half-rat
 /// The playback of one clip for one character. Its memory is allocated once, for a maximum number of
 /// channels; starting another clip allocates nothing.
 struct ClipSampler {
-  const Clip* clip = nullptr;  // has to outlive the playing
+  const Clip* clip = nullptr;  // must outlive the playback
   int64_t tick = 0;            // 0 ... length, or below it in a loop
   int64_t loops = 0;           // completed, kMaxLoops at most; negative: backward
   int64_t fraction = 0;        // of a tick, in units of 1 / speed_denominator
@@ -45,7 +45,7 @@ struct ClipSampler {
 
   Span<float> values;  // [channel] of the clip, as sampled last
 
-  // Frames that were needed last, of changing channels.
+  // The most recently needed frames, of changing channels.
   BlockDecoder decoder;
   const KernelTable* kernels = nullptr;
   Span<ClipLanes> groups;  // of the decoder
@@ -61,23 +61,23 @@ struct ClipSampler {
 /// The largest clip that a sampler can play.
 struct SamplerLimits {
   uint32_t channels = 0, changing_channels = 0;
-  /// Takes 256 bytes more per changing channel, and makes a frame backward as cheap as one forward;
-  /// otherwise each frame backward decodes half a block on average.
+  /// Takes 256 bytes more per changing channel, and makes a frame backward as cheap as one forward; otherwise
+  /// each frame backward decodes half a block on average.
   bool reverse = false;
   const KernelTable* kernels = nullptr;  // null: the best; the results are the same with any
 };
 
 void place_clip_sampler(Placer& placer, const SamplerLimits& limits, ClipSampler& sampler);
 
-/// kInvalidArgument for a speed out of range, kClipLimit for a clip with more channels than there is
-/// room for; the sampler goes on as before then.
+/// kInvalidArgument for a speed out of range, kClipLimit for a clip with more channels than there is room
+/// for; then the sampler does not change.
 Status start_clip(ClipSampler& sampler, const Clip& clip, const PlayDesc& desc, Error& error);
 
 /// Takes effect from here on. kInvalidArgument.
 Status set_clip_speed(ClipSampler& sampler, int32_t numerator, int32_t denominator, Error& error);
 
-/// Moves to any time: in a loop modulo its length, otherwise to the nearest end. Passes no events;
-/// the next step also passes those at the tick itself, as after a start.
+/// Moves to any time: in a loop modulo its length, otherwise to the nearest end. Passes no events; the next
+/// step also passes events at the new tick itself, as after a start.
 void seek_clip(ClipSampler& sampler, int64_t tick);
 
 /// Events that a step passed, in the order of passing; see next_event().
@@ -85,7 +85,7 @@ struct EventRange {
   const Clip* clip = nullptr;
   int64_t from = 0, to = 0;  // passed when from < tick <= to, or, backward, to <= tick < from
   int64_t loop_length = 0;   // 0: no loop
-  int64_t base = 0;          // time of the beginning of the loop at hand
+  int64_t base = 0;          // time at which the current loop begins
   int64_t index = 0;         // next event
 };
 
@@ -98,13 +98,13 @@ EventRange advance_clip(ClipSampler& sampler, int64_t ticks);
 /// over many loops can pass any number of them.
 bool next_event(EventRange& range, ClipEvent& event);
 
-/// The same of the channels that change, in their order; `values` stays as it is. The result stays until
-/// the next call.
+/// As sample_clip(), but only the channels that change, in their order; `values` stays as it is. The result
+/// is valid until the next call.
 Span<const float> sample_changing(ClipSampler& sampler);
 
-/// The values of all channels at the sampler's position, which stay until the next call. At a frame
-/// they have its bits; between two frames they are between their values. Always finite; a damaged
-/// block gives zeros and sets `decoder.damaged`.
+/// The values of all channels at the sampler's position, valid until the next call. At a frame they have its
+/// bits; between two frames they are between their values. Always finite; a damaged block gives zeros and
+/// sets `decoder.damaged`.
 Span<const float> sample_clip(ClipSampler& sampler);
 
 }  // namespace mien

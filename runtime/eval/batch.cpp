@@ -13,7 +13,7 @@ uint32_t block_row_count(const JointMatrix& joints) {
   return joints.panels[joints.panel_count()].first_block_row;
 }
 
-/// Packets of fewer instances gain little from being packets.
+/// Smaller packets gain little.
 constexpr uint32_t kMinPacketLanes = 8;
 
 /// Packets for instances of one LOD: as few as possible, but an equal share for each task.
@@ -32,8 +32,8 @@ size_t max_packets(const Rig& rig, uint32_t capacity, uint32_t tasks) {
   return std::min({size_t{capacity}, by_tasks, by_lanes});
 }
 
-/// Inputs or padded outputs of the widest layer. (Scratch of an instance also holds what steps gather
-/// and no layer takes, and may be much larger.)
+/// Inputs or padded outputs of the widest layer. (The scratch of an instance also has room for gathered
+/// inputs that no layer takes, and may be much larger.)
 size_t widest_layer(const Rig& rig) {
   size_t widest = 0;
   for (const NetworkLayer& layer : rig.ml.layers) {
@@ -80,7 +80,7 @@ void place_batch(const Rig& rig, uint32_t capacity, uint32_t tasks, Placer& plac
     for (Span<float>& layer : scratch.ml_layers) {
       layer = placer.array<float>(layer_width * kBatchLanes, kBlockAlignment);
     }
-    // A rig whose solvers read what others write solves them one by one.
+    // If solvers read what others write, the rig solves them one by one.
     const size_t lanes = rig.rbf.independent ? kBatchLanes : 0;
     scratch.rbf_rotations = placer.array<float>(rig.rbf.rotations.count * lanes, kBlockAlignment);
     for (Span<float>& weights : scratch.rbf_weights) {
@@ -103,7 +103,7 @@ void fill_block_list(const Rig& rig, BlockList& list) {
   }
   const size_t block_rows = first.count - 1;
   for (size_t b = 0; b < block_rows; ++b) first[b + 1] += first[b];
-  // Filling moves each first to that of the next block row: they are moved back afterwards.
+  // Filling moves each start to that of the next block row; the starts are moved back afterwards.
   for (size_t k = 0; k < joints.columns.count; ++k) {
     const uint32_t control = joints.columns[k];
     joints.for_each_block(k, panels, [&](uint32_t block, uint32_t block_row) {
@@ -124,7 +124,7 @@ void order_lanes(const Span<RotationOutput>& outputs, Span<uint32_t>& order) {
   std::sort(order.begin(), order.end(),
             [&](uint32_t a, uint32_t b) { return outputs[a].joint < outputs[b].joint; });
   for (size_t i = 1; i < order.count; ++i) {
-    if (outputs[order[i - 1]].joint == outputs[order[i]].joint) order.count = 0;  // has one twice
+    if (outputs[order[i - 1]].joint == outputs[order[i]].joint) order.count = 0;  // has two
   }
   std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
     const uint32_t of_a = outputs[a].lane, of_b = outputs[b].lane;
@@ -158,7 +158,7 @@ Batch* create_batch(const Rig& rig, uint32_t capacity, uint32_t tasks, const All
   BatchTables& tables = batch->tables;
   fill_block_list(rig, tables.block_list);
   if (rig.half_storage) {
-    // Layers fill whole blocks.
+    // The outputs of layers fill whole blocks.
     const size_t values = rig.ml.halves.count / kBlockLanes * kBlockLanes;
     rig.kernels->floats_from_halves(rig.ml.halves.data, values, tables.ml_values.data);
   } else {
@@ -203,7 +203,7 @@ void evaluate_batch(Batch& batch, Instance* const* instances, const uint32_t* lo
   batch.stages = stages;
   batch.task_count = std::min(batch.packet_count, static_cast<uint32_t>(batch.tasks.count));
 
-  // Task t of n takes packets t, t + n, t + 2n, ...: tasks share nothing that changes.
+  // Task t of n runs packets t, t + n, t + 2n, ...: tasks share no mutable data.
   const auto task = [](void* context, uint32_t index) {
     const Batch& b = *static_cast<const Batch*>(context);
     for (uint32_t c = index; c < b.packet_count; c += b.task_count) {

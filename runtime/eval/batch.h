@@ -21,7 +21,7 @@ struct Batch {
 
   // Of the current evaluation.
   Span<Instance*> order;           // by LOD
-  Span<uint32_t> lods;             // of each instance in order
+  Span<uint32_t> lods;             // LOD of each instance in `order`
   Span<uint32_t> first_of_packet;  // into order, one more at the end
   uint32_t packet_count = 0, task_count = 0, stages = 0;
 };

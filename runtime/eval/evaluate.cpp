@@ -27,8 +27,8 @@ bool same_bits(const float* a, const float* b, size_t count) {
   return count == 0 || memcmp(a, b, count * sizeof(float)) == 0;
 }
 
-/// The rule of stage_access.h, for a range of controls that were written by a stage, or otherwise
-/// (kNoStage). `previous` has their values from before, and then those from now.
+/// Applies the rule of stage_access.h to a range of controls that were written by a stage, or by other code
+/// (kNoStage). `previous` has their old values, and is set to the new ones.
 void note_changes(const Rig& rig, Instance& instance, const ControlRange& range, float* previous,
                   uint32_t writer) {
   if (rig.always_evaluate) return;  // everything is stale when an evaluation begins
@@ -36,7 +36,7 @@ void note_changes(const Rig& rig, Instance& instance, const ControlRange& range,
   const uint32_t count = range.end - range.first;
   if (same_bits(previous, now, count)) return;
   Uses uses = 0;
-  // Without branches: nobody foresees which controls change.
+  // Without branches, which would be mispredicted.
   const Uses* control_uses = rig.control_uses.data + range.first;
   for (uint32_t i = 0; i < count; ++i) {
     uses |= control_uses[i] & (Uses{0} - Uses{!same_bits(previous[i], now[i])});
@@ -45,7 +45,7 @@ void note_changes(const Rig& rig, Instance& instance, const ControlRange& range,
   instance.stale |= uses & ~Uses{writer & ~rig.feedback_stages};
 }
 
-/// Before a stage, or part of one, writes controls of a range, and after.
+/// To be called before and after a stage, or part of one, writes controls of a range.
 void begin_writing(const Rig& rig, Instance& instance, const ControlRange& range) {
   if (rig.always_evaluate) return;
   const float* controls = instance.controls.data;
@@ -54,13 +54,13 @@ void begin_writing(const Rig& rig, Instance& instance, const ControlRange& range
 void end_writing(const Rig& rig, Instance& instance, const ControlRange& range, uint32_t writer) {
   if (rig.always_evaluate) return;
   note_changes(rig, instance, range, instance.before_writing.data, writer);
-  // Raw controls among them were not changed by the caller.
+  // So that raw controls among them do not count as changed by the caller.
   const uint32_t raw_end = std::min(range.end, rig.raw_count);
   for (uint32_t c = range.first; c < raw_end; ++c) instance.previous_raw[c] = instance.controls[c];
 }
 
-// Results that a LOD does not write stay 0 from here on, so stages clear nothing. Raw controls
-// belong to the caller.
+// Sets results to 0: those that a LOD does not write stay 0, so stages clear nothing. Raw controls belong to
+// the caller.
 void enter_lod(const Rig& rig, Instance& instance, uint32_t lod) {
   if (instance.lod == lod) return;
   instance.lod = lod;
@@ -69,7 +69,7 @@ void enter_lod(const Rig& rig, Instance& instance, uint32_t lod) {
   clear_results(instance);
 }
 
-/// Enters the LOD and looks for what the caller changed.
+/// Enters the LOD and finds the inputs that the caller changed.
 void begin_evaluation(const Rig& rig, Instance& instance, uint32_t lod) {
   enter_lod(rig, instance, lod);
   if (rig.always_evaluate) instance.stale = kAllUses;
@@ -84,7 +84,7 @@ void begin_evaluation(const Rig& rig, Instance& instance, uint32_t lod) {
 
 using Evaluate = void(const Rig& rig, Instance& instance, uint32_t lod);
 
-/// A stage of those instances for which it was asked and is stale; it notes itself what it changes.
+/// Runs a stage that marks its own changes, for the instances for which it is requested and stale.
 void run(const InstancePacket& packet, uint32_t stage, Evaluate* evaluate_stage) {
   if (stage == 0) return;
   for (uint32_t i = 0; i < packet.count; ++i) {
@@ -95,7 +95,7 @@ void run(const InstancePacket& packet, uint32_t stage, Evaluate* evaluate_stage)
   }
 }
 
-/// Those instances of a packet for which any of the stages is stale, in `stale`.
+/// The instances of a packet for which any of the stages is stale, stored in `stale`.
 InstancePacket stale_ones(const InstancePacket& packet, uint32_t stages, Instance** stale) {
   InstancePacket those = packet;
   those.instances = stale;
@@ -106,7 +106,7 @@ InstancePacket stale_ones(const InstancePacket& packet, uint32_t stages, Instanc
   return those;
 }
 
-/// A stage that takes all those instances at once.
+/// Runs a stage for all stale instances at once.
 template <class F>
 void run_packet(const InstancePacket& packet, uint32_t stage, const ControlRange& writes,
                 const F& evaluate_stage) {
@@ -121,9 +121,9 @@ void run_packet(const InstancePacket& packet, uint32_t stage, const ControlRange
   for (uint32_t i = 0; i < those.count; ++i) end_writing(packet.rig, *stale[i], writes, stage);
 }
 
-/// Correctives and joints of the instances that need either: it is not known before which of them
-/// new correctives will move. One alone is left to the stages themselves. `after_rbf`: evaluate_rbf()
-/// returned true for the whole packet.
+/// Runs correctives and joints for the instances that need either, because it is not known in advance which
+/// of them will be moved by changed correctives. A single instance is left to the separate stages.
+/// `after_rbf`: evaluate_rbf() returned true for the whole packet.
 void run_together(const InstancePacket& packet, uint32_t stages, bool after_rbf) {
   Instance* changed[kBatchLanes];
   const InstancePacket those = stale_ones(packet, stages, changed);

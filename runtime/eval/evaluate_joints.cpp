@@ -16,7 +16,7 @@
 namespace mien {
 namespace {
 
-/// What of a column comes before the tile.
+/// Skips the part of a column that precedes the tile.
 inline void skip(const ColumnPart& before, JointRun& run) {
   run.start.first_pair += 2 * before.pairs;
   run.start.pair_entry += before.pairs;
@@ -41,7 +41,7 @@ void add_columns(const Rig& rig, const Instance& instance, const JointTile& tile
   args.runs = runs;
   args.sums = tile.sums - size_t{tile.first_block_row} * kJointBlockRows;
   args.portable = rig.portable;
-  // In names of their own: for all the compiler knows, runs could lie in the rig.
+  // Local copies, because the compiler must assume that writes to runs alias the rig.
   const JointColumn* const starts = joints.starts.data;
   const ColumnPart* const parts = joints.parts.data;
   const uint32_t* const column_of_control = joints.column_of_control.data;
@@ -81,7 +81,8 @@ void add_columns(const Rig& rig, const Instance& instance, const JointTile& tile
   add_runs();
 }
 
-/// Whether the strips, zeros and all, take less time than their columns: from half of these on.
+/// Whether the strips, including their zeros, take less time than their columns: true from half of the
+/// columns on.
 bool sums_by_strips(const Rig& rig, const Instance& instance) {
   constexpr uint32_t kWords = 16;
   const JointMatrix& joints = rig.joints;
@@ -100,8 +101,8 @@ bool sums_by_strips(const Rig& rig, const Instance& instance) {
   return 2 * active >= joints.columns.count - joints.first_strip_column;
 }
 
-/// The strips that reach into the panels of the tile, after the columns before them. The tile begins with
-/// block row 0: a matrix that has strips fits one.
+/// Sums the strips that reach into the panels of the tile, after the columns that precede them. The tile
+/// begins with block row 0, because a matrix with strips fits one tile.
 void sum_by_strips(const Rig& rig, const Instance& instance, const JointTile& tile) {
   const JointMatrix& joints = rig.joints;
   const RowStrip* first = joints.strips.data;
@@ -125,8 +126,8 @@ void sum_by_strips(const Rig& rig, const Instance& instance, const JointTile& ti
   (fixed ? rig.kernels->joint_strips_fixed : rig.kernels->joint_strips)(args);
 }
 
-/// Calls f(targets, their count, their rows as a constant) for the targets of a panel that a LOD writes;
-/// with the number of panels instead, for those of all panels.
+/// Calls f(targets, their count, their rows as a constant) for the targets of a panel that a LOD writes; if
+/// `panel` is the number of panels, for those of all panels.
 template <class F>
 void for_each_kind(const Rig& rig, uint32_t lod, uint32_t panel, F&& f) {
   const JointMatrix& joints = rig.joints;
@@ -143,15 +144,15 @@ void for_each_kind(const Rig& rig, uint32_t lod, uint32_t panel, F&& f) {
   each(std::integral_constant<size_t, kTargetRows[2]>());
 }
 
-/// Whether the tile is written in the order of the joint values, as one that has all panels of the LOD
-/// is: in a batch they are not in the cache, and this order is the fastest.
+/// Whether the tile is written in the order of the joint values, which requires all panels of the LOD: in a
+/// batch the joint values are not in the cache, and this order is the fastest.
 bool in_order(const JointMatrix& joints, uint32_t lod, const JointTile& tile) {
   const bool whole = tile.first_panel == 0 && tile.end_panel == joints.panels_at_lod[lod];
   return whole && joints.fits_tile();
 }
 
-/// Of one group, or of all. (Arguments by value: what is written could lie anywhere, for all the compiler
-/// knows, and a reference would be read again each time.)
+/// Writes targets of one group, or of all. (Arguments by value, because the compiler must assume that the
+/// writes alias references, and would read those again each time.)
 template <size_t kRows>
 void write_targets(const JointTarget* targets, uint32_t count, const float* sums, float* out,
                    uint32_t only_group) {
@@ -234,7 +235,7 @@ void evaluate_joint_rows(const Rig& rig, Instance& instance, uint32_t lod, Uses 
            (only_group == kAllGroups || holds_group(joints, panel, only_group));
   };
   const bool by_strips = sums_by_strips(rig, instance);
-  // Each run of panels goes over all columns: a few panels more cost less than another run.
+  // Each run of panels goes over all columns: a few extra panels cost less than another run.
   constexpr uint32_t kBridge = 4;
   // 32 KiB: with 8 KiB for the runs of columns, the largest stack use of evaluation.
   alignas(kBlockAlignment) float sums[kMaxTileBlockRows * kJointBlockRows];

@@ -25,8 +25,8 @@ void clear_ml_joints(const Rig& rig, Instance& instance, uint32_t lod) {
 
 namespace {
 
-/// Sixteen ML rotations, made into the form in which they are added: of quaternions to quaternions, of
-/// angles to angles.
+/// Converts sixteen ML rotations to the form in which they are added: quaternions to quaternions, angles to
+/// angles.
 class MlRotationBlock {
  public:
   MlRotationBlock(const Rig& rig, Instance& instance)

@@ -30,7 +30,7 @@ void gather(const Rig& rig, Instance& instance, const MlStep& step, float* input
   }
 }
 
-/// What a single evaluation and a batch tell a kernel of a layer alike.
+/// The kernel arguments of a layer that are the same in a single evaluation and a batch.
 template <class Args>
 Args layer_args(const Rig& rig, const NetworkLayer& layer) {
   Args args = {};
@@ -43,7 +43,7 @@ Args layer_args(const Rig& rig, const NetworkLayer& layer) {
   return args;
 }
 
-/// Layer after layer; the last one writes where the step's outputs lie.
+/// Layer after layer; the last one writes to the step's outputs.
 void run_network(const Rig& rig, Instance& instance, const MlStep& step) {
   float* in = instance.ml_layers[0].data;
   float* out = instance.ml_layers[1].data;
@@ -68,7 +68,8 @@ void run_network(const Rig& rig, Instance& instance, const MlStep& step) {
 
 // Several instances: they are lanes ---------------------------------------------------------------
 
-/// The inputs of a step out of controls that are in lanes already: [control][32], the lanes of `those`.
+/// Gathers the inputs of a step from controls that are in lanes already, [control][32], into the lanes of
+/// `those`.
 void gather_in_lanes(const Rig& rig, const float* controls, const MlStep& step, float* inputs) {
   const uint32_t count = std::min(step.gather_count, rig.ml.layers[step.first_layer].input_count);
   for (const uint16_t control : rig.ml.controls.slice(step.first_gather, count)) {
@@ -77,7 +78,7 @@ void gather_in_lanes(const Rig& rig, const float* controls, const MlStep& step, 
   }
 }
 
-/// The same one by one.
+/// The same for one instance after another.
 void gather_one_by_one(const InstancePacket& those, const MlStep& step, float* to) {
   const Rig& rig = those.rig;
   float* inputs[kBatchLanes];
@@ -113,7 +114,7 @@ const float* run_layers(const InstancePacket& those, const MlStep& step, const f
   return in;
 }
 
-/// To where the step's outputs lie.
+/// Copies values to the step's outputs.
 void keep_values(const InstancePacket& those, const MlStep& step, const float* values) {
   float* outputs[kBatchLanes];
   for (uint32_t k = 0; k < those.count; ++k) outputs[k] = those.instances[k]->ml_values.data;
@@ -121,7 +122,7 @@ void keep_values(const InstancePacket& those, const MlStep& step, const float* v
                                    step.first_output);
 }
 
-/// A network step of those instances whose mask lets it run.
+/// Runs a network step for the instances whose mask is above 0.
 void run_networks(const InstancePacket& packet, const MlStep& step, const float* masks) {
   Instance* running[kBatchLanes];
   InstancePacket those = packet;
@@ -158,7 +159,7 @@ uint32_t scatter_count(const Rig& rig, const MlStep& step, uint32_t lod) {
   return std::min({step.scatter_count, step.output_count, rig.ml.limits[step.first_limit + lod]});
 }
 
-/// Whether controls follow one another, as those of most networks do.
+/// Whether controls are consecutive, as those of most networks are.
 bool are_neighbors(const uint16_t* controls, uint32_t count) {
   uint32_t elsewhere = 0;
   for (uint32_t i = 1; i < count; ++i) elsewhere |= controls[i] - controls[0] - i;
@@ -230,7 +231,7 @@ void convert_rotation(const Rig& rig, Instance& instance, uint16_t base) {
 
 void clear_joint_controls(const Rig& rig, Instance& instance) {
   const auto clear = [&](uint32_t control) {
-    if (control < rig.raw_count || control >= rig.control_count) return;  // another's, or none
+    if (control < rig.raw_count || control >= rig.control_count) return;  // of others
     instance.controls[control] = rig.initial_controls[control];
   };
   for (const MlJoint& joint : rig.ml.joints) {
@@ -246,7 +247,7 @@ void clear_joint_controls(const Rig& rig, Instance& instance) {
 
 namespace {
 
-/// The controls that steps read, in lanes; null where lanes do not pay, or steps read what others write.
+/// The controls that steps read, in lanes; null if lanes do not pay, or if steps read what others write.
 const float* controls_in_lanes(const InstancePacket& packet) {
   const Rig& rig = packet.rig;
   if (!fills_lanes(packet) || (rig.feedback_stages & kStageMl) != 0) return nullptr;
@@ -260,8 +261,8 @@ const float* controls_in_lanes(const InstancePacket& packet) {
   return packet.scratch->controls.data;
 }
 
-/// A network step that all instances run in full, and whose outputs are neighboring controls, without
-/// leaving the lanes. Returns whether it was one.
+/// Runs a network step that all instances run in full, and whose outputs are neighboring controls, without
+/// leaving the lanes. Returns false if it is not such a step.
 bool run_in_lanes(const InstancePacket& packet, const MlStep& step, const float* masks,
                   const float* controls) {
   const Rig& rig = packet.rig;
@@ -284,7 +285,8 @@ bool run_in_lanes(const InstancePacket& packet, const MlStep& step, const float*
 
 void evaluate_ml(const InstancePacket& packet) {
   const Rig& rig = packet.rig;
-  // What the last frame converted and no network writes in this one would be converted again.
+  // Otherwise results converted in the last frame that no network writes in this one would be converted
+  // again.
   for (uint32_t i = 0; i < packet.count && rig.ml.converts; ++i) {
     clear_joint_controls(rig, *packet.instances[i]);
   }

@@ -38,7 +38,7 @@ void run_solvers(const Rig& rig, Instance& instance, const Span<uint16_t>& solve
   rig.kernels->rbf_solvers(args);
 }
 
-/// Every control that a pose of the solver drives.
+/// Clears every control that a pose of the solver drives.
 void clear_pose_controls(const Rig& rig, const RbfSolver& solver, uint32_t pose_count,
                          Instance& instance) {
   const RbfTable& rbf = rig.rbf;
@@ -49,7 +49,7 @@ void clear_pose_controls(const Rig& rig, const RbfSolver& solver, uint32_t pose_
   }
 }
 
-/// Poses may share controls, and multiply with others, which earlier poses may have driven.
+/// Poses may share controls, and may be multiplied by controls that earlier poses drove.
 void add_pose_controls(const Rig& rig, const RbfSolver& solver, const float* results,
                        uint32_t pose_count, Instance& instance) {
   const RbfTable& rbf = rig.rbf;
@@ -67,7 +67,7 @@ void add_pose_controls(const Rig& rig, const RbfSolver& solver, const float* res
   }
 }
 
-/// Of a solver whose results are not written where they belong already.
+/// For solvers whose results are not written to their controls directly.
 void drive_pose_controls(const Rig& rig, uint32_t index, Instance& instance) {
   const RbfSolverPlan& plan = rig.rbf.plans[index];
   if (plan.first_control != kNoFirstControl) return;
@@ -82,7 +82,7 @@ void drive_pose_controls(const Rig& rig, uint32_t index, Instance& instance) {
 void solve_rbf(const Rig& rig, Instance& instance, uint32_t index) {
   const RbfTable& rbf = rig.rbf;
   const RbfSolverPlan& plan = rbf.plans[index];
-  // A solver may read what it drives, but not what it gave before.
+  // A solver may read controls that it drives, but not its previous results.
   clear_pose_controls(rig, rbf.solvers[index], plan.pose_count, instance);
   uint32_t first_block = 0, block_count = 0;
   if (takes_parts(plan)) {
@@ -116,7 +116,7 @@ void solve_alone(const Rig& rig, Instance& instance, const Span<uint16_t>& solve
   for (uint16_t solver : solvers) drive_pose_controls(rig, solver, instance);
 }
 
-/// Behind the last control that a solver reads.
+/// The end of the controls that a solver reads.
 uint32_t inputs_end(const RbfTable& rbf) {
   uint32_t end = 0;
   for (const auto* inputs : {&rbf.inputs, &rbf.rotations}) {
@@ -125,7 +125,7 @@ uint32_t inputs_end(const RbfTable& rbf) {
   return end;
 }
 
-/// Of solvers that do not read what others write.
+/// For solvers that do not read what others write.
 void solve_together(const InstancePacket& packet, const Span<uint16_t>& solvers) {
   const RbfTable& rbf = packet.rig.rbf;
   const PacketScratch& scratch = *packet.scratch;
@@ -175,7 +175,7 @@ bool evaluate_rbf(const InstancePacket& packet) {
     return false;
   }
   solve_together(packet, solvers);
-  // Lanes without an instance would not be 0.
+  // Otherwise lanes without an instance would not be 0.
   return packet.count == kBatchLanes &&
          std::all_of(solvers.begin(), solvers.end(), [&](uint16_t solver) {
            return rig.rbf.plans[solver].first_control != kNoFirstControl;

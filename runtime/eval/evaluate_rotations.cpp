@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Rotations of joints: quaternions out of angles, joints represented by quaternions, twists and
-// swings (docs/rig-evaluation.md, 4.6 to 4.8, 7).
+// Rotations of joints: quaternions from angles, joints represented by quaternions, twists and swings
+// (docs/rig-evaluation.md, 4.6 to 4.8, 7).
 #include "runtime/eval/instance_packet.h"
 #include "runtime/eval/stages.h"
 #include "simd/lanes.h"
@@ -171,8 +171,8 @@ void apply_twists_and_swings(const Rig& rig, Instance& instance, uint32_t lod, u
 
 namespace {
 
-/// Computes and writes the outputs of the first `blocks` blocks, as many at a time as the scratch
-/// memory holds: compute(first lane, count).
+/// Computes and writes the outputs of the first `blocks` blocks, as many at a time as fit the scratch memory:
+/// compute(first lane, count).
 template <class F>
 void write_rotations_together(const InstancePacket& packet, uint32_t blocks,
                               const Span<RotationOutput>& outputs, const Span<uint32_t>& order,

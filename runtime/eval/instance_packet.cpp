@@ -9,25 +9,24 @@
 namespace mien {
 namespace {
 
-/// Lanes that are not zero.
+/// The number of lanes that are not zero.
 uint32_t count_users(const float* lanes) {
   uint32_t users = 0;
   for (uint32_t i = 0; i < kBatchLanes; ++i) users += lanes[i] != 0.0f;
   return users;
 }
 
-/// The columns before `column_end` are summed for all instances at once: none, those of raw controls,
-/// or all. `blocks` of their `all` blocks are used by some instance.
+/// The columns before `column_end` are summed for all instances at once: none, those of raw controls, or all.
+/// Some instance uses `blocks` of their `all` blocks.
 struct SharedColumns {
   uint32_t column_end = 0;
   size_t blocks = 0, all = 0;
 };
 
-/// Sharing a block costs an entry in a list, and a multiplication in all lanes, whether an instance
-/// uses it or not. Otherwise each instance that uses it fetches it. Sums run over the columns in
-/// order, so there is one place to change over: after the raw controls, which many instances use,
-/// and before the correctives, which few do. Costs are in fifths of a cycle, as measured on a
-/// production head.
+/// Sharing a block costs an entry in a list, and a multiplication in all lanes, whether an instance uses it
+/// or not. Otherwise each instance that uses it loads it. Sums run over the columns in order, so sharing can
+/// stop at one place only: after the raw controls, which many instances use, and before the correctives,
+/// which few use. Costs are in fifths of a cycle, as measured on a production head.
 SharedColumns find_shared_columns(const InstancePacket& packet) {
   constexpr int64_t kListed = 12, kPass = 45, kFetched = 12;
   const JointMatrix& joints = packet.rig.joints;
@@ -72,8 +71,8 @@ void list_shared_columns(const InstancePacket& packet, const SharedColumns& shar
   }
 }
 
-/// Sums the shared columns for all instances, a tile at a time, and lets each add the others, if there are
-/// any.
+/// Sums the shared columns for all instances, a tile at a time, and then adds the other columns, if any, for
+/// each instance.
 void evaluate_shared_rows(const InstancePacket& packet, const SharedColumns& shared) {
   const JointMatrix& joints = packet.rig.joints;
   const BlockList& list = packet.tables->block_list;

@@ -7,7 +7,7 @@
 //     the packet:          ML: networks that many instances run, in lanes from control to control
 //     the packet:          RBF solvers that do not read each other's results, in lanes
 //     the packet (batch):  PSD; of the joint matrix the columns that many instances use; rotations
-//     each instance:       PSD, joints, blend shapes, animated maps: what is left
+//     each instance:       the rest of PSD, joints, blend shapes, animated maps
 #pragma once
 
 #include "runtime/eval/instance.h"
@@ -31,7 +31,7 @@ struct LaneOrder {
   Span<uint32_t> turns, twists;
 };
 
-/// What the packets of a batch read: made once from the rig.
+/// Tables that the packets of a batch read: made once from the rig.
 struct BatchTables {
   BlockList block_list;
   LaneOrder lane_order;

@@ -42,9 +42,8 @@ constexpr uint32_t kAllGroups = ~uint32_t{0};
 /// where that is enough.
 void evaluate_joints(const Rig& rig, Instance& instance, uint32_t lod);
 
-/// The joint stage in three parts: what comes before the rows of the joint matrix; the rows of stale
-/// panels; what comes after them, for all instances of a packet. Then neither the stage nor any panel is
-/// stale.
+/// The joint stage in three parts: the work before the rows of the joint matrix; the rows of stale panels;
+/// the work after them, for all instances of a packet. Then neither the stage nor any panel is stale.
 void begin_joints(const Rig& rig, Instance& instance, uint32_t lod);
 void evaluate_stale_rows(const Rig& rig, Instance& instance, uint32_t lod);
 void finish_joints(const InstancePacket& packet);

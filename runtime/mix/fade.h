@@ -21,7 +21,7 @@ namespace mien {
 
 constexpr int64_t kMaxFadeTicks = int64_t{1} << 40;  // 26 minutes
 
-/// The coefficients of the offset, and by what factor it is shorter than T.
+/// The coefficients of the offset, and the factor by which its duration is shorter than T.
 struct Quintic {
   float c0, c1, c2;
   float rate;  // T / duration, 1 or more

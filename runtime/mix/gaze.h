@@ -26,8 +26,8 @@ struct GazeTable {
 
 /// Sets the curves of both eyes so that they look at a target, which has the form of GazeEye::center. Eyes
 /// converge on near targets. `beyond` gets the part that the eyes cannot reach and the head may turn:
-/// tangents to the left and up, averaged over both eyes. It may be null. For a target behind an eye, the
-/// eye turns as far aside as it can.
+/// tangents to the left and up, averaged over both eyes. It may be null. For a target behind an eye, the eye
+/// turns sideways as far as it can.
 void look_at(const GazeTable& table, const float target[3], float* row, float* beyond);
 
 }  // namespace mien

@@ -23,7 +23,7 @@ float random_at(uint64_t seed, uint64_t stream, uint64_t index) {
   return static_cast<float>((z ^ (z >> 31)) >> 40) * (1.0f / 16777216.0f);
 }
 
-/// Noise from -1 to 1 at `u` 0 ... 1 of the way from a cell to the next.
+/// Noise from -1 to 1 at the fraction `u` of the way from a cell to the next.
 float noise_at(uint64_t seed, uint64_t stream, uint64_t cell, float u) {
   const float a = random_at(seed, stream, cell), b = random_at(seed, stream, cell + 1);
   return 2.0f * (a + u * (b - a)) - 1.0f;
@@ -52,7 +52,7 @@ void blink(const LayerDesc& layer, uint64_t seed, uint32_t stream, int64_t now, 
   if (now < state.next && row[layer.curves[0]] > kBlinkSeen) {
     state.next = now + interval(layer, seed, stream, ++state.index);
   }
-  // While it is held, it goes on to where it would open and waits there.
+  // A blink that is held continues until it would open, and waits there.
   const int64_t opens = state.next + kBlinkClose + kBlinkHold;
   state.next += std::max(held.end - std::max(held.begin, opens), int64_t{0});
   while (now >= state.next + kWhole) {
@@ -102,7 +102,7 @@ namespace {
 
 Vec3 vector(const float* v) { return {v[0], v[1], v[2]}; }
 
-/// Degrees between two places as the eyes see them. The chord instead of an arc cosine: 1 % less at 60.
+/// Degrees between two places as seen from the eyes. Uses the chord instead of an arc cosine: 1 % less at 60.
 float angle_between(const GazeTable& table, const float* a, const float* b) {
   const Vec3 middle = (vector(table.eyes[0].center) + vector(table.eyes[1].center)) * 0.5;
   const auto direction = [&](const float* place) {
@@ -131,7 +131,7 @@ void generate_gaze(const GazeTable& table, const LayerDesc& layer, uint64_t seed
                    int64_t now, int64_t ticks, const float* row, GazeState& state, float* scratch,
                    float* out) {
   float target[3];
-  for (int k = 0; k < 3; ++k) {  // other layers may have made anything of it
+  for (int k = 0; k < 3; ++k) {  // other layers may have written any value
     const float value = row[layer.curves[static_cast<size_t>(k)]];
     target[k] = value > -1e6f && value < 1e6f ? value : 0.0f;
   }

@@ -9,24 +9,24 @@
 namespace mien {
 namespace {
 
-constexpr float kEnough = 5e-5f;  // millimeters beyond a limit that are not worth another sweep
+constexpr float kEnough = 5e-5f;  // millimeters beyond a limit that need no other pass
 
-// By value and without branches, so that compilers make vectors of them.
+// By value and without branches, so that compilers vectorize them.
 float higher(float a, float b) { return a > b ? a : b; }
 float lower(float a, float b) { return a < b ? a : b; }
 
-/// How far a curve may go back, and what that closes while the others are as they have become; zeros
-/// if it opens nothing.
+/// How far a curve may go back, and how much that closes with the others as they are now; zeros if it opens
+/// nothing.
 struct Opening {
   float change, closes;
 };
 
-/// Takes curves back by what closes `excess` millimeters: `most` keeps the most that any guard wants.
+/// Takes curves back to close `excess` millimeters: `most` keeps the largest amount that any guard takes.
 void hold_guard(const PlacedGuard& guard, uint32_t width, const float* protected_row, float excess,
                 const float* row, float* most) {
   float values[kMaxGuardedCurves];
   memcpy(values, row, width * sizeof(float));
-  // What else depends on values goes without branches: they are hard to foretell.
+  // Other conditions on values are computed without branches, which would be mispredicted.
   const auto opening = [&](uint32_t i) {
     const uint32_t at = guard.places[i];
     const float change = row[at] - protected_row[at];
@@ -56,7 +56,7 @@ void hold_guard(const PlacedGuard& guard, uint32_t width, const float* protected
     const Opening two = opening(++i);
     const float opens = one.closes + two.closes;
     if (!(opens > 0)) continue;
-    // What a pair of the two makes of it: counted in full, so that the share is never too small.
+    // The effect of the product of the two, counted in full, so that the share is never too small.
     const float both = guard.both_gains[i] * one.change * two.change;
     const float closes = opens - higher(both, 0.0f);
     const float share = closes > excess ? excess / closes : 1;
@@ -67,7 +67,7 @@ void hold_guard(const PlacedGuard& guard, uint32_t width, const float* protected
   }
 }
 
-/// What is left of a row after more was taken off.
+/// The rest of a row after more was taken off.
 void take_off(const float* __restrict free_row, const float* __restrict more, uint32_t width,
               float* __restrict back, float* __restrict row) {
   for (uint32_t i = 0; i < width; ++i) {
@@ -104,7 +104,7 @@ size_t list_curves(Span<const Guard> guards, uint16_t* curves) {
   return static_cast<size_t>(std::unique(curves, end) - curves);
 }
 
-/// Where a product stands in the list, which it joins if it is new.
+/// The index of a product in the list, which it is added to if it is new.
 uint32_t find_product(uint16_t a, uint16_t b, uint16_t* products, uint32_t& count) {
   if (a > b) std::swap(a, b);
   uint32_t i = 0;
@@ -226,7 +226,7 @@ void ease_guards(const float* free_row, const float* protected_row, const float*
     const float change = free_row[i] - protected_row[i];
     const float now = lower(higher(eased, lower(change, 0.0f)), higher(change, 0.0f));
     held[i] = now;
-    // By bits: a branch would keep compilers from making vectors of the loop.
+    // With bits: a branch would keep compilers from vectorizing the loop.
     const uint32_t all = ((now == change) & (now != 0)) ? ~0u : 0;
     row[i] = float_of((bits_of(protected_row[i]) & all) | (bits_of(free_row[i] - now) & ~all));
   }

@@ -13,7 +13,7 @@
 namespace mien {
 namespace {
 
-/// What is wrong with an element of a list, and what it would have to be.
+/// Fails with a message about an element of a list: what is wrong, and what is allowed.
 template <class... Values>
 Status wrong(Error& error, const char* format, size_t index, Values... values) {
   return fail(error, Status::kInvalidArgument, kNoOffset, format, index, values...);
@@ -299,7 +299,7 @@ Status check_curves(const MixDesc& desc, uint32_t curves, Error& error) {
   return Status::kOk;
 }
 
-/// Placer::keep() for a list of which the elements refer to other lists: `keep_parts` keeps those.
+/// Placer::keep() for a list whose elements refer to other lists: `keep_parts` keeps those.
 template <class T, class KeepParts>
 void keep(Placer& placer, Span<const T>& list, KeepParts keep_parts) {
   const Span<T> copy = placer.array<T>(list.count);
@@ -311,7 +311,7 @@ void keep(Placer& placer, Span<const T>& list, KeepParts keep_parts) {
   if (!placer.measuring()) list = copy;
 }
 
-/// The mask where the source of a layer can have values; other curves stay 0.
+/// The mask, limited to curves for which the source of a layer can have values; other curves stay 0.
 void fill_mask(const Mix& mix, const LayerDesc& layer, Span<float> row) {
   const auto fill = [&](size_t curve) {
     row[curve] = layer.mask.empty() ? 1.0f : curve < layer.mask.count ? layer.mask[curve] : 0.0f;
@@ -390,7 +390,7 @@ void place_reactions(Placer& placer, Mix& mix) {
   });
 }
 
-/// Which strokes close what blinks close.
+/// Whether strokes close what blinks close.
 void place_lids(Placer& placer, Mix& mix) {
   mix.closes_lids = placer.array<uint8_t>(mix.stroke_count);
   if (placer.measuring()) return;

@@ -15,7 +15,7 @@ Status damaged(Error& error, uint64_t offset, const char* what) {
               "%s: the mix is damaged or was not written by Mien; write it again", what);
 }
 
-/// Once something is wrong, all that is read is zero.
+/// After an error, everything that is read is zero.
 struct MixReader {
   Span<const uint8_t> bytes;
   const Rig* rig;
@@ -52,7 +52,7 @@ struct MixReader {
     const uint8_t* from = take(sizeof(T));
     return from ? load_little_endian<T>(from) : T{};
   }
-  /// Of elements that take `size` bytes or more each.
+  /// Reads the number of elements that take `size` bytes or more each.
   uint32_t bounded(uint32_t most, size_t size) {
     const auto count = number<uint32_t>();
     if (count <= most && size_t{count} * size <= bytes.count - at) return count;
@@ -221,7 +221,7 @@ Status open_mix(Span<const uint8_t> bytes, const Rig* rig, const Allocator& allo
   if (rig) desc.kernels = rig->kernels;
   desc.max_bound_gui = bound_gui_limit(rig ? rig->gui_count : 0);
   status = create_mix(desc, allocator, out, error);
-  // Whatever create_mix() finds wrong, the file is.
+  // The file is wrong if create_mix() refuses its desc.
   if (status == Status::kInvalidArgument) error.status = status = Status::kMixStructure;
   return status;
 }

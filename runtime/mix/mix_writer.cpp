@@ -10,7 +10,7 @@
 namespace mien {
 namespace {
 
-/// What bytes and text have in common: elements are copied before they are walked, because a walk
+/// Shared by bytes and text: elements are copied before they are walked, because a walk may write them.
 /// may write them.
 template <class To>
 struct MixOutput {
@@ -90,7 +90,7 @@ struct MixBytes : MixOutput<MixBytes> {
   }
   template <class T, class Otherwise>
   void row(const char*, Span<const T> numbers, Otherwise) {
-    const bool there = !numbers.empty() && map.curve_of.count != 0;  // else it is as if left out
+    const bool there = !numbers.empty() && map.curve_of.count != 0;  // otherwise as if left out
     value("", there);
     for (size_t i = 0; there && i < map.curve_of.count; ++i) value("", numbers[map.curve_of[i]]);
   }
@@ -111,7 +111,7 @@ struct MixText : MixOutput<MixText> {
       snprintf(text, sizeof(text), "variable:%u", curve - mix.raw_count);
       return put(text);
     }
-    // A name stays in its line, and is no other curve.
+    // Escapes names: one stays on its line, and cannot be taken for another curve.
     for (char c : mix.names[curve]) {
       const bool plain = static_cast<unsigned char>(c) > ' ' && c != '\\' && c != ':' && c != 0x7F;
       snprintf(text, sizeof(text), plain ? "%c" : "\\x%02X",
@@ -213,7 +213,7 @@ struct CurveFinder : MixOutput<CurveFinder> {
 /// The curves of the file, in an arena.
 Status map_curves(const Mix& mix, MixDesc& desc, Arena& arena, CurveMap& map, Error& error) {
   map.curve_of = arena.array<uint16_t>(mix.used_curves() + 1);
-  map.file_curve_of = arena.array<uint16_t>(mix.used_curves() + 1);  // never nothing
+  map.file_curve_of = arena.array<uint16_t>(mix.used_curves() + 1);  // never empty
   if (!map.curve_of.data || !map.file_curve_of.data) {
     return fail(error, Status::kMemory, kNoOffset, "no memory to write a mix");
   }

@@ -36,7 +36,7 @@ void advance_players(Mixer& mixer, int64_t ticks) {
   }
 }
 
-/// Where the row goes that a layer shows now: over the older one of its two.
+/// The row that a layer shows now is written over the older one of its two.
 float* next_shown_row(Mixer& mixer, uint32_t index, int64_t ticks) {
   LayerState& layer = mixer.layers[index];
   if (ticks > 0 || layer.shown_count == 0) {
@@ -51,7 +51,7 @@ bool has_offsets(const Mixer& mixer, const LayerState& layer) {
   return mixer.header->now - layer.offset_start < layer.offset_ticks;
 }
 
-/// What a layer shows: a row and the offsets of a transition, if there are some.
+/// Computes what a layer shows: a row plus the offsets of a transition, if there are any.
 void show_row(Mixer& mixer, uint32_t index, const float* row, float* shown) {
   const LayerState& layer = mixer.layers[index];
   const size_t floats = shown_floats(*mixer.mix, index), curves = mixer.mix->curve_count;
@@ -65,7 +65,7 @@ void show_row(Mixer& mixer, uint32_t index, const float* row, float* shown) {
   if (row != shown) memcpy(shown + added, row + added, (floats - added) * sizeof(float));
 }
 
-/// `cover` may be null: the layer's mask leaves out what its poses have no value for.
+/// `cover` may be null: the layer's mask leaves out curves for which its poses have no value.
 void blend(Mixer& mixer, uint32_t index, float weight, const float* values, const float* cover,
            float scale = 1.0f) {
   const LayerDesc& layer = mixer.mix->layers[index];
@@ -133,7 +133,7 @@ void mix_stream_layer(Mixer& mixer, uint32_t index, int64_t ticks) {
   if (sample == StreamSample::kNone) return;
   if (sample == StreamSample::kLost) {
     const int64_t lost = stream.last_tick + kStreamAhead + layer.delay;
-    // A restored layer may find rows that were lost long before it was there.
+    // A restored layer may find that its rows were lost long before.
     const int64_t start = std::max(lost, now - ticks);
     if (state.presence.target != 0.0f) start_fade(state.presence, start, 0.0f, kStreamFade);
   } else if (state.presence.target != 1.0f) {
@@ -161,7 +161,7 @@ void mix_generator(Mixer& mixer, uint32_t index, int64_t ticks) {
   if (layer.generator == Generator::kGaze) {
     generate_gaze(*mix.gaze, layer, seed, index, now, ticks, mixer.row.data, mixer.gazes[0],
                   mixer.scratch.data, values);
-    // The curves of the eyes, then those that get what is left for the head.
+    // The curves of the eyes, then those of the head, which gets the rest.
     blend_curves(layer.mode, mix.gaze_curves, values, mix.mask_rows[index].data,
                  layer_weight(mixer.layers[index], layer.mode, now), mixer.row.data);
     return;
@@ -177,7 +177,7 @@ void mix_generator(Mixer& mixer, uint32_t index, int64_t ticks) {
                layer_weight(mixer.layers[index], layer.mode, now), mixer.row.data);
 }
 
-/// Compilers make vectors of it.
+/// In a form that compilers vectorize.
 void add_scaled(const float* __restrict from, float scale, size_t count, float* __restrict to) {
   for (size_t i = 0; i < count; ++i) to[i] += scale * from[i];
 }
@@ -224,7 +224,7 @@ float* guarded_row(const Mixer& mixer, GuardedRow which) {
   return mixer.guarded_rows.data + which * (mixer.guarded_rows.count / kGuardedRows);
 }
 
-/// Keeps what the row is now in the curves of guards.
+/// Stores the current values of the curves of guards.
 void gather_guarded(Mixer& mixer, GuardedRow which) {
   const Span<uint16_t> curves = mixer.mix->guard_table.curves;
   const float* const row = mixer.row.data;
@@ -288,7 +288,7 @@ void mix_guards(Mixer& mixer, int64_t ticks) {
 
 void net_antagonists(const Mix& mix, float* row) {
   for (const AntagonistPair& pair : mix.antagonists) {
-    // Without branches: which pairs meet is hard to foretell.
+    // Without branches, which would be mispredicted.
     const float a = row[pair.a], b = row[pair.b], smaller = a < b ? a : b;
     const float both = pair.stiffness * (smaller > 0.0f ? smaller : 0.0f);
     row[pair.a] = a - both;
@@ -349,7 +349,7 @@ void step_mixer(Mixer& mixer, int64_t ticks, float* out, size_t count, uint64_t*
 void step_mixers(Span<Mixer* const> mixers, int64_t ticks, float* const* outs, size_t count,
                  uint64_t* active, size_t active_stride) {
   for (size_t i = 0; i < mixers.count; ++i) {
-    // The first one's scratch serves all of its mix, so that it stays in the cache.
+    // Mixers of the same mix share the scratch of the first one, so that it stays in the cache.
     Mixer& mixer = *mixers[i];
     const Span<float> own = mixer.layer_row;
     if (mixer.mix == mixers[0]->mix) mixer.layer_row = mixers[0]->layer_row;

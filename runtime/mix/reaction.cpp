@@ -131,7 +131,7 @@ void trigger_reaction(const Mix& mix, uint32_t index, int64_t now, float strengt
   const bool running = state.running != 0;
   const bool cooled = !running || now - state.triggered >= reaction.cooldown;
   if (running && reaction.retrigger == Retrigger::kIgnore) return;
-  // Who triggers without a level means all of it.
+  // A trigger without a level means the full level.
   if (!state.level_is_on) aim_level(reaction, now, 1.0f, state, strokes);
   const int64_t end = hold_ticks == kUntilReleased ? kUntilReleased : now + hold_ticks;
   const bool lasted = running && state.stimulus_end >= now;

@@ -19,7 +19,7 @@ namespace {
 
 constexpr char kMagic[8] = {'M', 'I', 'E', 'N', 'S', 'N', 'P', '\n'};
 constexpr uint32_t kVersion = 3;
-constexpr int64_t kMaxTime = kMaxMixerTime + 2 * kMaxFadeTicks;  // of what is still to come, too
+constexpr int64_t kMaxTime = kMaxMixerTime + 2 * kMaxFadeTicks;  // including times still to come
 
 struct SnapshotHeader {
   char magic[8];
@@ -50,7 +50,7 @@ struct SavedState {
 bool is_duration(int64_t ticks) { return ticks >= 0 && ticks <= kMaxFadeTicks; }
 bool is_time(int64_t tick) { return tick >= -kMaxTime && tick <= kMaxTime; }
 
-// What may stand in a snapshot; of numbers that are only computed with, all finite ones.
+// Whether a snapshot may have a value; numbers that are only computed with may have any finite value.
 bool valid(float value) { return std::isfinite(value); }
 
 bool valid(const Fade& fade) {

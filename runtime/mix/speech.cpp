@@ -20,7 +20,7 @@ void add_player(const Mixer& mixer, uint16_t index, float share, SpeechLayer& la
   }
 }
 
-/// What of a clip closes a guard; kClosures: nothing.
+/// The closure label of a clip that a guard responds to; kClosures: none.
 uint32_t closure_of(const Guard& guard) {
   switch (guard.kind < kStandardGuardCount ? static_cast<StandardGuard>(guard.kind)
                                            : StandardGuard::kLidsLeft) {
