@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Branches of reading, checking, converting and compiling that tests reach. `./dev coverage` calls it.
+"""Measures branch coverage of the code that reads, checks, converts and compiles. `./dev coverage` runs it.
 
     coverage.py BUILD [--no-run]
 
-BUILD is a build by clang with MIEN_COVERAGE. The test programs below run, then a table tells for each file
-how many branches there are (each condition once true and once false) and how many were taken, over all
-instances of a template. Those that were not are listed in BUILD/branches.txt. tests/coverage.md gives reasons
-for some of them; the others are printed. Fails below 95 %, and when a reason there is for nothing.
+BUILD is a build by clang with MIEN_COVERAGE. Runs the test programs below, then prints for each file the number
+of branches (two per condition: true and false) and how many were taken, summed over all instances of a template.
+The others are listed in BUILD/branches.txt, and printed unless tests/coverage.md gives a reason. Fails below 95 %,
+and if a reason in tests/coverage.md no longer applies.
 """
 import argparse
 import collections
@@ -117,7 +117,7 @@ def main():
     print(f"{len(missing)} not taken ({build}/branches.txt), {len(unexplained)} of them without a reason in "
           "tests/coverage.md:", *unexplained, sep="\n")
     for path, code in sorted(unused):
-        print(f"tests/coverage.md: `{code}` in {path} is taken both ways, or is not there")
+        print(f"tests/coverage.md: `{code}` in {path} is taken both ways, or does not exist")
     if percent < LEAST:
         print(f"less than {LEAST} %")
     return percent < LEAST or bool(unused)

@@ -103,7 +103,7 @@ using Indices = std::vector<int>;
 
 Indices list(Span<const uint16_t> span) { return {span.begin(), span.end()}; }
 
-TEST(Binding, FindsRawControlsInAnyOrderAndListsTheRest) {  // A4
+TEST(Binding, FindsRawControlsInAnyOrderAndListsTheRest) {
   const MadeClip made(input_of({"jawOpen", "smile", "still", "tailWag"}));
   const RigHandle rig = NamedRig{{"brow", "smile", "still", "nose", "jawOpen"}, {}, {}}.make();
   const Bound bound(made.clip, rig);
@@ -114,7 +114,7 @@ TEST(Binding, FindsRawControlsInAnyOrderAndListsTheRest) {  // A4
   EXPECT_EQ(bound->gui_count, 0u);
 }
 
-TEST(Binding, CommonControlsAreEqualBitForBitOnEveryRig) {  // A4
+TEST(Binding, CommonControlsAreEqualBitForBitOnEveryRig) {
   const Names all = {"a", "b", "c", "d", "e", "f"};
   const MadeClip made(input_of(all));
   const RigHandle same = NamedRig{all, {}, {}}.make();

@@ -119,12 +119,12 @@ const Material kMaterials[] = {
 
 class RoundTrip : public testing::TestWithParam<Material> {};
 
-TEST_P(RoundTrip, GivesBackEveryBit) {  // A1
+TEST_P(RoundTrip, GivesBackEveryBit) {
   const Curves curves = GetParam().make();
   EXPECT_TRUE(same_bits(decoded(MadeClip(ClipInput(curves)).clip), curves));
 }
 
-TEST_P(RoundTrip, OfSnappedValuesIsWithinHalfAStep) {  // A2
+TEST_P(RoundTrip, OfSnappedValuesIsWithinHalfAStep) {
   const Curves curves = GetParam().make();
   for (uint32_t snap : {9u, 11u, 16u}) {
     const MadeClip made(ClipInput(curves, snap));

@@ -85,7 +85,7 @@ class AnyOrder : public testing::TestWithParam<int> {
   }
 };
 
-TEST_P(AnyOrder, ForwardBackwardAndAtRandomGivesTheBitsOfTheFrames) {  // A1
+TEST_P(AnyOrder, ForwardBackwardAndAtRandomGivesTheBitsOfTheFrames) {
   const Curves expected = curves();
   const MadeClip made((ClipInput(expected)));
   const int64_t frame = made.clip.ticks_per_frame;
@@ -565,7 +565,7 @@ std::vector<int> on_the_way(const Clip& clip, int64_t length, int64_t from, int6
   return all;
 }
 
-TEST(ClipEvents, AreAsManyAsThereAreArrivalsInTheirOrder) {  // A6
+TEST(ClipEvents, AreAsManyAsThereAreArrivalsInTheirOrder) {
   Random random = Random::from_seed(6, 6);
   const int64_t length = 5 * ticks_per_frame(60, 1);
   const auto below_length = [&] { return int64_t{random.below(static_cast<uint32_t>(length))}; };

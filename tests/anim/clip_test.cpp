@@ -398,7 +398,7 @@ TEST(ClipDamage, MutatedBytesAreRefusedOrPlayedSafely) {
   const Bytes originals[] = {tiny_input().build(), half.build()};
   std::minstd_rand random(first_seed());
   int opened = 0, unnoticed = 0;
-  for (size_t i = 0; i < rounds(1500, 10000000); ++i) {  // A5
+  for (size_t i = 0; i < rounds(1500, 10000000); ++i) {
     Bytes bytes = originals[i % 2];
     for (uint32_t changes = 1 + random() % 3; changes > 0; --changes) {
       const size_t limit = random() % 3 == 0 ? kClipHeaderSize : bytes.size();

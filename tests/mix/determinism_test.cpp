@@ -27,7 +27,7 @@ uint64_t minute_of(const MixScene& scene, uint64_t seed) {
   return hash;
 }
 
-TEST(Determinism, OfAMinuteOnEveryInstructionSet) {  // F1
+TEST(Determinism, OfAMinuteOnEveryInstructionSet) {
   for (uint32_t isa = 1; isa < kIsaCount; ++isa) {
     const KernelTable* kernels = kernels_for(static_cast<Isa>(isa));
     if (!kernels) continue;
@@ -37,7 +37,7 @@ TEST(Determinism, OfAMinuteOnEveryInstructionSet) {  // F1
   }
 }
 
-TEST(Determinism, OfAnyNumberOfThreads) {  // F1
+TEST(Determinism, OfAnyNumberOfThreads) {
   const MixScene scene(kRaws);
   constexpr uint32_t kActors = 16, kSteps = 300;
   std::vector<uint64_t> expected;
@@ -64,7 +64,7 @@ TEST(Determinism, OfAnyNumberOfThreads) {  // F1
   EXPECT_NE(expected[0], expected[1]);
 }
 
-TEST(Determinism, OfABatchOf64AndOfEachAlone) {  // F1
+TEST(Determinism, OfABatchOf64AndOfEachAlone) {
   const MixScene scene(kRaws);
   constexpr uint32_t kActors = 64;
   std::deque<SceneActor> together, alone;
@@ -96,7 +96,7 @@ TEST(Determinism, OfABatchOf64AndOfEachAlone) {  // F1
   }
 }
 
-TEST(Determinism, DifferentSeedsChangeTheCurvesOfLifeOnly) {  // F4
+TEST(Determinism, DifferentSeedsChangeTheCurvesOfLifeOnly) {
   const MixScene scene(kRaws);
   SceneActor one(scene, 1), two(scene, 2);
   // Curves that generators have, and what guards and antagonists couple with them.
@@ -133,7 +133,7 @@ TEST(Determinism, DifferentSeedsChangeTheCurvesOfLifeOnly) {  // F4
   EXPECT_GT(differ, 600u);
 }
 
-TEST(Determinism, DoesNotDependOnTheLodsThatTheRigIsEvaluatedAt) {  // G3
+TEST(Determinism, DoesNotDependOnTheLodsThatTheRigIsEvaluatedAt) {
   const RigHandle rig = create_rig(generate_dna(MIEN_PRESET_SMALL, 5).get());
   Character character(rig);
   const MixScene scene(static_cast<uint32_t>(character.raw.count));

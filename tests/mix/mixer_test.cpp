@@ -40,7 +40,7 @@ MixInput two_layers(BlendMode mode, Row mask = {}) {
 
 // Modes ----------------------------------------------------------------------------------------------
 
-TEST(Layers, WithoutWeightKeepEveryBitInEveryMode) {  // B1
+TEST(Layers, WithoutWeightKeepEveryBitInEveryMode) {
   const BoundClip base(random_input(1), kCurves), other(random_input(2), kCurves);
   for (BlendMode mode : kModes) {
     MixInput unmasked = two_layers(mode), masked = two_layers(mode, Row(kCurves, 0.0f));
@@ -60,7 +60,7 @@ TEST(Layers, WithoutWeightKeepEveryBitInEveryMode) {  // B1
   }
 }
 
-TEST(Layers, AnEmptyMixGivesZerosAndVariables) {  // B1
+TEST(Layers, AnEmptyMixGivesZerosAndVariables) {
   MixInput input(3, 2);
   const MixHandle mix = make_mix(input);
   OwnMixer own(mix);
@@ -69,7 +69,7 @@ TEST(Layers, AnEmptyMixGivesZerosAndVariables) {  // B1
   EXPECT_TRUE(same_bits(own.step(kStep), {0, 0, 0, 0, -2.5f}));
 }
 
-TEST(Layers, OverrideWithFullWeightGivesTheBitsOfTheSource) {  // B2
+TEST(Layers, OverrideWithFullWeightGivesTheBitsOfTheSource) {
   const BoundClip below(random_input(3), kCurves), source(random_input(4), kCurves);
   MixInput input = two_layers(BlendMode::kOverride, Row(kCurves, 1.0f));
   const MixHandle mix = make_mix(input);
@@ -83,7 +83,7 @@ TEST(Layers, OverrideWithFullWeightGivesTheBitsOfTheSource) {  // B2
   }
 }
 
-TEST(Layers, DeltaOnItsReferenceGivesTheOriginal) {  // B3
+TEST(Layers, DeltaOnItsReferenceGivesTheOriginal) {
   ClipInput reference = random_input(5, 100, 0, 0.5f), original = random_input(6, 100, 0, 1);
   ClipInput delta = original;
   delta.is_delta = true;
@@ -112,7 +112,7 @@ TEST(Layers, DeltaOnItsReferenceGivesTheOriginal) {  // B3
   }
 }
 
-TEST(Layers, ScreenStaysWithinLimitsAndCommutes) {  // B4
+TEST(Layers, ScreenStaysWithinLimitsAndCommutes) {
   const BoundClip base(random_input(7, 100, 0, 1), kCurves);
   const BoundClip a(random_input(8, 100, 0, 1), kCurves), b(random_input(9, 100, 0, 1), kCurves);
   MixInput input(kCurves);
@@ -137,7 +137,7 @@ TEST(Layers, ScreenStaysWithinLimitsAndCommutes) {  // B4
   }
 }
 
-TEST(Layers, SumsOfDisjointMasksDoNotDependOnTheirOrder) {  // B4
+TEST(Layers, SumsOfDisjointMasksDoNotDependOnTheirOrder) {
   const BoundClip base(random_input(10), kCurves), a(random_input(11), kCurves),
       b(random_input(12), kCurves);
   Row left(kCurves), right(kCurves);
@@ -158,7 +158,7 @@ TEST(Layers, SumsOfDisjointMasksDoNotDependOnTheirOrder) {  // B4
   EXPECT_TRUE(same_bits(results[0], results[1]));
 }
 
-TEST(Layers, NeverTouchCurvesThatTheirMaskLeavesOut) {  // B5
+TEST(Layers, NeverTouchCurvesThatTheirMaskLeavesOut) {
   const BoundClip base(random_input(13), kCurves);
   std::deque<BoundClip> clips;
   for (int i = 0; i < 3; ++i) clips.emplace_back(random_input(20 + i), kCurves);
@@ -187,7 +187,7 @@ TEST(Layers, NeverTouchCurvesThatTheirMaskLeavesOut) {  // B5
   }
 }
 
-TEST(Layers, CurvesOfZerosStayZeroAndInactive) {  // B6
+TEST(Layers, CurvesOfZerosStayZeroAndInactive) {
   constexpr uint32_t kActive = 9;
   std::deque<BoundClip> clips;
   for (int i = 0; i < 3; ++i) {
@@ -346,7 +346,7 @@ TEST(Poses, LeaveAloneCurvesThatNoneOfThemHas) {
 
 // Stages ---------------------------------------------------------------------------------------------
 
-TEST(Antagonists, AreNeverBothAboveZero) {  // F5
+TEST(Antagonists, AreNeverBothAboveZero) {
   const BoundClip clip(random_input(19), kCurves), other(random_input(20), kCurves);
   MixInput input = two_layers(BlendMode::kAdd);
   std::vector<AntagonistPair> pairs;

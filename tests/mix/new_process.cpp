@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-// A mixer goes on in another process as it would have gone on in its own, from a mix and snapshots
-// in files (F2).
+// A mix and its snapshots continue in another process with the same results.
 //
-//     new_process take FOLDER         a scene, of which it takes a snapshot a hundred times in the middle
-//                                     of everything; writes the mix, them, and the hash of what follows
-//     new_process continue FOLDER     goes on from each of them in a fresh mixer, and compares
+//     new_process take FOLDER         plays a scene, takes 100 snapshots of it, and writes the mix, the
+//                                     snapshots, and the hash of the frames after each
+//     new_process continue FOLDER     continues from each snapshot in a new mixer, and compares
 #include <cstdio>
 #include <fstream>
 #include <iterator>

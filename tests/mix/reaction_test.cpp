@@ -86,7 +86,7 @@ struct Recording {
   }
 };
 
-TEST(Glare, ActsWhenAndWhereItShould) {  // D1 to D6
+TEST(Glare, ActsWhenAndWhereItShould) {
   const FaceMix face;
   OwnMixer plain = face.start(), lit = face.start();
   Recording without, with;
@@ -101,27 +101,27 @@ TEST(Glare, ActsWhenAndWhereItShould) {  // D1 to D6
     const Row &a = without.rows[ms], &b = with.rows[ms];
     if (!same_bits(a, b)) last_difference = ms;
     if (ms <= 2060) {
-      ASSERT_TRUE(same_bits(a, b)) << ms;  // D1
+      ASSERT_TRUE(same_bits(a, b)) << ms;
     }
     for (int lid = 0; lid < 2; ++lid) {
       if (closed[lid] == 0 && b[lid] >= 0.9f) closed[lid] = ms;
     }
     if (ms <= 2200) {
-      ASSERT_EQ(bits_of(a[kPupil]), bits_of(b[kPupil])) << ms;  // D3
+      ASSERT_EQ(bits_of(a[kPupil]), bits_of(b[kPupil])) << ms;
     }
-    for (uint32_t l = kMouth; l < kRaw; ++l) ASSERT_EQ(bits_of(a[l]), bits_of(b[l]));  // D4
-    for (uint32_t l = 0; l < kCurves && ms > 1; ++l) {                                 // D5
+    for (uint32_t l = kMouth; l < kRaw; ++l) ASSERT_EQ(bits_of(a[l]), bits_of(b[l]));
+    for (uint32_t l = 0; l < kCurves && ms > 1; ++l) {
       const float faster =
           std::fabs((b[l] - with.rows[ms - 1][l]) - (a[l] - without.rows[ms - 1][l]));
       ASSERT_LE(faster * 1000, l < 2 ? 30.0f : 12.0f) << ms << ", curve " << l;
     }
   }
-  for (int lid : closed) {  // D2
+  for (int lid : closed) {
     EXPECT_GE(lid, 2110);
     EXPECT_LE(lid, 2160);
   }
   const float travel = with.rows[2450][kPupil] / -0.5f;
-  EXPECT_NEAR(travel, 1 - std::exp(-1.0), 0.003);  // D3
+  EXPECT_NEAR(travel, 1 - std::exp(-1.0), 0.003);
   EXPECT_EQ(with.events, without.events);
   EXPECT_EQ(with.events.size(), 1u);
   // Pupils are the last: 500 ms * 12 ln 2 after the light.
@@ -203,7 +203,7 @@ TEST(Glare, AdaptsWhileTheLightStays) {
   EXPECT_NEAR(later, 0.6f * -0.4f, 1e-4f);
 }
 
-TEST(Glare, TriggeredAgainOrFlickeringMakesNoJump) {  // D7
+TEST(Glare, TriggeredAgainOrFlickeringMakesNoJump) {
   for (int flicker : {0, 1}) {
     for (Retrigger rule : {Retrigger::kExtend, Retrigger::kRestart, Retrigger::kIgnore}) {
       const FaceMix face(rule);
@@ -292,7 +292,7 @@ TEST(Level, ScalesStrokesWithoutAJump) {
   EXPECT_TRUE(same_bits(with.rows[12000], without.rows[12000]));
 }
 
-TEST(Level, ThatFlickersIsALightThatIsOn) {  // D7
+TEST(Level, ThatFlickersIsALightThatIsOn) {
   for (Retrigger rule : {Retrigger::kExtend, Retrigger::kRestart, Retrigger::kIgnore}) {
     const FaceMix face(rule);
     OwnMixer steady = face.start(), flickering = face.start();
@@ -340,7 +340,7 @@ TEST(Level, IsFollowedWithoutOvershootAndSlowly) {
   EXPECT_EQ(level_value(level, 1100 * kMillisecond), 1.0f);
 }
 
-TEST(Level, DoesNotDependOnHowTimeIsDivided) {  // F3
+TEST(Level, DoesNotDependOnHowTimeIsDivided) {
   const FaceMix face;
   OwnMixer coarse = face.start(), fine = face.start();
   for (int i = 0; i < 200; ++i) {
@@ -378,7 +378,7 @@ TEST(Level, IsIgnoredWhereTriggersAre) {
   EXPECT_LT(lit.step(kTicksPerSecond)[kGaze], -0.2f);
 }
 
-TEST(Glare, DoesNotDependOnHowTimeIsDivided) {  // F3
+TEST(Glare, DoesNotDependOnHowTimeIsDivided) {
   const FaceMix face;
   OwnMixer coarse = face.start(), fine = face.start();
   for (int i = 0; i < 100; ++i) {

@@ -120,7 +120,7 @@ Status restore(OwnMixer& own, const std::vector<uint8_t>& bytes,
   return restore_snapshot(own.mixer, {bytes.data(), bytes.size()}, {&sources, find}, error);
 }
 
-TEST(Snapshot, ContinuesToTheBitAnywhere) {  // F2
+TEST(Snapshot, ContinuesToTheBitAnywhere) {
   const Everything all;
   OwnMixer own(all.mix, 9);
   Random random = Random::from_seed(90, 0);

@@ -60,7 +60,7 @@ TEST(Stream, IsLinearBetweenItsFramesAndDelayed) {
   EXPECT_EQ(row[0], 0.0f);
 }
 
-TEST(Stream, WithLossJitterAndAGapMakesNoJump) {  // G4
+TEST(Stream, WithLossJitterAndAGapMakesNoJump) {
   const StreamMix stream(60 * kMillisecond);
   OwnMixer own(stream.mix);
   Random random = Random::from_seed(70, 0);
@@ -102,7 +102,7 @@ TEST(Stream, WithLossJitterAndAGapMakesNoJump) {  // G4
   EXPECT_LE(largest, 1.875f / 0.25f);
 }
 
-TEST(Stream, BlendsToRowsThatDoNotGoOnAsWasGuessed) {  // G4
+TEST(Stream, BlendsToRowsThatDoNotGoOnAsWasGuessed) {
   const StreamMix stream(0, 64);
   OwnMixer own(stream.mix);
   for (int ms = 0; ms <= 440; ms += 20) {
@@ -123,7 +123,7 @@ TEST(Stream, BlendsToRowsThatDoNotGoOnAsWasGuessed) {  // G4
   EXPECT_LE(fastest, 1 + 1.875f * 0.38f / 0.1f) << "its own speed and that of a blend in 100 ms";
 }
 
-TEST(Stream, FadesOutFromItsOwnTimeWhateverTheSteps) {  // F3
+TEST(Stream, FadesOutFromItsOwnTimeWhateverTheSteps) {
   const StreamMix stream(0);
   OwnMixer fine(stream.mix), coarse(stream.mix);
   for (OwnMixer* own : {&fine, &coarse}) {
@@ -166,7 +166,7 @@ TEST(Stream, DropsWhatIsLateOrTooMuchAndRefusesWhatIsNotFinite) {
   EXPECT_EQ(push_row(own.mixer, 1, 40, {bad.data(), 3}, nullptr, error), Status::kIndex);
 }
 
-TEST(Stream, TakesRowsFromAnotherThread) {  // G2
+TEST(Stream, TakesRowsFromAnotherThread) {
   const StreamMix stream(0);
   OwnMixer own(stream.mix);
   std::thread producer([&] {
@@ -302,7 +302,7 @@ TEST(Noise, IsSmoothBoundedAndDiffersByCurveAndSeed) {
   EXPECT_GT(seeds, 19000);
 }
 
-TEST(Generators, DoNotDependOnHowTimeIsDivided) {  // F3
+TEST(Generators, DoNotDependOnHowTimeIsDivided) {
   for (Generator kind : {Generator::kBlink, Generator::kBreath, Generator::kNoise}) {
     MixInput input(kCurves);
     const MixHandle mix =

@@ -13,7 +13,7 @@
 namespace mien {
 namespace {
 
-TEST(Steady, NoMemoryIsTakenAfterTheMixerIsMade) {  // G1
+TEST(Steady, NoMemoryIsTakenAfterTheMixerIsMade) {
   const MixScene scene(61);
   CountingAllocator counting;
   const MienAllocator given = counting.get();

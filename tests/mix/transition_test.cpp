@@ -49,7 +49,7 @@ struct Playing {
   float change(uint32_t curve) const { return row[curve] - before[curve]; }
 };
 
-TEST(WeightFade, IsTheQuinticAndEndsExactly) {  // C1
+TEST(WeightFade, IsTheQuinticAndEndsExactly) {
   const TwoClips setup;
   Playing faded(setup, 0), source(setup, 0);
   faded.own.weight(0, 0.0f);
@@ -78,7 +78,7 @@ TEST(WeightFade, IsTheQuinticAndEndsExactly) {  // C1
   }
 }
 
-TEST(Crossfade, KeepsTheSpeedOfItsSourcesAtBothEnds) {  // C1
+TEST(Crossfade, KeepsTheSpeedOfItsSourcesAtBothEnds) {
   const TwoClips setup;
   Playing crossed(setup, 0), from(setup, 0);
   for (int i = 0; i < 100; ++i) {
@@ -108,7 +108,7 @@ TEST(Crossfade, KeepsTheSpeedOfItsSourcesAtBothEnds) {  // C1
   }
 }
 
-TEST(Inertial, CarriesValueAndSpeedAndEndsExactly) {  // C2
+TEST(Inertial, CarriesValueAndSpeedAndEndsExactly) {
   const TwoClips setup;
   for (int start : {30, 333, 1200}) {
     Playing run(setup, 0);
@@ -146,7 +146,7 @@ TEST(Inertial, CarriesValueAndSpeedAndEndsExactly) {  // C2
   }
 }
 
-TEST(Inertial, OffsetsNeverChangeTheirSign) {  // C2
+TEST(Inertial, OffsetsNeverChangeTheirSign) {
   Random random = Random::from_seed(50, 0);
   for (int round = 0; round < 20000; ++round) {
     const auto d = static_cast<float>(random.between(-1, 1) * (random.chance(0.2) ? 1e-4 : 1));
@@ -177,7 +177,7 @@ TEST(Inertial, SlopeIsTheDerivative) {
   }
 }
 
-TEST(Transitions, WithoutEndsOfOtherOnesAreContinuous) {  // C3
+TEST(Transitions, WithoutEndsOfOtherOnesAreContinuous) {
   for (uint32_t players : {1u, 2u, 3u}) {
     const TwoClips setup(3, players);
     Random random = Random::from_seed(52, players);
@@ -228,7 +228,7 @@ TEST(Transitions, WithoutEndsOfOtherOnesAreContinuous) {  // C3
   }
 }
 
-TEST(WeightFade, RetriggeredKeepsValueAndSpeed) {  // C3
+TEST(WeightFade, RetriggeredKeepsValueAndSpeed) {
   Random random = Random::from_seed(53, 0);
   Fade fade;
   set_fade(fade, 0.5f);
@@ -263,7 +263,7 @@ TEST(WeightFade, DoesNotDependOnHowTimeIsDivided) {
   }
 }
 
-TEST(Loops, WithWrappingAddNoStep) {  // C4
+TEST(Loops, WithWrappingAddNoStep) {
   const TwoClips setup;
   const Curves curves = decoded(setup.clips[0].made.clip);
   Playing run(setup, 0, 9900 * kMillisecond);

@@ -1,17 +1,17 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Plants faults, one at a time, into what reads, checks and converts files, and tells which of them no test
-notices.
+"""Changes the code that reads, checks and converts files, one small fault at a time, and lists the faults that no
+test notices.
 
     mutate.py BUILD [--count N] [--first K] [--seed S]    N faults of the shuffled list, from K on
     mutate.py BUILD --headers [...]                       the same in headers, which takes longer
     mutate.py BUILD --plant PLACE FAULT                   one, such as dna/dna_reader.cpp:557 "0 -> 1"
     mutate.py BUILD --show NUMBER                         one fault as a difference
 
-BUILD is a build with its tests. Neither it nor the sources are changed: a changed source, or what includes a
-changed header, is compiled aside and linked in front of what it replaces. Faults: comparisons, logic, sums, numbers, and checks that are left
-out. Some change nothing that anybody could see; the others ask for a test. The slow tests, of damage byte
-by byte and of generated rigs, run with --slow only. survivors.md tells what came of it.
+BUILD is a build with its tests. Neither it nor the sources are modified: a changed source, or each source that
+includes a changed header, is compiled in a separate directory and linked ahead of the original. Faults: changed
+comparisons, logic, sums and numbers, and removed checks. Some have no visible effect; the others need a test. The
+slow tests (damage to every byte, generated rigs) only run with --slow. survivors.md has the results.
 """
 import argparse
 import concurrent.futures

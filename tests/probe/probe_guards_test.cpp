@@ -385,7 +385,7 @@ TEST(ProbeGuards, FailsWithoutALeakWhereverMemoryRunsOut) {
 
 // Speech under emotion ----------------------------------------------------------------------------
 
-TEST(GuardedSpeech, LipsStayClosedAndMostOfTheEmotionStays) {  // E1 to E3
+TEST(GuardedSpeech, LipsStayClosedAndMostOfTheEmotionStays) {
   for (uint64_t seed : kSeeds) {
     GuardedHead& h = head(seed);
     const std::vector<Pose> poses = poses_of(kClosedLips, h);
@@ -446,7 +446,7 @@ TEST(GuardedSpeech, FacesThatAreEvenStayEvenAndMirroredOnesMirrored) {
   }
 }
 
-TEST(GuardedSpeech, LowerLipStaysAtTheTeeth) {  // E4
+TEST(GuardedSpeech, LowerLipStaysAtTheTeeth) {
   for (uint64_t seed : kSeeds) {
     GuardedHead& h = head(seed);
     const Outcome o = try_emotions(h, poses_of(kLipToTeeth, h), {Kind::kLipToTeeth});
@@ -458,7 +458,7 @@ TEST(GuardedSpeech, LowerLipStaysAtTheTeeth) {  // E4
   }
 }
 
-TEST(GuardedSpeech, LidsStayAsShutAsABlinkHasThem) {  // E4
+TEST(GuardedSpeech, LidsStayAsShutAsABlinkHasThem) {
   for (uint64_t seed : kSeeds) {
     GuardedHead& h = head(seed);
     const PoseText blinks[] = {"eyeBlink .8", "eyeBlink .9, mouthSmile .4", "eyeBlink 1"};
@@ -489,7 +489,7 @@ Pose speech_at(const GuardedHead& h, double seconds) {
   return pose;
 }
 
-TEST(GuardedSpeech, NoCurveIsFasterThanItsSourcesByMoreThanTheGuardsSpeed) {  // E5
+TEST(GuardedSpeech, NoCurveIsFasterThanItsSourcesByMoreThanTheGuardsSpeed) {
   GuardedHead& h = head(0);
   const Guards guards(h, kLips);
   for (double dt : {0.001, 1 / 60.0}) {
@@ -541,7 +541,7 @@ TEST(GuardedSpeech, NoCurveIsFasterThanItsSourcesByMoreThanTheGuardsSpeed) {  //
   }
 }
 
-TEST(GuardedSpeech, AGuardThatIsNotActiveChangesNoBit) {  // E6
+TEST(GuardedSpeech, AGuardThatIsNotActiveChangesNoBit) {
   GuardedHead& h = head(0);
   const Guards guards(h, kLips);
   const Pose open = pose_of("jawOpen .7", h.controls);

@@ -82,7 +82,7 @@ std::vector<double> reference(const Skeleton& skeleton, const float* locals) {
   return models;
 }
 
-TEST(SolverStack, ModelMatricesAreThoseOfADoubleReference) {  // H1
+TEST(SolverStack, ModelMatricesAreThoseOfADoubleReference) {
   SolvedRig rig(3, 24);
   std::vector<uint16_t> roots;
   for (uint16_t j = 0; j < rig.joint_count(); ++j) {
@@ -129,7 +129,7 @@ TEST(SolverStack, RotationsOfAnyLengthCountAsUnitOnes) {
   for (size_t i = 0; i < models.size(); ++i) EXPECT_NEAR(models[i], unit_models[i], 1e-4) << i;
 }
 
-TEST(SolverStack, UpdatesOfPartsHaveTheBitsOfAFullOne) {  // H1
+TEST(SolverStack, UpdatesOfPartsHaveTheBitsOfAFullOne) {
   SolvedRig rig(5, 30);
   std::mt19937 random(2);
   for (uint16_t joint = 0; joint < rig.joint_count(); ++joint) {
@@ -213,7 +213,7 @@ TEST(SolverStack, SolversSeeWhatEarlierOnesMoved) {
 
 // Order -----------------------------------------------------------------------------------------------
 
-TEST(SolverStack, RefusesToReadWhatALaterSolverMoves) {  // H5
+TEST(SolverStack, RefusesToReadWhatALaterSolverMoves) {
   SolvedRig rig(9, 20);
   const uint16_t joint = rig.joint_with_children(), child = rig.child_of(joint);
   const uint16_t other = rig.leaf();
@@ -260,7 +260,7 @@ TEST(SolverStack, GivesTheMatricesOfTheLastStep) {
   }
 }
 
-TEST(SolverStack, NamesASolverThatWritesWhatItDidNotDeclare) {  // H5
+TEST(SolverStack, NamesASolverThatWritesWhatItDidNotDeclare) {
   SolvedRig rig(10, 20);
   const uint16_t joint = rig.leaf();
   Shaker shaker = {{joint, rig.joint_with_children()}, 2};

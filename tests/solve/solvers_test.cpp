@@ -85,7 +85,7 @@ struct AimCase {
   }
 };
 
-TEST(Aim, ReachesTheTarget) {  // H4
+TEST(Aim, ReachesTheTarget) {
   for (uint32_t seed = 0; seed < 100; ++seed) {
     AimCase c(seed);
     const Vec3 before = c.at(), target = before + random_direction(c.random) * 20;
@@ -95,7 +95,7 @@ TEST(Aim, ReachesTheTarget) {  // H4
   }
 }
 
-TEST(Aim, StopsAtTheEdgeOfItsCone) {  // H4
+TEST(Aim, StopsAtTheEdgeOfItsCone) {
   const double cone = 0.4;
   int outside = 0;
   for (uint32_t seed = 0; seed < 100; ++seed) {
@@ -117,7 +117,7 @@ TEST(Aim, StopsAtTheEdgeOfItsCone) {  // H4
   EXPECT_GT(outside, 50);
 }
 
-TEST(Aim, StopsAtTheEdgeAlsoJustOutsideOfIt) {  // H4
+TEST(Aim, StopsAtTheEdgeAlsoJustOutsideOfIt) {
   const double cone = 0.4;
   for (double off : {-0.002, 0.002}) {
     AimCase c(7);
@@ -205,7 +205,7 @@ struct SpaceCase {
   Rotation turned() { return rotation_of(rig.model(space.joint)); }
 };
 
-TEST(SpaceSwitch, HoldsTheJointWhereItIsAndEasesItOver) {  // H2
+TEST(SpaceSwitch, HoldsTheJointWhereItIsAndEasesItOver) {
   for (uint32_t seed = 0; seed < 20; ++seed) {
     SpaceCase c(seed, kSecond / 2);
     c.rig.pose(seed, 0);
@@ -344,7 +344,7 @@ TEST(Spring, FollowsTheSolutionOfItsEquation) {
   }
 }
 
-TEST(Spring, EnergyNeverGrowsWhateverTheStep) {  // H3
+TEST(Spring, EnergyNeverGrowsWhateverTheStep) {
   for (float frequency : {0.5f, 3.0f, 50.0f, 500.0f}) {
     for (float damping : {0.0f, 0.05f, 1.0f, 4.0f}) {
       for (int64_t ticks : {kMillisecond / 10, kMillisecond, kSecond / 60, kSecond / 7, kSecond}) {
@@ -361,7 +361,7 @@ TEST(Spring, EnergyNeverGrowsWhateverTheStep) {  // H3
   }
 }
 
-TEST(Spring, EndsAtTheSamePlaceHoweverASecondIsDivided) {  // H3
+TEST(Spring, EndsAtTheSamePlaceHoweverASecondIsDivided) {
   SpringCase whole(3, 0.1f);
   whole.start({1, 2, 3}, {0, -5, 0});
   whole.step(kSecond);
@@ -522,7 +522,7 @@ TEST(Copy, OfTheNeutralPoseIsTheNeutralPose) {
 
 // All of them -----------------------------------------------------------------------------------------
 
-TEST(Solvers, ABatchHasTheBitsOfSingleCharacters) {  // H6
+TEST(Solvers, ABatchHasTheBitsOfSingleCharacters) {
   SolvedRig rig(13, 40);
   const Skeleton& skeleton = rig.skeleton;
   AimSolver aim;

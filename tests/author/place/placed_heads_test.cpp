@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What placed bones are accepted by, on a generated head and on real ones. Without the meshes those
-// are skipped.
+// Properties of placed bones, on a generated head and on real heads. The real ones are skipped if
+// their meshes are missing.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -16,7 +16,7 @@
 namespace mien::author {
 namespace {
 
-class Acceptance : public ::testing::TestWithParam<const char*> {
+class PlacedHeads : public ::testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
     if (is("generated")) return;
@@ -33,11 +33,11 @@ class Acceptance : public ::testing::TestWithParam<const char*> {
   AuthorSetup head_;
 };
 
-INSTANTIATE_TEST_SUITE_P(Heads, Acceptance,
+INSTANTIATE_TEST_SUITE_P(Heads, PlacedHeads,
                          ::testing::Values("generated", "ict", "makehuman", "mediapipe"),
                          [](const auto& head) { return std::string(head.param); });
 
-TEST_P(Acceptance, TheObjectiveNeverRises) {
+TEST_P(PlacedHeads, TheObjectiveNeverRises) {
   for (const bool paper : {false, true}) {
     PlaceOptions options = with_joints(80);
     options.paper = paper;
@@ -52,7 +52,7 @@ TEST_P(Acceptance, TheObjectiveNeverRises) {
   }
 }
 
-TEST_P(Acceptance, BonesAreTheMeansOfThePlacesNearestToThem) {
+TEST_P(PlacedHeads, BonesAreTheMeansOfThePlacesNearestToThem) {
   PlaceOptions options = with_joints(80);
   options.symmetry = Symmetry::kOff;
   const Placed placed(mesh(false), options);
@@ -77,7 +77,7 @@ TEST_P(Acceptance, BonesAreTheMeansOfThePlacesNearestToThem) {
   }
 }
 
-TEST_P(Acceptance, TheObjectiveIsWithinThreePercentOfTheBestOfThirtyTwoStarts) {
+TEST_P(PlacedHeads, TheObjectiveIsWithinThreePercentOfTheBestOfThirtyTwoStarts) {
   for (const uint32_t count : {40u, 120u}) {
     PlaceOptions options = with_joints(count);
     const Placed placed(mesh(false), options);
@@ -98,7 +98,7 @@ TEST_P(Acceptance, TheObjectiveIsWithinThreePercentOfTheBestOfThirtyTwoStarts) {
   }
 }
 
-TEST_P(Acceptance, BonesBeatAGridAndRandomVertices) {
+TEST_P(PlacedHeads, BonesBeatAGridAndRandomVertices) {
   PlaceOptions options = with_joints(100);
   options.symmetry = Symmetry::kOff;
   const Placed placed(mesh(false), options);
@@ -136,7 +136,7 @@ TEST_P(Acceptance, BonesBeatAGridAndRandomVertices) {
   EXPECT_LT(ours, 0.50 * chance);
 }
 
-TEST_P(Acceptance, BonesOfASymmetricMeshAreMirrorImages) {
+TEST_P(PlacedHeads, BonesOfASymmetricMeshAreMirrorImages) {
   const Placed placed(mesh(true), with_joints(61));
   ASSERT_EQ(placed.status, Status::kOk);
   ASSERT_TRUE(placed.placement.symmetric);
@@ -153,7 +153,7 @@ TEST_P(Acceptance, BonesOfASymmetricMeshAreMirrorImages) {
   }
 }
 
-TEST_P(Acceptance, ShuffledShiftedScaledAndTurnedMeshesHaveTheSameBones) {
+TEST_P(PlacedHeads, ShuffledShiftedScaledAndTurnedMeshesHaveTheSameBones) {
   const PlaceOptions options = with_joints(80);
   const TestMesh given = mesh(true);
   const Placed placed(given, options);
@@ -226,7 +226,7 @@ std::array<double, 2> losses_by_nesting(const TestMesh& mesh, uint32_t count) {
   return ratios;
 }
 
-TEST_P(Acceptance, BonesOfLodsAreNestedAndLoseLittleByIt) {
+TEST_P(PlacedHeads, BonesOfLodsAreNestedAndLoseLittleByIt) {
   // Which end the search finds differs: a single mesh loses up to 20 % at half of the bones.
   std::vector<std::array<double, 2>> all;
   for (const bool with_shapes : {false, true}) {
@@ -248,7 +248,7 @@ TEST_P(Acceptance, BonesOfLodsAreNestedAndLoseLittleByIt) {
   EXPECT_LE(half, 1.15);
 }
 
-TEST_P(Acceptance, BonesLieWithinTheFaceAndLeaveNoPartOfItOut) {
+TEST_P(PlacedHeads, BonesLieWithinTheFaceAndLeaveNoPartOfItOut) {
   const Placed placed(mesh(true), with_joints(120));
   ASSERT_EQ(placed.status, Status::kOk);
   EXPECT_LT(placed.report.uncovered, 0.01);
@@ -265,7 +265,7 @@ TEST_P(Acceptance, BonesLieWithinTheFaceAndLeaveNoPartOfItOut) {
   }
 }
 
-TEST_P(Acceptance, WeightsAreWeights) {
+TEST_P(PlacedHeads, WeightsAreWeights) {
   for (const uint32_t m : {4u, 8u, 12u}) {
     Placed placed(mesh(true), with_joints(120));
     ASSERT_EQ(placed.status, Status::kOk);
