@@ -78,7 +78,7 @@ MienStatus read_baked_desc(const MienBakedDesc* desc, MienBakedDesc& known, Allo
                       error);
 }
 
-/// A Baked with room for a copy of `copied` bytes after it, in one block; `data` points there.
+/// A Baked and room for a copy of `copied` bytes after it, in one block; `data` points to the copy.
 MienStatus new_baked(const Allocator& allocator, uint32_t check, uint64_t copied, Baked*& out,
                      MienError* error) {
   const size_t head = align_up(sizeof(Baked), kBlockAlignment);
@@ -98,7 +98,7 @@ MienStatus new_baked(const Allocator& allocator, uint32_t check, uint64_t copied
   return MIEN_OK;
 }
 
-/// Checks the bytes and hands `baked` out, or releases it.
+/// Checks the bytes; then passes `baked` to the caller, or releases it on failure.
 MienStatus finish_open(Baked* baked, MienBaked** out_baked, MienError* error) {
   Error detail;
   if (read_baked(*baked, detail) != Status::kOk) {

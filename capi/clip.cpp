@@ -31,7 +31,7 @@ MienStatus new_clip(const Allocator& allocator, size_t report_count, MienClip*& 
   return out ? MIEN_OK : give_error(error, MIEN_ERROR_MEMORY, "no memory for a clip");
 }
 
-/// Checks the bytes and hands `clip` out, or releases it.
+/// Checks the bytes; then passes `clip` to the caller, or releases it on failure.
 MienStatus finish_clip(MienClip* clip, const uint8_t* bytes, size_t size, MienClip** out_clip,
                        MienError* error) {
   Error detail;
@@ -44,7 +44,7 @@ MienStatus finish_clip(MienClip* clip, const uint8_t* bytes, size_t size, MienCl
   return succeed(error);
 }
 
-/// n of a step of 2^-n; kNoSnap for 0, 1 for what is no step.
+/// n of a step of 2^-n; kNoSnap for 0, 1 for an invalid step.
 uint8_t snap_of(float step) {
   if (step == 0) return kNoSnap;
   for (uint32_t n = kMinSnap; n <= kMaxSnap; ++n) {
@@ -55,7 +55,7 @@ uint8_t snap_of(float step) {
 
 Span<const char> text(const MienStringView& view) { return {view.data, view.count}; }
 
-/// The caller's lists as the builder takes them, in a block of memory for the time of the call.
+/// The caller's lists in the form of the builder, in memory that lasts for the call.
 struct BuildLists {
   Allocator allocator;
   size_t block_size = 0;
@@ -77,7 +77,7 @@ struct BuildLists {
       names[c] = text(desc.names[c]);
       snaps[c] = snap_of(desc.snaps ? desc.snaps[c] : desc.snap);
     }
-    // A name is stored once, however many events have it.
+    // Each name is stored once, however many events have it.
     for (uint32_t e = 0; e < desc.event_count; ++e) by_name[e] = e;
     std::sort(by_name.begin(), by_name.end(), [&](uint32_t a, uint32_t b) {
       return compare_names(text(desc.events[a].name), text(desc.events[b].name)) < 0;
@@ -94,7 +94,7 @@ struct BuildLists {
   }
 };
 
-/// What the builder cannot see, because it takes spans.
+/// Checks that the builder cannot make, because it takes spans.
 MienStatus check_clip_desc(const MienClipDesc& desc, MienError* error) {
   if ((desc.channel_count != 0 && (!desc.names || !desc.values)) ||
       (desc.event_count != 0 && !desc.events)) {

@@ -50,7 +50,7 @@ MienStatus mien_rig_create(const MienDna* dna, const MienRigDesc* desc, MienRig*
 
 namespace {
 
-/// A rig and a DNA have to have the same joints, channels and meshes.
+/// A rig and a DNA file must have the same joints, channels and meshes.
 MienStatus compare_names(const dna::DnaView& view, const Rig& rig, MienError* error) {
   const struct {
     Kind kind;

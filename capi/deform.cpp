@@ -203,8 +203,8 @@ namespace {
 
 using Handles = MienDeformerInstance* const*;
 
-/// Checks a batch: all instances are handles of one deformer, with memory for the mesh, no two the
-/// same. Fills `out`; `normals` is not kDefault then.
+/// Checks a batch: all instances are distinct handles of one deformer, with memory for the mesh. Fills `out`;
+/// `normals` is not kDefault then.
 struct DeformBatch {
   const Deformer* deformer;
   Span<DeformerInstance* const> instances;

@@ -100,7 +100,7 @@ MienStatus read_open_arguments(const MienDnaDesc* desc, OpenArguments& out, Mien
   return read_system(out.desc.system, out.system, error);
 }
 
-/// Hands `dna` out if its view could be read, and closes it otherwise.
+/// Passes `dna` to the caller if its view could be read; else closes it.
 MienStatus finish_open(MienDna* dna, Status status, const Error& detail, MienDna** out_dna,
                        MienError* error) {
   if (status != Status::kOk) {
@@ -249,7 +249,7 @@ constexpr size_t kMaxPath = 255;
 
 size_t length_of(const char* text) { return text ? strlen(text) : 0; }
 
-/// A terminated copy of `path` in `out`.
+/// A null-terminated copy of `path` in `out`.
 MienStatus copy_path(const MienDna* dna, const char* path, size_t count, char (&out)[kMaxPath + 1],
                      MienError* error) {
   if (MienStatus status = check(dna, "dna", error)) return status;
@@ -275,7 +275,7 @@ MienStatus find(const MienDna* dna, const char* path, size_t count, char (&copy)
   return MIEN_OK;
 }
 
-/// For messages about a field of another type than the caller expects.
+/// For messages about a field whose type is not the one that the caller expects.
 const char* content_of(dna::FieldType type) {
   switch (type) {
     case dna::FieldType::kRecord: return "a record";

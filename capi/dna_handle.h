@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a handle of a DNA file is: of the part of the library that MIEN_BUILD_COMPILER=OFF leaves out.
+// The handle of a DNA file, for the part of the library that MIEN_BUILD_COMPILER=OFF leaves out.
 #pragma once
 
 #include "capi/handles.h"
@@ -16,7 +16,7 @@ struct MienDna {
 
 namespace mien::capi {
 
-/// An empty MienDna in the allocator's memory; null if there is none.
+/// An empty MienDna in the allocator's memory; null if memory ran out.
 MienDna* new_dna(const Allocator& allocator);
 
 }  // namespace mien::capi

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Handle <-> object, and the checks that every entry point begins with.
+// Conversion between handles and objects, and the checks that every entry point begins with.
 #pragma once
 
 #include <cstring>
@@ -17,9 +17,9 @@
 #include "runtime/mix/mixer.h"
 #include "simd/isa.h"
 
-// Tags stand first in every object and tell kinds apart. Destroyed handles are not detected: a table
-// of ids with generations takes 0.2 to 0.6 ns more per handle than a tag (1.8 ns), but the object may
-// be destroyed right after the look-up. Pinning it for the call takes 13 to 21 ns and a lock to create.
+// Tags come first in every object and identify the kind. Destroyed handles are not detected: a table of ids
+// with generations takes 0.2 to 0.6 ns more per handle than a tag (1.8 ns), but the object may be destroyed
+// right after the look-up. Pinning it for the call takes 13 to 21 ns and needs a lock to create handles.
 constexpr uint32_t kDnaTag = 0x6D44'4E41;
 constexpr uint32_t kReportTag = 0x6D52'5054;
 constexpr uint32_t kRigTag = 0x6D52'4947;
@@ -37,7 +37,7 @@ constexpr uint32_t kMixerTag = 0x6D4D'5852;
 constexpr uint32_t kSolverStackTag = 0x6D53'4F4C;
 constexpr uint32_t kSolverStateTag = 0x6D53'5354;
 
-// One block, with the reports behind it; the bytes are the caller's, mapped, or a block of their own.
+// One block, with the reports after it; the bytes are the caller's, mapped, or a separate block.
 struct MienClip {
   uint32_t tag = 0;
   mien::Allocator allocator;
@@ -46,7 +46,7 @@ struct MienClip {
   mien::MappedFile file;
   mien::ClipBytes own;
   mien::Clip view;
-  mien::Span<mien::ChannelReport> reports;  // of a clip that was built here, else none
+  mien::Span<mien::ChannelReport> reports;  // of a clip that was built here, otherwise none
 };
 
 struct MienClipPlayer {
@@ -55,7 +55,7 @@ struct MienClipPlayer {
   size_t block_size = 0;
   const MienClip* clip = nullptr;
   mien::ClipSampler sampler;
-  mien::EventRange events;  // that the last advance passed
+  mien::EventRange events;  // passed by the last advance
 };
 
 struct MienClipBinding {
@@ -127,7 +127,7 @@ inline MienStatus check(const MienClipBinding* binding) {
   return check_tag(binding, kClipBindingTag);
 }
 
-/// The same for calls that tell what is wrong; `name` is that of the parameter.
+/// The same for calls that report errors; `name` is that of the parameter.
 template <class Handle>
 MienStatus check(const Handle* handle, const char* name, MienError* error) {
   const MienStatus status = check(handle);
@@ -136,7 +136,7 @@ MienStatus check(const Handle* handle, const char* name, MienError* error) {
   return give_error(error, status, "%s is a handle of another kind, or none", name);
 }
 
-/// The kernels of a MIEN_ISA_..., or the reason why there are none.
+/// The kernels of a MIEN_ISA_...; null with an error if there are none.
 MienStatus find_kernels(uint32_t isa, const KernelTable*& out, MienError* error);
 
 /// Drops one owner of a clip; the last one releases it.

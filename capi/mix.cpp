@@ -19,7 +19,7 @@ static_assert(MIEN_LAYER_GROUP_LIFE == int(LayerGroup::kLife) &&
 
 namespace {
 
-/// The caller's lists as the mix takes them, for the time of the call.
+/// The caller's lists in the form of the mix, in memory that lasts for the call.
 struct MixLists {
   Span<LayerDesc> layers;
   Span<PoseDesc> poses;
@@ -94,7 +94,7 @@ struct MixLists {
 
 constexpr uint32_t kMaxLandmarkPoints = 65536;
 
-/// What the mix cannot see, because it takes spans and enums of 8 bits.
+/// Checks that the mix cannot make, because it takes spans and 8-bit enums.
 MienStatus check_mix_desc(const MienMixDesc& desc, MienError* error) {
   if ((!desc.layers && desc.layer_count != 0) || (!desc.poses && desc.pose_count != 0) ||
       (!desc.reactions && desc.reaction_count != 0) ||
@@ -178,8 +178,7 @@ Landmark landmark_of(const MienLandmark& from) {
   return {from.mesh, {from.points, from.points ? from.point_count : 0}};
 }
 
-/// Measures those of the standard guards that are wanted and whose landmarks are found, and the
-/// caller's.
+/// Measures the requested standard guards whose landmarks are found, and the caller's guards.
 Status measure_guards(const Deformer& deformer, const MienMixDesc& desc, const Allocator& allocator,
                       Arena& arena, Guard (&guards)[kMaxGuards], uint32_t& count, Error& error) {
   StandardGuards found = {};
@@ -381,7 +380,7 @@ MienStatus mien_mix_glare(uint32_t first_pose, MienMixStroke* out_strokes, size_
 
 namespace {
 
-/// What setting a number can give.
+/// The statuses that setting a number can return.
 MienStatus status_of(Status status) {
   if (status == Status::kOk) return MIEN_OK;
   return status == Status::kIndex ? MIEN_ERROR_INDEX : MIEN_ERROR_INVALID_ARGUMENT;
@@ -646,7 +645,7 @@ MienStatus mien_mixer_restore(MienMixer* mixer, const void* bytes, size_t size,
     return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "bytes or clips is NULL");
   }
   if (MienStatus status = check(mixer)) return give_error(error, status, "not a mixer");
-  // A mixer plays few clips at a time, so that those of the caller are looked at one by one.
+  // A mixer plays few clips at a time, so the caller's clips are searched one by one.
   const auto find = [](const void* user, uint64_t id, ClipSource& source) {
     const auto& list = *static_cast<const Span<const MienMixerClip>*>(user);
     for (const MienMixerClip& clip : list) {

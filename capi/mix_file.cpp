@@ -69,7 +69,7 @@ MienStatus mien_mix_open_memory(const void* bytes, size_t size, const MienRig* r
 
 namespace {
 
-/// To the caller's buffer, if it has room; `write` is write_mix() or write_mix_text().
+/// Writes to the caller's buffer, if it has room; `write` is write_mix() or write_mix_text().
 template <class Char>
 MienStatus write_to(Status (*write)(const Mix&, Span<Char>, size_t&, Error&), const MienMix* mix,
                     void* buffer, size_t capacity, size_t* out_size, MienError* error) {

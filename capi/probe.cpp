@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a mix has to know of a rig, and gazes. mien.h is the manual.
+// Measurements of a rig that a mix needs, and gazes. mien.h is the manual.
 #include <algorithm>
 #include <cmath>
 

@@ -38,8 +38,8 @@ struct MienReport {
     return true;
   }
 
-  // The last place is for the remark that there may be more. If there is no error until then, the
-  // examination goes on: the first error takes that place, for no flood of warnings may hide it.
+  // The last place is for the remark that there may be more findings. If there is no error until then, the
+  // check continues: the first error takes that place, because warnings must not hide it.
   bool add(const dna::Finding& finding) {
     const bool full = count == kMaxFindings;
     const bool error = finding.status != Status::kOk;
@@ -69,8 +69,8 @@ bool keep_finding(void* user, const dna::Finding& finding) {
   return static_cast<MienReport*>(user)->add(finding);
 }
 
-// What only compilation finds: correctives that depend on each other in a circle, too much work. Its
-// messages begin with the field.
+// Findings that only compilation makes: correctives that depend on each other in a circle, too much work.
+// Their messages begin with the field.
 void try_to_compile(const dna::DnaView& view, MienReport* report) {
   if (report->errors != 0 || report->out_of_memory) return;
   Rig* rig = nullptr;
@@ -131,7 +131,7 @@ MienStatus mien_dna_validate_file(const char* path, const MienValidateDesc* desc
   if (!path) return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "path is NULL");
   Allocator allocator;
   if (MienStatus status = read_validate_desc(desc, allocator, error)) return status;
-  // All of it is looked at anyway, and a file in memory cannot change under the checks.
+  // All data is checked anyway, and a file in memory cannot change during the checks.
   MappedFile file;
   Error detail;
   if (open_file(path, FileAccess::kRead, {"DNA", 3}, allocator, file, detail) != Status::kOk) {

@@ -69,7 +69,7 @@ MienStatus count_of(const Rig& rig, uint32_t kind, uint32_t& count) {
 
 MienIndex16View view_of(const Span<uint16_t>& span) { return {span.data, span.count}; }
 
-/// Sign of a comparison of bytes: shorter strings come before longer ones that they begin.
+/// The sign of a comparison of bytes: a string comes before longer ones that begin with it.
 int compare(const Span<char>& a, const char* b, size_t b_count) {
   const size_t common = std::min(a.count, b_count);
   const int order = common ? memcmp(a.data, b, common) : 0;
@@ -251,7 +251,7 @@ MienStatus mien_instance_reset(MienInstance* instance) {
 
 namespace {
 
-/// Hands out the span that `pick(instance)` names.
+/// Returns the span that `pick(instance)` selects.
 template <class View, class Handle, class Pick>
 MienStatus give_view(Handle* handle, View* out_view, Pick&& pick) {
   if (!out_view) return MIEN_ERROR_NULL_ARGUMENT;

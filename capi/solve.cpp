@@ -15,12 +15,12 @@ static_assert(MIEN_NO_JOINT == kNoSolverJoint && sizeof(MienSolverPose) == sizeo
                   offsetof(MienSolverPose, is_reset) == offsetof(SolverPose, reset),
               "both have one layout");
 
-// The stack of the runtime is a block of its own, because it knows no deformers.
+// The stack of the runtime is a separate block, because the runtime's stack knows no deformers.
 struct MienSolverStack {
   uint32_t tag;
   Allocator allocator;
   mutable std::atomic<uint32_t> owners{1};  // the creator and every state
-  const Deformer* deformer;                 // owned with others
+  const Deformer* deformer;                 // shared ownership
   Stack* stack;
   uint32_t curve_count;
 };
@@ -28,7 +28,7 @@ struct MienSolverStack {
 struct MienSolverState {
   uint32_t tag;
   Allocator allocator;
-  const MienSolverStack* stack;  // owned with others
+  const MienSolverStack* stack;  // shared ownership
   StackState* state;
   bool in_batch;
 };
@@ -42,7 +42,7 @@ using mien::capi::check;
 MienStatus check(const MienSolverStack* stack) { return check_tag(stack, kSolverStackTag); }
 MienStatus check(const MienSolverState* state) { return check_tag(state, kSolverStateTag); }
 
-/// What a MienUserSolver needs when it is called.
+/// Context of a call of a MienUserSolver.
 struct UserCall {
   void(MIEN_CALLBACK* solve)(void* user, const MienSolverCall* call);
   void* user;
@@ -56,7 +56,7 @@ void solve_custom(const SolverArgs& args) {
   to.solve(to.user, &call);
 }
 
-/// Turns the solvers of a desc into those of the runtime, in memory of the arena.
+/// Converts the solvers of a desc to those of the runtime, in memory of the arena.
 class Describer {
  public:
   Describer(const Skeleton& skeleton, uint32_t curve_count, Arena& arena, MienError* error)
@@ -102,7 +102,7 @@ class Describer {
                       curve_count_);
   }
 
-  /// A direction of length 1; 0 0 0 becomes `otherwise`, or is wrong without it.
+  /// A direction of length 1; 0 0 0 becomes `otherwise`, or is an error if that is missing.
   MienStatus read_direction(const float (&from)[3], const Vec3* otherwise, float (&to)[3]) {
     Vec3 v = {from[0], from[1], from[2]};
     if (!(std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z))) {

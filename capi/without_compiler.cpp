@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What stands in for DNA files and compilers with MIEN_BUILD_COMPILER=OFF: the same names, which fail.
-// No MienDna or MienReport exists in such a build, so handles are not looked at.
+// Replacements for the functions of DNA files and compilers with MIEN_BUILD_COMPILER=OFF: the same names,
+// which fail. No MienDna or MienReport exists in such a build, so handles are not checked.
 #include "capi/arguments/arguments.h"
 
 using namespace mien::capi;

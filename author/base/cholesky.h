@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Symmetric positive definite systems. Our own and not a library's: sums run in index order, so the
-// bits depend neither on vector width nor on cache sizes, and it takes no memory.
+// Symmetric positive definite systems. Our own code instead of a library: sums run in index order, so the
+// bits depend neither on vector width nor on cache sizes, and it allocates nothing.
 #pragma once
 
 #include <cmath>

@@ -12,7 +12,7 @@
 
 namespace mien::author {
 
-// Making things in an arena; false if memory ran out ---------------------------------------------
+// Allocation in an arena; false if memory ran out -----------------------------------------------
 
 template <class T>
 bool make(Arena& arena, size_t count, dna::NewArray<T>& out) {
@@ -34,7 +34,7 @@ bool make(Arena& arena, size_t count, dna::List<T>& out) {
   return true;
 }
 
-/// A name in the making.
+/// A name that is being built.
 struct Text {
   char chars[256];
   uint32_t count = 0;
@@ -64,7 +64,7 @@ inline bool copy_text(Arena& arena, const Text& text, dna::String& out) {
   return true;
 }
 
-/// Vectors in the making.
+/// An array of vectors that is being filled.
 struct NewVec3s {
   dna::NewArray<float> xs, ys, zs;
 
@@ -79,8 +79,7 @@ struct NewVec3s {
   operator dna::Vec3Array() const { return {xs, ys, zs}; }
 };
 
-/// An index with every layer of the newest version.
-/// The layers that files of version 2.version have.
+/// An index of the layers that files of version 2.version have.
 inline bool fill_index(uint16_t version, Arena& arena, dna::DnaView& out) {
   const auto known = [version](const dna::LayerKind& kind) { return kind.since <= version; };
   const auto& kinds = dna::kLayerKinds;
@@ -127,8 +126,8 @@ bool make_lod_map(Arena& arena, size_t lod_count, size_t element_count, const In
   return true;
 }
 
-/// A group of `rows` (9 * joint + attribute, those of a joint in a run) and `columns`, with the value
-/// that `value(column, row)` tells.
+/// A group of `rows` (9 * joint + attribute, with the rows of a joint in sequence) and `columns`, with the
+/// values value(column, row).
 template <class Value>
 bool make_joint_group(Arena& arena, dna::Array<uint16_t> lod_rows, Span<const uint16_t> rows,
                       Span<const uint16_t> columns, const Value& value, dna::JointGroup& out) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Elementary functions made of operations that IEEE 754 rounds in one way only (+ - * / and the
-// square root), because those of the C library differ in the last bit from system to system, and a
-// generated file has to be the same everywhere. Accurate to some 1e-15.
+// Elementary functions that use only operations that IEEE 754 rounds in one way (+ - * / and the square
+// root): those of the C library differ in the last bit from system to system, and a generated file has to be
+// the same everywhere. Accurate to some 1e-15.
 #pragma once
 
 #include <cmath>
@@ -17,7 +17,7 @@ inline double smooth_step(double from, double to, double x) {
   return t * t * (3 - 2 * t);
 }
 
-/// e^x; 0 far below.
+/// e^x; 0 for very small x.
 inline double exact_exp(double x) {
   if (x < -700) return 0;
   const double k = std::floor(x * 1.4426950408889634 + 0.5);

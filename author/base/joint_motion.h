@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How joints move points: deltas as the joint matrix holds them, and the maps that they mean where
-// all neutral rotations are zero.
+// How joints move points: deltas as in the joint matrix, and the maps that they result in where all neutral
+// rotations are zero.
 #pragma once
 
 #include <cstddef>
@@ -83,11 +83,11 @@ inline Vec3 skin(const Affine* pose, const Influences& influences, Vec3 p) {
   return out;
 }
 
-/// The offset to add to `p` before skinning so that it ends at `target`; the plain difference where
-/// the blended rotations nearly cancel each other.
+/// The offset to add to `p` before skinning so that it ends at `target`; the plain difference where the
+/// blended rotations nearly cancel each other.
 inline Vec3 residual(const Affine* pose, const Influences& influences, Vec3 p, Vec3 target) {
   const Vec3 r = target - skin(pose, influences, p);
-  // Blend shapes are added before skinning: undo its linear part, by Cramer's rule.
+  // Blend shapes are added before skinning, so this inverts its linear part, by Cramer's rule.
   Vec3 m[3];
   for (uint32_t i = 0; i < influences.count; ++i) {
     for (int k = 0; k < 3; ++k) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Random numbers that are the same on every platform and compiler: PCG32, seeded by SplitMix64.
-// The standard's engines would do, but its distributions differ from library to library.
+// Random numbers that are the same on every platform and compiler: PCG32, seeded by SplitMix64. The engines
+// of the standard library would do, but its distributions differ between libraries.
 #pragma once
 
 #include <cassert>
@@ -19,7 +19,7 @@ constexpr uint64_t split_mix(uint64_t& state) {
 
 class Random {
  public:
-  /// Each stage of a computation takes its own stream, so that a change in one leaves the others.
+  /// Each stage of a computation uses its own stream, so that a change in one does not affect the others.
   static constexpr Random from_seed(uint64_t seed, uint64_t stream) {
     uint64_t state = seed;
     uint64_t mixed = split_mix(state) ^ stream;
@@ -41,7 +41,7 @@ class Random {
     return mixed >> turn | mixed << ((32 - turn) & 31);
   }
 
-  /// 0 ... limit - 1, each equally likely: numbers of the incomplete last run are drawn again.
+  /// 0 ... limit - 1, each equally likely: numbers beyond the last multiple of `limit` are drawn again.
   uint32_t below(uint32_t limit) {
     assert(limit > 0);
     uint32_t rejected = (0u - limit) % limit;
@@ -56,8 +56,8 @@ class Random {
   double between(double low, double high) { return low + (high - low) * real(); }
   bool chance(double probability) { return real() < probability; }
 
-  /// Mean 0, deviation 1, within +-6: a sum of twelve, because log and cos round differently from
-  /// library to library and a sum of integers does not.
+  /// Mean 0, deviation 1, within +-6: a sum of twelve, because log and cos round differently from library to
+  /// library and a sum of integers does not.
   double normal() {
     uint64_t sum = 0;
     for (int i = 0; i < 12; ++i) sum += bits();

@@ -28,13 +28,13 @@ constexpr uint32_t kMaxFacialJoints = 7000;
 
 author::Name name_of(MienStringView view) { return {view.data, view.data ? view.count : 0}; }
 
-/// An array of the caller: a count without a pointer is wrong usage.
+/// An array of the caller: a count without a pointer is an error.
 template <class T>
 bool is_there(const T* data, size_t count) {
   return data != nullptr || count == 0;
 }
 
-/// Axis 0 to 2 and sign of a direction.
+/// Axis 0 to 2, and sign, of a direction.
 struct Direction {
   uint8_t axis;
   int8_t sign;
@@ -190,7 +190,7 @@ MienStatus check_options(const MienAuthorDesc& desc, MienError* error) {
   return MIEN_OK;
 }
 
-/// The caller's structs as those of the library, in its memory.
+/// The caller's structs converted to those of the library, in its memory.
 struct Input {
   author::MeshSource source;
   author::RiggingOptions options;
@@ -234,7 +234,7 @@ bool read_input(const MienAuthorMesh& mesh, const MienAuthorDesc& desc, Arena& a
     const MienAuthorShape& shape = mesh.shapes[s];
     shapes[s].name = name_of(shape.name);
     if (shape.positions) shapes[s].vertices = {shape.positions, shape.position_count};
-    // An empty list of positions moves none, where the library takes it for all.
+    // An empty list of positions moves nothing, while the library would take it for all.
     if (shape.position_count > 0) {
       shapes[s].displacements = {shape.displacements, 3 * shape.position_count};
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Files that are made here: their bytes are handed to libmien through its public interface, so the two
-// libraries share no structs but those of mien.h.
+// Generated files: their bytes are passed to libmien through its public interface, so the two libraries share
+// no structs but those of mien.h.
 #pragma once
 
 #include "capi/include/mien_author.h"
@@ -37,7 +37,7 @@ inline size_t MIEN_CALLBACK read_made(void* user, uint64_t offset, void* buffer,
   return size;
 }
 
-/// libmien reads what it keeps into memory of its own: `file` may go afterwards.
+/// libmien copies what it keeps, so `file` need not stay.
 inline MienStatus open_made(MadeFile& file, const MienAllocator* allocator, MienDna** out_dna,
                             MienError* error) {
   const MienStream stream = {&file, file.size, read_made};

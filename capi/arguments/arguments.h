@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What every call is given, whatever its handle: sized structs, errors, allocators. Both libraries
-// are built with this.
+// Arguments common to all calls, whatever the handle: sized structs, errors, allocators. Both libraries are
+// built with this.
 #pragma once
 
 #include <cstring>
@@ -12,7 +12,7 @@
 
 namespace mien::capi {
 
-/// No struct grows beyond this: larger numbers were never set.
+/// No struct grows beyond this: a larger size is an uninitialized one.
 constexpr size_t kMaxStructSize = 4096;
 
 /// Reads a caller's desc into `out`, which is zero where the caller's is shorter or NULL.
@@ -31,7 +31,7 @@ MienStatus read_struct(const T* in, T& out, size_t first_size = sizeof(T)) {
   return MIEN_OK;
 }
 
-/// Clears a caller's output struct except its size, so that a failure leaves it zero.
+/// Clears a caller's output struct except its size, so that it stays zero on failure.
 template <class T>
 MienStatus clear_struct(T* out, size_t first_size = sizeof(T)) {
   if (!out) return MIEN_ERROR_NULL_ARGUMENT;
@@ -42,7 +42,7 @@ MienStatus clear_struct(T* out, size_t first_size = sizeof(T)) {
   return MIEN_OK;
 }
 
-/// Writes `value` over a struct that clear_struct() accepted.
+/// Copies `value` to a struct that clear_struct() accepted.
 template <class T>
 void write_struct(T* out, T value) {
   value.struct_size = out->struct_size;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Brows and lashes: single hairs on a darker ground, at coarse LODs the ground alone.
+// Brows and lashes: single hairs on a darker ground; at coarse LODs only the ground.
 #include <algorithm>
 
 #include "author/generate/head/mesh.h"
@@ -49,7 +49,7 @@ void add_hair(const Hair& hair, HalfMesh& out) {
 void add_lashes(const Form& form, uint32_t lod, HalfMesh& out) {
   const uint32_t columns = at_lod(24, 4, lod) + 1;
   const Color dark = mix(form.person().brow_hair, {16, 12, 12}, 0.7);
-  /// Outside of the lid's edge at `s`, turned up by `lift`.
+  /// A vertex on the outside of the lid's edge at `s`, turned up by `lift`.
   const auto place = [&](double s, double radius, double lift, double v_at) {
     const double x = kEye.x + s * kEyeHalfWidth, dx = x - kEye.x;
     const FacePoint edge = form.face(form.angle_of(x, kEye.y), kEye.y, Side::kAbove);
@@ -81,7 +81,7 @@ void add_lashes(const Form& form, uint32_t lod, HalfMesh& out) {
     }
   }
   join_rows(out, first, 3, columns);
-  // Behind, and at both ends.
+  // The back, and both ends.
   for (uint32_t k = 0; k + 1 < columns; ++k) {
     const uint32_t low = first + k, high = first + 2 * columns + k;
     out.quad(high, high + 1, low + 1, low);
@@ -129,7 +129,7 @@ void add_brow(const Form& form, uint32_t lod, HalfMesh& out) {
     v.look = at.closed;
     return v;
   };
-  // What hairs stand on: below the skin at its border, so that it has no edge.
+  // The ground of the hairs: its border is below the skin, so that it has no visible edge.
   const bool strands = lod < 3;
   const uint32_t columns = at_lod(20, 4, lod) + 1, rows = lod < 5 ? 5 : 3;
   const uint32_t first = out.vertices.count();
@@ -140,7 +140,7 @@ void add_brow(const Form& form, uint32_t lod, HalfMesh& out) {
       const Arch at = arch_at(t);
       const double raise =
           strands ? 0.05 * (1 - across * across) - 0.03 : 0.14 * (1 - across * across) - 0.05;
-      // The border fades into the skin; without hairs, less, as there are few rows.
+      // The border fades into the skin; less without hairs, because there are few rows.
       const double square = across * across;
       const double fade = std::max(strands ? square * square : square, 1 - clamp01(3 * t));
       const double thin = strands ? mix(0.28 - 0.06 * lod, 1, fade)
@@ -154,7 +154,7 @@ void add_brow(const Form& form, uint32_t lod, HalfMesh& out) {
   if (!strands) return;
   const uint32_t hairs = lod == 0 ? 190 : lod == 1 ? 100 : 56;
   for (uint32_t i = 0; i < hairs; ++i) {
-    // They lean outwards, the inner ones up, and lie down towards the tail.
+    // Hairs lean outwards; the inner ones stand up, and those near the tail lie flat.
     const double t = clamp01((i + 0.5) / hairs + 0.02 * scatter(i + 300));
     const double across = 0.80 * scatter(i);
     const Arch at = arch_at(t);

@@ -13,7 +13,7 @@ using author::Text;
 
 namespace {
 
-/// A GUI control drives one expression by its positive half and maybe another by its negative one.
+/// The positive half of a GUI control drives one expression, the negative half another, if any.
 struct GuiControl {
   const char* name;
   const char* positive;
@@ -162,7 +162,7 @@ bool fill_correctives(const Shapes& shapes, Arena& arena, dna::Controls& out) {
   return true;
 }
 
-/// Wrinkles show late: a quarter of the way in the first half, the rest in the second.
+/// Wrinkles appear late: a quarter of the way in the first half, the rest in the second.
 bool fill_wrinkles(Arena& arena, dna::DnaView& out) {
   uint32_t rows = 0;
   for (const Wrinkle& w : kWrinkles) rows += w.second ? 4 : 2;

@@ -19,13 +19,13 @@ struct Head {
 bool fill_controls(const Head& head, Arena& arena, dna::DnaView& out);
 /// Joint names, hierarchy, neutral pose, joint groups.
 bool fill_joints(const Head& head, Arena& arena, Arena& scratch, dna::DnaView& out);
-/// Meshes, blend shape channels, and the metadata with colors behind `metadata_used` entries.
+/// Meshes, blend shape channels, and the metadata with colors after `metadata_used` entries.
 bool fill_meshes(const Head& head, Arena& arena, const Allocator& allocator, size_t metadata_used,
                  dna::DnaView& out);
 
-/// Meshes: every part at every LOD, part by part within a LOD.
+/// Meshes: every part at every LOD, with the parts of a LOD in sequence.
 constexpr uint32_t kMeshCount = kPartCount * kLodCount;
-/// LODs with blend shapes of the whole face; the others have those of the edges of the lips.
+/// LODs with blend shapes of the whole face; the others have only those of the edges of the lips.
 constexpr uint32_t kShapeLods = 2;
 
 }  // namespace mien::head

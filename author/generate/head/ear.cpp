@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The ear: rings of the skin run around its root, from there over the rim into the bowl.
+// The ear: rings of the skin run around its root, over the rim and into the bowl.
 #include "author/generate/head/skin.h"
 
 namespace mien::head {
@@ -9,12 +9,12 @@ using author::kPi;
 using author::mix;
 using author::smooth_step;
 
-/// The place on the head below a place of the root's outline.
+/// The place on the head below a place of the outline of the root.
 Place SkinMaker::ear_root(double sine, double cosine, double size) const {
   const double p = cosine * (cosine > 0 ? 0.62 : 0.92), q = sine * (sine > 0 ? 1.75 : 1.70);
   const Vec3 at =
       ear_.origin + ear_.back * (p * size * ear_.size) + ear_.up * (q * size * ear_.size);
-  // Its height does not change with the angle by much, its depth does.
+  // The angle hardly changes the height but changes the depth.
   double low = 0.25 * kPi, high = 0.85 * kPi;
   for (int i = 0; i < 30; ++i) {
     const double middle = 0.5 * (low + high);
@@ -30,7 +30,7 @@ void SkinMaker::place_ear() {
   ear_.outward = {cosine, 0, sine};
   ear_.up = unit({0.10, 1, -0.16});
   ear_.origin = {form_.face(0.53 * kPi, 0.0, Side::kAbove).closed.x + 0.10, -0.75, -0.8};
-  // The same rows and columns for everyone: room for the largest ear.
+  // The same rows and columns for every person, with room for the largest ear.
   constexpr double kTop = 2.05, kBottom = -3.45;
   for (uint32_t r = 0; r < rows_; ++r) {
     if (heights_[r] < kBottom) ear_block_.low = r;
@@ -44,8 +44,8 @@ void SkinMaker::place_ear() {
 }
 
 void SkinMaker::make_ear() {
-  // Share of the outline's radius, height above the plane of the ear, and at least above the head
-  // where the ear grows out of it: behind, over the rim, into the bowl.
+  // Share of the outline's radius, height above the plane of the ear, and minimum height above the head where
+  // the ear grows out of it: from the back, over the rim, into the bowl.
   static constexpr double kFine[][3] = {
       {0.90, -0.34, 0.04}, {1.00, -0.16, 0.08},  {1.03, 0.04, 0.13},   {0.99, 0.20, 0.17},
       {0.93, 0.24, 0.17},  {0.86, 0.08, 0.10},   {0.79, -0.10, 0.02},  {0.70, -0.05, 0.0},

@@ -19,7 +19,7 @@ JointDelta delta_of(Vec3 translation, Vec3 rotation) {
           {as_float(rotation.x), as_float(rotation.y), as_float(rotation.z)}};
 }
 
-/// The turns that are designed: everything but skin joints.
+/// Sets the turns that are given by design: those of all but skin joints.
 void set_designed(const Shapes& shapes, const Skeleton& skeleton, const JointDeltas& out) {
   for (uint32_t s = 0; s < shapes.count(); ++s) {
     const JointTurns left = shapes.turns(s, 1), right = shapes.turns(s, -1);
@@ -116,7 +116,7 @@ bool fit_joints(const Shapes& shapes, const Skeleton& skeleton, const HalfMesh& 
 
   for (uint32_t s = 0; s < shape_count; ++s) {
     const uint32_t other = shapes.twin(s);
-    if (other < s) {  // found already, mirrored
+    if (other < s) {  // solved already, as its mirror image
       for (uint32_t j = 0; j < joints; ++j) {
         if (!is_fitted(static_cast<uint16_t>(j))) continue;
         JointDelta d = out.at(other, twin(static_cast<uint16_t>(j)));
@@ -143,8 +143,8 @@ bool fit_joints(const Shapes& shapes, const Skeleton& skeleton, const HalfMesh& 
       }
     }
     system.solve(right_side.data);
-    const bool alone = other == s;  // symmetric in itself: made so to the last bit
-    // Below the jaw, translations are in its frame, turned by all that is open with this shape.
+    const bool alone = other == s;  // its own mirror image: made exactly symmetric
+    // Below the jaw, translations are in the jaw's frame, turned by the total opening at this shape.
     double opened = shapes.turns(s, 1).jaw_open;
     if (s >= kExpressionCount) {
       const Corrective& c = shapes.corrective(s - kExpressionCount);

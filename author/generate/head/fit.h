@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// From shapes to joint motions: designed turns of jaw, lids, eyes and tongue, translations of the
-// skin joints by least squares, and what is left over as blend shapes.
+// From shapes to joint motions: designed turns of jaw, lids, eyes and tongue, translations of the skin joints
+// by least squares, and blend shapes for the rest.
 #pragma once
 
 #include "author/base/joint_motion.h"

@@ -67,7 +67,7 @@ double interpolate(double y, const double (&table)[N][2]) {
 
 constexpr double kCenterZ = -0.4;
 
-/// The larger one, and a little more where they meet.
+/// The larger one, slightly raised where they meet.
 double smooth_max(double a, double b, double width) {
   const double h = std::max(0.0, 1 - std::abs(a - b) / width);
   return std::max(a, b) + 0.25 * width * h * h;
@@ -81,7 +81,7 @@ double inside_jaw(double y, double z) {
   const double below = y - mix(-7.3, -10.6, (z - 1.0) / 7.0);
   const double before = (z - 0.9) + 0.14 * (y + 7.3);
   const double both = std::min(below * 0.92, before);
-  // The angle is round.
+  // The angle of the jaw is round.
   const double h = std::max(0.0, 1 - std::abs(below * 0.92 - before) / 1.6);
   return both - 0.4 * h * h;
 }
@@ -117,7 +117,7 @@ Form::Section Form::section(double y, double cosine) const {
 
 double Form::mouth_line(double x) const {
   const double s = std::min(std::abs(x) / kMouthHalfWidth, 1.3);
-  // A bow: down in the middle of the upper lip, up at the corners.
+  // A bow: lower in the middle, higher at the corners.
   return kMouthY - 0.10 * bump(s, 0, 0, 0, 0.30, 1) + 0.15 * s * s;
 }
 
@@ -183,7 +183,7 @@ double Form::nose(double x, double y) const {
     const double blunt = 1 + at(4) * std::min(t * t, 1.0);
     z = at(1) * exact_pow(above, at(3)) * blunt * smooth_step(1.4, 1.0, t);
   }
-  // The wing is a ball of its own, behind a furrow that runs around it from the tip to the cheek.
+  // The wing is a separate ball, with a furrow behind it that runs from the tip to the cheek.
   const double dx = at_x - 1.34, dy = y + 3.52, apart = std::sqrt(dx * dx + 0.8 * dy * dy) - 0.52;
   z += 0.25 * bump(dx, dy, 0, 0, 0.36, 0.42);
   z -= 0.34 * bump(apart, 0, 0, 0, 0.15, 1) * smooth_step(-0.50, 0.05, dy) *
@@ -225,7 +225,8 @@ double Form::relief(double x, double y) const {
   return z;
 }
 
-/// How far the lips stand out: most a third of the way up from where they meet, where both are round.
+/// How far the lips protrude: most at a third of their height from the line between them, where both are
+/// round.
 double Form::lips(double x, double y) const {
   const double d = y - mouth_line(x), s = std::abs(x) / (1.04 * kMouthHalfWidth);
   if (s >= 1) return 0;

@@ -24,12 +24,12 @@ inline Color mix(Color a, Color b, double t) {
   return {author::mix(a.r, b.r, t), author::mix(a.g, b.g, t), author::mix(a.b, b.b, t)};
 }
 
-/// As if more blood were under the skin; keeps dark skin dark.
+/// As with more blood under the skin; keeps dark skin dark.
 Color redder(Color c, double amount);
 
 enum class HairStyle : uint8_t { kParted, kCropped, kCurly, kReceding, kBob };
 
-/// What differs from seed to seed. Factors are 1 for seed 0.
+/// The properties that differ from seed to seed. Factors are 1 for seed 0.
 struct Person {
   // Of the skull: its breadth, length and height, the face at the cheekbones and the jaw.
   double breadth = 1, length = 1, height = 1, face = 1, jaw = 1, neck = 1;
@@ -63,7 +63,7 @@ struct FacePoint {
   double lid = 0;  // radians that the neutral pose turns it: upper lid > 0, lower lid < 0
 };
 
-/// A place of the front view; `y` is a row, which features bend.
+/// A place in the front view; `y` is a row, which facial features bend.
 struct FrontPlace {
   double x, y;
 };
@@ -76,11 +76,11 @@ class Form {
 
   const Person& person() const { return person_; }
 
-  /// `angle`: 0 in front, pi behind; `y`: height of the row. Beyond the ends of the lids' slit both
-  /// sides are the same.
+  /// `angle`: 0 in front, pi behind; `y`: height of the row. Beyond the ends of the lids' slit both sides are
+  /// the same.
   FacePoint face(double angle, double y, Side side) const;
 
-  /// Where a skull of this height has what others have at `y`.
+  /// The height, on a skull of this size, of the place that is at `y` on others.
   double raised(double y) const;
 
   /// The angle at which the row `y` has this |x|, in front.
@@ -124,8 +124,8 @@ class Form {
 /// Turns `p` about the x axis through the eye, upwards in front.
 Vec3 turn_lid(Vec3 p, double angle);
 
-/// How far a place of the front view lies outside the lids: 0 at the eye's middle, 1 at the end of
-/// the area that follows the ball.
+/// How far outside the lids a place of the front view is: 0 in the middle of the eye, 1 at the end of the
+/// area that follows the ball.
 double from_lids(double x, double y);
 
 /// 0 on the lids, which stay on their ball, 1 away from them.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Hair: a cap over the skull from the hair line to the crown, sculpted into locks and strands. Styles
-// differ in the line, in thickness and in how locks run; a bob hangs below the skull.
+// Hair: a cap over the skull from the hair line to the crown, sculpted into locks and strands. Styles differ
+// in the line, the thickness and the directions of locks; a bob hangs below the skull.
 #include <algorithm>
 
 #include "author/generate/head/mesh.h"
@@ -23,7 +23,7 @@ struct Style {
   double lock, strand;    // how deep locks and strands are
   double locks, strands;  // how many of them
   double raise_front, raise_temple;
-  double hang;  // height that the sides hang down to, 0: they do not
+  double hang;  // height that the sides hang down to; 0: they do not hang
 };
 
 Style style_of(HairStyle style) {
@@ -72,14 +72,14 @@ class HairMaker {
 
  private:
   static constexpr double kPart = 0.42;   // angle of the parting
-  static constexpr double kSkull = -1.0;  // hair hangs from here on
+  static constexpr double kSkull = -1.0;  // height below which hair hangs
 
   struct Root {
     Vec3 skin, normal;
     double below;  // how far hair hangs there
   };
-  /// Where the skull is at `t` of the way from the hair line, moved by `beyond`, to the crown; `t`
-  /// below 0 is in front of the line.
+  /// The skull at `t` of the way from the hair line, moved by `beyond`, to the crown; `t` below 0 is in front
+  /// of the line.
   Root root_at(double around, double t, double beyond) const {
     const double share = std::abs(around) / kPi;
     const double line = hair_line(style_, share) + beyond;
@@ -103,7 +103,7 @@ class HairMaker {
     double thick = mix(style_.low, style_.high, smooth_step(0.15, 0.8, t));
     thick += 1.25 * wave * bump(t, 0, 0.22, 0, 0.24, 1) +
              0.35 * style_.wave * front * bump(t, 0, 0.25, 0, 0.2, 1);
-    // Hair that hangs covers the ears and turns in at its end.
+    // Hanging hair covers the ears and turns in at its end.
     if (root.below > 0) {
       thick += 0.75 * smooth_step(0, 2.5, root.below) - 0.9 * smooth_step(4.6, 6.6, root.below);
     }
@@ -153,7 +153,7 @@ void HairMaker::make_cap() {
       // The parting is a furrow from the hair line to near the crown.
       const double parting =
           parted_ * bump(from_part, 0, 0, 0, 0.10, 1) * smooth_step(0.75, 0.35, t);
-      // Where there are strips their ends cover the cap's border.
+      // Where there are strips, their ends cover the border of the cap.
       const double beyond = (lod_ < 3 ? 0.30 * front : 0) -
                             front * (1.6 * style_.lock * lock + 2.5 * style_.strand * fine) +
                             parted_ * 0.35 * bump(from_part, 0, 0, 0, 0.16, 1) -
@@ -174,7 +174,7 @@ void HairMaker::make_cap() {
           mix(hair, {14, 9, 8},
               (0.45 * smooth_step(0.1, -0.9, lock) - 0.24 * fine) * fade + 0.22 + 0.3 * parting);
       c = mix(c, mix(hair, {255, 222, 180}, 0.25), 0.40 * fade * smooth_step(0.3, 0.95, lock));
-      // Short hair lets the skin through where it begins.
+      // Short hair lets the skin show through where it begins.
       c = mix(c, mix(hair, form_.person().skin, 0.45),
               smooth_step(0.3, 0.15, style_.low) * smooth_step(0.12, 0.0, t));
       // Texture coordinates as seen from above, so that no seam is needed.
@@ -307,7 +307,7 @@ void HairMaker::make_strand(const Strand& strand, double wide, double shade) {
   out_.triangle(c, b, d);
 }
 
-/// Single hairs along the line: in front they grow out of it, behind they hang over it.
+/// Single hairs along the line: in front they grow out of it, in the back they hang over it.
 void HairMaker::make_border() {
   const uint32_t count = lod_ == 0 ? 700 : lod_ == 1 ? 320 : 140;
   const double wide = lod_ == 0 ? 0.025 : lod_ == 1 ? 0.04 : 0.06;

@@ -12,7 +12,7 @@ using author::smooth_step;
 
 namespace {
 
-/// A joint of the skin, at a place of the front view; left half and middle.
+/// A joint of the skin, at a place in the front view; left half and middle only.
 struct Place {
   const char* name;
   double x, y;
@@ -99,7 +99,7 @@ class SkeletonMaker {
     out_.joints[index] = {name, position, parent, index, 0, tier, group, below, drive};
     return index;
   }
-  /// The left one; the right one follows it.
+  /// The joint of the left half, followed by that of the right.
   uint16_t add_pair(const char* name, Vec3 position, uint16_t parent, Drive drive, uint8_t tier,
                     uint8_t group, uint8_t right_group, bool below) {
     const uint16_t left = add(name, position, parent, drive, tier, group, below);
@@ -162,7 +162,7 @@ Skeleton::Skeleton(const Form& form) {
     }
   }
 
-  // The largest turn of any part of a lid is that of the joint.
+  // The joint turns by the largest turn of any part of a lid.
   for (int i = -20; i <= 20; ++i) {
     const double x = kEye.x + kEyeHalfWidth * i / 20.0;
     upper_lid_angle = std::max(upper_lid_angle, form.upper_opening(x));
@@ -189,7 +189,7 @@ class Weigher {
     values_[count_++] = weight;
   }
 
-  /// The largest ones, scaled to a sum of 1; the same on both sides of the plane if asked for.
+  /// The largest weights, scaled to a sum of 1; the same on both sides of the plane if asked for.
   Weights finish(const Skeleton& skeleton, bool symmetric) {
     if (symmetric) {
       for (uint32_t i = 0; i < count_; ++i) {
@@ -205,7 +205,7 @@ class Weigher {
     });
     uint32_t kept = 0;
     while (kept < std::min(count_, kMaxInfluences) && values_[order[kept]] >= 2e-4) ++kept;
-    // A pair is not torn apart.
+    // Keeps both joints of a pair or none.
     if (symmetric && kept == kMaxInfluences && kept < count_) {
       const uint16_t twin = skeleton.joints[joints_[order[kept - 1]]].twin;
       if (joints_[order[kept]] == twin && twin != joints_[order[kept - 1]]) --kept;
@@ -228,8 +228,8 @@ class Weigher {
   uint32_t count_ = 0;
 };
 
-/// Shares `total` among the nearest skin joints of one side of the tree by compact Shepard weights,
-/// which reach 0 where the next joint would come in; fades into `otherwise` away from all.
+/// Shares `total` among the nearest skin joints of one side of the tree by compact Shepard weights, which
+/// reach 0 where the next joint would come in; far from all of them, the rest goes to `rest`.
 void share(const Skeleton& skeleton, uint32_t lod, bool below, Vec3 at, double total, double near,
            double far, Weigher& out, double& rest) {
   constexpr uint32_t kNearest = 4;
@@ -302,11 +302,11 @@ Weights weigh(const Skeleton& skeleton, uint32_t lod, const Vertex& v, bool on_p
         rest = std::max(0.0, 1 - lid);
       }
       const double jaw = jaw_weight(v) * rest;
-      // The fewer joints, the farther each reaches.
+      // With fewer joints, each reaches farther.
       static constexpr double kReach[kLodCount] = {1, 1.05, 1.15, 1.25, 1.35, 1.5, 1.6, 1.8};
       const double near = 1.5 * kReach[lod], far = 3.6 * kReach[lod];
       double upper_rest = 0, lower_rest = 0;
-      // Inside the mouth jaws carry alone, on the lids nothing else does.
+      // Inside the mouth only jaws move vertices; on the lids only lid joints do.
       const double outer = std::max(smooth_step(0.08, 0.42, v.depth), 1 - off_lids(v.look));
       share(skeleton, lod, false, v.look, (rest - jaw) * (1 - outer), near, far, weigher,
             upper_rest);

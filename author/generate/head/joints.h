@@ -4,10 +4,9 @@
 //     root - neck01 - neck02 - head - face - skin joints, lids, eyes, upper teeth
 //                                        \ jaw - skin joints of the lower face, lower teeth, tongue
 //
-// A vertex hangs on the jaw's side of this tree with exactly the weight that jaw_weight() gives it,
-// so opening the jaw needs no other joint. Lids turn about the centers of the eyeballs; the upper
-// ones have a second joint that turns half as far, so that the skin between stays on the ball.
-// Neutral rotations are all zero.
+// The weights of a vertex on the jaw's side of this tree sum to exactly jaw_weight(), so opening the jaw
+// needs no other joint. Lids turn about the centers of the eyeballs; the upper ones have a second joint that
+// turns half as far, so that the skin between stays on the ball. Neutral rotations are all zero.
 #pragma once
 
 #include "author/generate/head/shapes.h"
@@ -28,7 +27,7 @@ struct Joint {
   int8_t side = 0;     // 1 left, -1 right
   uint8_t tier = 0;    // exists at LOD l if tier <= 7 - l
   uint8_t group = 0;   // joint group
-  bool below = false;  // hangs on the jaw
+  bool below = false;  // is below the jaw in the tree
   Drive drive = Drive::kNone;
 };
 
@@ -52,7 +51,7 @@ struct Weights {
   uint32_t count = 0;
 };
 
-/// With the joints of a LOD. `on_plane` vertices get weights that are symmetric to the last bit.
+/// Uses the joints of a LOD. `on_plane` vertices get exactly symmetric weights.
 Weights weigh(const Skeleton& skeleton, uint32_t lod, const Vertex& vertex, bool on_plane);
 
 }  // namespace mien::head

@@ -11,10 +11,10 @@ constexpr uint32_t kLodCount = 8;
 enum class Part : uint8_t { kHead, kTeeth, kTongue, kEyeLeft, kEyeRight, kHair, kBrows, kLashes };
 constexpr uint32_t kPartCount = 8;
 
-/// What carries a vertex besides the joints of the face.
+/// The joints that move a vertex besides those of the face.
 enum class Carrier : uint8_t {
   kSkin,
-  kSkull,       // head joint alone: hair
+  kSkull,       // the head joint alone: hair
   kUpperTeeth,  // rigid
   kLowerTeeth,
   kTongue,
@@ -24,7 +24,7 @@ enum class Carrier : uint8_t {
 struct Vertex {
   Vec3 position;  // neutral
   Vec3 closed;    // the same with closed lids
-  Vec3 look;      // the place on the face whose motion it follows (lips for the mouth's inside)
+  Vec3 look;  // the place on the face whose motion it follows (lips for the inside of the mouth)
   Vec3 normal;
   double u = 0, v = 0;
   double lid = 0;          // see FacePoint
@@ -42,7 +42,7 @@ struct Face {
   uint32_t count;
 };
 
-/// A list that grows in an arena; when memory runs out it stays as it is and remembers that.
+/// A list that grows in an arena. If memory runs out it stays as it is and sets failed().
 template <class T>
 class Growing {
  public:
@@ -86,22 +86,22 @@ struct HalfMesh {
 
   void quad(uint32_t a, uint32_t b, uint32_t c, uint32_t d) { faces.add({{a, b, c, d}, 4}); }
   void triangle(uint32_t a, uint32_t b, uint32_t c) { faces.add({{a, b, c, 0}, 3}); }
-  /// Memory ran out; what is there is of no use, but safe to touch if there is any.
+  /// Memory ran out; the contents are useless but safe to access.
   bool failed() const { return vertices.failed() || faces.failed(); }
   bool on_plane(uint32_t vertex) const { return mirrored && vertices[vertex].position.x == 0; }
 };
 
-/// `full` at LOD 0, a tenth or so at the last, never below `least`.
+/// `full` at LOD 0, about a tenth at the last, never below `least`.
 uint32_t at_lod(uint32_t full, uint32_t least, uint32_t lod);
-/// Rows of equal length are joined by quads; counter-clockwise if rows go up and columns to the
-/// right as seen from outside.
+/// Joins rows of equal length by quads; counter-clockwise if rows go up and columns to the right as seen from
+/// outside.
 void join_rows(HalfMesh& out, uint32_t first, uint32_t rows, uint32_t columns);
-/// -1 ... 1: unrelated for each `i`.
+/// A pseudorandom number -1 ... 1 for each `i`.
 double scatter(uint32_t i);
-/// That stays where it is but for what its carrier does.
+/// A vertex that moves only with its carrier.
 Vertex plain(Vec3 position, Color color, double u, double v, Carrier carrier);
 
-/// These add to `out` and leave it failed if memory ran out. The last ones complete what is there.
+/// These add to `out`, which is failed() if memory ran out. set_normals() completes a mesh.
 void add_skin(const Form& form, uint32_t lod, HalfMesh& out);
 void add_teeth(const Form& form, uint32_t lod, HalfMesh& out);
 void add_tongue(const Form& form, uint32_t lod, HalfMesh& out);
@@ -113,7 +113,7 @@ void set_normals(HalfMesh& mesh);
 /// How much hair shows through the skin at a place of the form: 0 below the hair line, 1 under it.
 double scalp(const Form& form, double angle, double y);
 
-/// All of the above for one part. Both eyes are the left one.
+/// All of the above for one part. Both eyes use the left one.
 bool make_part(const Form& form, Part part, uint32_t lod, HalfMesh& out);
 
 }  // namespace mien::head

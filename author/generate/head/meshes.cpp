@@ -31,7 +31,7 @@ class MeshMaker {
   MeshMaker(const Head& head, Part part, uint32_t lod, Arena& arena, Arena& scratch)
       : head_(head), part_(part), lod_(lod), arena_(arena), scratch_(scratch), half_(scratch) {}
 
-  /// `used`: set for channels that the mesh has a target for.
+  /// `used` is set for channels for which the mesh has a target.
   bool make(dna::Mesh& out, Span<uint8_t> used) {
     if (!make_part(head_.form, part_, lod_, half_)) return false;
     flipped_ = part_ == Part::kEyeRight;
@@ -45,7 +45,7 @@ class MeshMaker {
   bool has_twin(uint32_t i) const { return half_.mirrored && !half_.on_plane(i); }
   Vec3 placed(Vec3 v) const { return flipped_ ? mirrored(v) : v; }
 
-  /// Vertices of the other half follow those of this one.
+  /// Vertices of the other half come after those of this one.
   bool number() {
     if (!author::make(scratch_, left_count(), twin_) ||
         !author::make(scratch_, left_count(), weights_)) {
@@ -75,8 +75,8 @@ class MeshMaker {
     return true;
   }
 
-  /// Texture coordinates of the other half are mirrored about u = 0.5; vertices on the plane that
-  /// lie elsewhere have a layout for each half.
+  /// Texture coordinates of the other half are mirrored about u = 0.5; vertices on the plane with another u
+  /// have a layout for each half.
   bool make_layouts(dna::Mesh& out) {
     if (!author::make(scratch_, left_count(), other_layout_)) return false;
     uint32_t layouts = left_count();
@@ -160,7 +160,7 @@ class MeshMaker {
     return true;
   }
 
-  /// What joints leave of a shape, for the vertices of this half.
+  /// The part of a shape that joints cannot produce, for the vertices of this half.
   void find_offsets(uint32_t shape, Span<Affine> pose, Span<Vec3> out) const;
 
   bool make_targets(dna::Mesh& out, Span<uint8_t> used) {
@@ -189,8 +189,8 @@ class MeshMaker {
     return true;
   }
 
-  /// Below the LODs with shapes of the whole face there are those of the lips' edges, so that a
-  /// closed mouth has no slit.
+  /// LODs without shapes of the whole face have shapes of the edges of the lips, so that a closed mouth has
+  /// no slit.
   double near_lips(const Vertex& v) const {
     if (v.carrier != Carrier::kSkin || std::abs(v.look.x) > kMouthHalfWidth ||
         std::abs(v.look.y - kMouthY) > 1.3) {
@@ -202,7 +202,7 @@ class MeshMaker {
   Span<Vec3> offsets_of(uint32_t shape) const {
     return offsets_.slice(size_t{shape} * left_count(), left_count());
   }
-  /// Small offsets are not stored, but where edges have to meet.
+  /// Small offsets are not stored, except where edges have to meet.
   bool is_moved(uint32_t vertex, Vec3 offset) const {
     const Vertex& v = half_.vertices[vertex];
     const double least = v.edge || v.lid != 0 ? kLeastOffset / 100 : kLeastOffset;
@@ -255,7 +255,7 @@ class MeshMaker {
 
 void MeshMaker::find_offsets(uint32_t shape, Span<Affine> pose, Span<Vec3> out) const {
   const Shapes& shapes = head_.shapes;
-  // A corrective acts when its members do: it has to make up for the sum of the three.
+  // A corrective acts together with its members: it has to correct the sum of the three.
   uint32_t active[3] = {shape}, active_count = 1;
   if (shape >= kExpressionCount) {
     const Corrective& c = shapes.corrective(shape - kExpressionCount);
@@ -269,7 +269,7 @@ void MeshMaker::find_offsets(uint32_t shape, Span<Affine> pose, Span<Vec3> out) 
     if (v.carrier != Carrier::kSkin) continue;
     const double share = lod_ < kShapeLods ? 1 : near_lips(v);
     if (share < 1e-3) continue;
-    if (half_.on_plane(i) && twin < shape) {  // the mirror image of what was found already
+    if (half_.on_plane(i) && twin < shape) {  // the mirror image of offsets found already
       out[i] = mirrored(offsets_of(twin)[i]);
       continue;
     }
@@ -371,7 +371,7 @@ bool fill_meshes(const Head& head, Arena& arena, const Allocator& allocator, siz
     return false;
   }
 
-  // Targets know their shapes so far; channels are those that are used.
+  // Until here, targets have numbers of shapes; channels are the shapes that are used.
   uint16_t channel = 0;
   for (uint32_t s = 0; s < used.count; ++s) channel_of[s] = used[s] ? channel++ : 0;
   uint32_t count = 0, entry = 0;

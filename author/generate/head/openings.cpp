@@ -18,7 +18,7 @@ void SkinMaker::make_nostril() {
                     kNostril.y + size * (0.165 * s + 0.03 * c)});
   });
   if (out_.failed()) return;
-  // In there it goes up and back.
+  // Inside, it goes up and back.
   static constexpr double kPath[][4] = {// size, up, back, darkness
                                         {0.97, 0.05, 0.02, 0.45},
                                         {0.85, 0.22, 0.10, 0.85},
@@ -64,7 +64,7 @@ uint32_t SkinMaker::mouth_vertex(uint32_t from, double out, double depth, bool a
   const double up = at_back ? 0 : v.side == Side::kAbove ? 1.0 : -0.85;
   const double open = std::sqrt(std::max(0.0, 1 - out * out));
   v.closed.y += up * rise * open - 0.5 * smooth_step(0.6, 1, depth);
-  // Cheeks curve away beside the corners: straight in there first.
+  // Cheeks curve away beside the corners, so it first goes straight in there.
   v.closed.z += back - 0.75 * smooth_step(0, 0.35, depth) * out * out;
   v.closed.x *= 1 + 0.30 * smooth_step(0.20, 0.7, depth);
   v.position = v.closed;

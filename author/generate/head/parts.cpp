@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Eyeballs, teeth and tongue; what all parts share.
+// Eyeballs, teeth and tongue; functions that all parts share.
 #include <algorithm>
 
 #include "author/generate/head/mesh.h"
@@ -56,7 +56,7 @@ void add_eyeball(const Form& form, uint32_t lod, HalfMesh& out) {
   const double* angles = fine ? kFine : kPlain;
   const uint32_t rings = fine ? 16 : 7, around = at_lod(48, 8, lod);
   out.mirrored = false;
-  // Flat faces of coarse lids cut into the ball that round ones lie on.
+  // The flat faces of coarse lids would cut into a ball that fits round lids.
   static constexpr double kShrunk[kLodCount] = {1, 1, 1, 0.995, 0.985, 0.97, 0.955, 0.94};
   const double radius = kEyeRadius * kShrunk[lod];
   const Color iris = form.person().iris;
@@ -106,7 +106,7 @@ void add_eyeball(const Form& form, uint32_t lod, HalfMesh& out) {
 
 namespace {
 
-/// Angle of an ellipse with these half axes at a share 0 ... 1 of its quarter's length.
+/// Angle on an ellipse with these half axes, at a share 0 ... 1 of the length of its quarter.
 double ellipse_angle(double a, double b, double share) {
   constexpr int kSteps = 64;
   double lengths[kSteps + 1] = {0};
@@ -190,7 +190,7 @@ void add_teeth(const Form& form, uint32_t lod, HalfMesh& out) {
         }
       }
     }
-    // The last tooth's end.
+    // The end of the last tooth.
     const uint32_t end = first + columns - 1;
     for (uint32_t row = 1; row + 2 < kRowCount; ++row) {
       const uint32_t a = end, b = end + row * columns, c = end + (row + 1) * columns;
@@ -212,7 +212,7 @@ void add_tongue(const Form& form, uint32_t lod, HalfMesh& out) {
     const double z = mix(2.0, tip_z, t);
     const double y =
         kMouthY - 1.55 + 1.05 * exact_sine(kPi * clamp01(0.12 + 0.62 * t)) * (1 - 0.25 * t);
-    // Broad behind, narrower from the middle on, round at the tip.
+    // Broad at the back, narrower from the middle on, round at the tip.
     const double end = clamp01((t - 0.70) / 0.30), taper = std::sqrt(1 - 0.98 * end * end);
     const double half = mix(1.66, 1.30, smooth_step(0.2, 0.9, t)) * taper;
     const double thick = 0.52 * mix(1.25, 0.62, t) * std::sqrt(taper);

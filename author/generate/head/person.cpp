@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Persons: what a seed makes of the designed one. Dimensions differ by about two standard deviations of
-// those that Zhuang and Bradtmiller measured on 3,997 people ("Head-and-face anthropometric survey of
-// U.S. respirator users", J. Occup. Environ. Hyg. 2, 2005): head breadth and length, face width at the
-// cheekbones and at the angles of the jaw, face length, breadth and protrusion of the nose, length of
-// the lips, girth of the neck.
+// Persons: how a seed changes the designed one. Dimensions differ by about two standard deviations of those
+// that Zhuang and Bradtmiller measured on 3,997 people ("Head-and-face anthropometric survey of U.S.
+// respirator users", J. Occup. Environ. Hyg. 2, 2005): head breadth and length, face width at the cheekbones
+// and at the angles of the jaw, face length, breadth and protrusion of the nose, length of the lips, girth of
+// the neck.
 #include <algorithm>
 
 #include "author/base/random.h"
@@ -15,8 +15,8 @@ using author::mix;
 
 namespace {
 
-/// -1 ... 1, 0 for seed 0. Steps by the square roots of primes (Richtmyer's sequence), which spreads
-/// seeds evenly: no two of a few dozen come out alike, as random numbers do.
+/// -1 ... 1, 0 for seed 0. Steps by the square roots of primes (Richtmyer's sequence), which spreads seeds
+/// evenly: with random numbers, some of a few dozen persons would look alike.
 double axis(uint64_t seed, uint32_t i) {
   static constexpr uint64_t kRoots[] = {
       5167115440072839076u,  4354685564936845355u,  14946468407256161813u, 6620516959819538809u,
@@ -43,7 +43,7 @@ Person make_person(uint64_t seed) {
   uint32_t skin = 0, hair = 0, iris = 0, shirt = 0;
   uint32_t next = 0;
   const auto by = [seed, &next](double spread) { return spread * axis(seed, next++); };
-  // Those that change most first: their roots keep the first dozens of seeds farthest apart.
+  // The most visible properties first: their roots keep the first dozens of seeds farthest apart.
   p.breadth += by(0.11);
   p.length += by(0.12);
   p.height += by(0.11);
@@ -78,7 +78,7 @@ Person make_person(uint64_t seed) {
   p.iris = kIrises[iris];
   p.shirt = kShirts[shirt];
   p.lips *= mix(1.03, 0.80, p.age);
-  // A wide jaw below a narrow face is out of all proportion.
+  // A wide jaw below a narrow face would be out of proportion.
   p.jaw = std::min(p.jaw, p.face + 0.10);
   p.brow_hair = mix(p.hair, {20, 14, 12}, 0.25);
   p.lip = mix(redder(mix(p.skin, {0, 0, 0}, 0.10), 0.62), {168, 84, 84}, 0.16);

@@ -76,7 +76,7 @@ uint8_t find(Motion motion, int side) {
   return i;
 }
 
-/// What a motion does to the left half's own joints.
+/// The joints of the left half that a motion turns.
 JointTurns turns_of(Motion motion) {
   JointTurns t;
   switch (motion) {
@@ -122,7 +122,7 @@ uint32_t list_correctives(Corrective (&out)[kMaxCorrectives]) {
   add(Motion::kJawOpen, 0, Motion::kFunnel, 0, Motion::kLessRound, 0);
   add(Motion::kFunnel, 0, Motion::kPucker, 0, Motion::kLessPout, 0);
   for (int side : {1, -1}) {
-    // Blinking shuts the eye whatever else moves the lids.
+    // Blinking closes the eye whatever else moves the lids.
     for (Motion m : {Motion::kSquint, Motion::kWide, Motion::kLookUp, Motion::kLookDown,
                      Motion::kSmile, Motion::kCheekSquint, Motion::kSneer}) {
       add(Motion::kBlink, side, m, side, Motion::kKeepLidsShut, side, find(m, side));
@@ -184,7 +184,7 @@ double jaw_weight(const Vertex& v) {
   const double apart = std::min(std::abs(v.above_mouth), 2.0);
   double w = mix(by_height, by_lip, exact_pow(std::max(0.0, 1 - s * s), 0.5 + 0.8 * apart));
   w *= smooth_step(-15.6, -10.4, p.y) * smooth_step(-2.5, 3.5, p.z);
-  // The floor of the mouth hangs between chin and throat, which stays.
+  // The floor of the mouth hangs between chin and throat, which does not move.
   w *= mix(1, 0.25 + 0.75 * smooth_step(2.0, 8.2, p.z), smooth_step(-8.6, -11.8, p.y));
   // The back of the mouth hangs between both jaws.
   return mix(w, 0.45, smooth_step(0.7, 1.0, v.depth));
@@ -213,7 +213,7 @@ struct Window {
   }
 };
 
-/// From the wing of the nose past the corner of the mouth; `beside` it, towards the cheek.
+/// The fold from the wing of the nose past the corner of the mouth; `beside` it, towards the cheek.
 struct Fold {
   Vec3 look;
   double at(double beside) const {
@@ -241,7 +241,7 @@ Vec3 Shapes::one_side(Motion motion, Vec3 look, const Vertex& v) const {
   const double line = v.above_mouth;
   const double apart = between_corners(look.x);
   const bool above = v.side == Side::kAbove;
-  // Corners take the lips along, the less the nearer to the middle: lines of lips bend, without a kink.
+  // Corners pull the lips along, less toward the middle: lines of lips bend without a kink.
   const double out = std::min(std::max(look.x, 0.0) / kMouthHalfWidth, 1.1);
   const double corner = out * out * bump(0, line, 0, 0, 1, 1.45) * smooth_step(4.9, 2.5, look.x);
   Vec3 d;
@@ -332,7 +332,7 @@ Vec3 Shapes::one_side(Motion motion, Vec3 look, const Vertex& v) const {
       add(w.at(3.2, -5.6, 1.3, 1.3), {0.10, 0.16, 0.06});
       add(w.at(0, -3.0, 1.2, 0.9), {0.16, 0, 0});
       break;
-    case Motion::kBrowsApart:  // wide eyes leave a lowered brow less room
+    case Motion::kBrowsApart:  // wide eyes leave less room for a lowered brow
       add(w.at(3.0, 3.0, 1.8, 1.0), {0.04, 0.26, 0});
       break;
     case Motion::kLessWide:  // an open smile is narrower and higher than the sum
@@ -360,7 +360,7 @@ Vec3 Shapes::both_sides(Motion motion, const Vertex& v) const {
       add(bump(look.x, line, 0, 0, 2.4, 0.7), {0, -0.24 * line, -0.10});
       break;
     case Motion::kSeal: {
-      // Both lips go to a line between where the jaw has put them.
+      // Both lips move to a line between where the jaw has put them.
       JointTurns jaw;
       jaw.jaw_open = kJawOpenAngle;
       const Vec3 gap = (move_with_jaw(jaw, look) - look) *
@@ -435,7 +435,7 @@ Vec3 Shapes::both_sides(Motion motion, const Vertex& v) const {
     case Motion::kTongueOut: add(lips * apart, {0, above ? 0.16 : -0.30, 0.12}); break;
     default: break;
   }
-  // The middle stays there; what is drawn in by a share of x does so by itself.
+  // The middle does not move sideways; motions that scale x keep it there anyway.
   const bool by_share =
       motion == Motion::kPucker || motion == Motion::kFunnel || motion == Motion::kLessPout;
   if (!by_share) d.x *= clamp01(look.x / 0.8);
@@ -445,8 +445,8 @@ Vec3 Shapes::both_sides(Motion motion, const Vertex& v) const {
 Vec3 Shapes::displacement(uint32_t index, const Vertex& v) const {
   const Shape s = shape(index);
   Vec3 d;
-  // Windows are those of the front view: nothing moves at the back. Inside the mouth the skin
-  // follows the lips less and less.
+  // Windows are those of the front view: nothing moves at the back. Inside the mouth the skin follows the
+  // lips less with depth.
   const double share = smooth_step(-0.5, 3.0, v.look.z) * (1 - smooth_step(0.20, 0.80, v.depth));
   if (share > 0) {
     if (s.side == 0) {

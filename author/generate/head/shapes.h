@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What the controls of the procedural head do: 52 expressions under the names of ARKit, and
-// correctives for pairs of them. Each is a motion of the skin, written as windows (where) times
-// vectors (in which direction), plus rotations of a few joints: jaw, lids, eyes, tongue.
+// The effects of the controls of the procedural head: 52 expressions under the names of ARKit, and
+// correctives for pairs of them. Each is a motion of the skin, written as windows (where) times vectors (in
+// which direction), plus rotations of a few joints: jaw, lids, eyes, tongue.
 #pragma once
 
 #include "author/generate/head/mesh.h"
@@ -62,8 +62,8 @@ struct Shape {
 };
 extern const Shape kExpressions[kExpressionCount];
 
-/// Added when both members are active, by the product of their values. So mouthClose seals the lips
-/// however far the jaw is open, and blinking shuts the eye whatever else moves its lids.
+/// Added when both members are active, by the product of their values. So mouthClose seals the lips however
+/// far the jaw is open, and blinking closes the eye whatever else moves its lids.
 struct Corrective {
   uint8_t first, second;  // expressions
   Motion motion;
@@ -71,7 +71,7 @@ struct Corrective {
   uint8_t undone = 0;  // kKeepLidsShut: the expression whose lids it undoes
 };
 constexpr uint32_t kMaxCorrectives = 32;
-/// Returns how many there are.
+/// Returns the number of correctives.
 uint32_t list_correctives(Corrective (&out)[kMaxCorrectives]);
 
 constexpr uint32_t kMaxShapes = kExpressionCount + kMaxCorrectives;
@@ -85,10 +85,10 @@ struct JointTurns {
   double tongue = 0;  // out
 };
 
-/// How much the jaw carries the place.
+/// The weight of the jaw at a vertex.
 double jaw_weight(const Vertex& v);
 
-/// Where the jaw's motion takes `p`.
+/// Moves `p` with the jaw.
 Vec3 move_with_jaw(const JointTurns& turns, Vec3 p);
 
 /// All expressions, then the correctives.
@@ -103,8 +103,8 @@ class Shapes {
   /// The turns on the left (side 1) or right half (side -1) of the face.
   JointTurns turns(uint32_t shape, int side) const;
 
-  /// Displacement of a vertex of the skin with x >= 0. Mirrored shapes give mirrored results: that
-  /// of the right half is the mirrored one of `twin(shape)` here.
+  /// Displacement of a vertex of the skin with x >= 0. Mirrored shapes give mirrored results: that of the
+  /// right half is the mirrored displacement of `twin(shape)` here.
   Vec3 displacement(uint32_t shape, const Vertex& v) const;
 
   /// The same with left and right exchanged.

@@ -74,7 +74,7 @@ Place SkinMaker::place_at(uint32_t row, uint32_t column) const {
   const int part = column < eye_.left ? 0 : column < mouth_.right ? 1 : 2;
   const double x = form_.x_of(angle, y);
   double t = (x - from[part]) / (from[part + 1] - from[part]);
-  // Few columns leave room for the nostril.
+  // With few columns, leaves room for the nostril.
   if (part == 0 && grid_.columns[0] < 6)
     t = mix(t, t * std::sqrt(t), bump(0, y, 0, kNostril.y, 1, 0.6));
   return {form_.angle_of(mix(to[part], to[part + 1], t), y), y};

@@ -65,8 +65,8 @@ class SkinMaker {
  private:
   void place_columns();
 
-  /// Columns below the eyes are bent: one runs along the wing of the nose, one from there past the
-  /// corner of the mouth to the chin.
+  /// Columns below the eyes are bent: one runs along the wing of the nose, one from the wing past the corner
+  /// of the mouth to the chin.
   Place place_at(uint32_t row, uint32_t column) const;
 
   void place_rows();
@@ -110,7 +110,7 @@ class SkinMaker {
   struct Corner {
     uint32_t row, column;
   };
-  /// A plane that stands off the head, and its outline.
+  /// The plane of the ear, at an angle to the head, and its size.
   struct Ear {
     Vec3 origin, back, up, outward;
     double size = 1;
@@ -135,12 +135,12 @@ class SkinMaker {
         const Place from = place_at(corners[k].row, corners[k].column);
         Place place;
         if (r <= rings.outside) {
-          // The last step before the border is short: what happens there happens at every LOD.
+          // The last step before the border is short, so that the border is the same at every LOD.
           const double steps = rings.outside - 1;
           const double t = r == rings.outside ? 1 : steps > 0 ? last * r / steps : last;
           place = between(from, curve(k, false), t);
         } else {
-          // Close together where skin rolls inwards.
+          // Dense where skin rolls inwards.
           const double left = 1 - static_cast<double>(r - rings.outside) / rings.inside;
           const double t = 1 - left * left;
           place = between(curve(k, false), curve(k, true), t);
@@ -164,8 +164,8 @@ class SkinMaker {
 
   void make_eye();
 
-  /// From the edge of a lid inwards, until behind the surface of the eyeball; in the inner corner over
-  /// it to the other lid's, which gives the pink flesh that is there.
+  /// From the edge of a lid inwards, until behind the surface of the eyeball; in the inner corner over it to
+  /// the other lid's edge, which makes the pink flesh there.
   uint32_t lid_edge_vertex(uint32_t from, Color color);
 
   void make_lid_edges();
@@ -174,16 +174,15 @@ class SkinMaker {
   Place ear_root(double sine, double cosine, double size) const;
   void make_ear();
 
-  /// One ring into the mouth from a vertex of the lips. Above: behind the lip, up in front of the
-  /// gums, along the palate and down to the throat; below likewise. `out`: towards the corner,
-  /// 0..1.
+  /// One ring into the mouth from a vertex of the lips. Above: behind the lip, up in front of the gums, along
+  /// the palate and down to the throat; below likewise. `out`: towards the corner, 0 ... 1.
   uint32_t mouth_vertex(uint32_t from, double out, double depth, bool at_back);
 
   void make_mouth();
 
   Place on_form(FrontPlace at) const { return {form_.angle_of(at.x, at.y), at.y}; }
 
-  /// The first ring is close to the lips, so that their normals are those of their outside.
+  /// The first ring is close to the lips, so that the normals of the lips are those of their outside.
   double depth_of(uint32_t ring) const;
 
   static constexpr double kMouthV = (kMouthY - kBottomY) / (kCrownY - kBottomY);

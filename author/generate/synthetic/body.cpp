@@ -8,12 +8,12 @@ struct BaseBone {
   const char* name;
   const char* parent;  // same side, or in the middle
   bool mirrored;
-  Vec3 position;  // of the left one
-  int8_t axis;    // along the limb if it is a driver, else -1
+  Vec3 position;  // of the left bone
+  int8_t axis;    // along the limb for drivers, else -1
   uint8_t twists, swings;
 };
 
-// Parents stand before their children.
+// Parents precede their children.
 constexpr BaseBone kBones[] = {
     {"root", "root", false, {0, 0, 0}, -1, 0, 0},
     {"pelvis", "root", false, {0, 96, 0}, -1, 0, 0},
@@ -106,7 +106,7 @@ struct BodyMaker {
     return true;
   }
 
-  // Followers stand around their driver, on the way to where its limb goes on.
+  // Followers lie around their driver, on the way to the next joint of its limb.
   bool add_followers(uint16_t driver, BodyJointKind kind, uint32_t count, const char* what) {
     const BodyJoint& base = body.joints[body.drivers[driver].joint];
     for (uint16_t i = 0; i < count; ++i) {

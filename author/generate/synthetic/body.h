@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The body behind a synthetic rig: where its joints are, and which of them follow others. The
-// rotations of driver joints are its inputs; RBF solvers compare them with poses, whose controls
-// move corrective joints; twist and swing joints follow them directly.
+// The body of a synthetic rig: the positions of its joints, and which of them follow others. The rotations of
+// driver joints are its inputs; RBF solvers compare them with poses, whose controls move corrective joints;
+// twist and swing joints follow them directly.
 //
 // Frame: centimeters, x to the character's left, y up, z to the front; it stands with its arms out.
 #pragma once
@@ -33,7 +33,7 @@ struct BodyDriver {
 struct Body {
   Span<BodyJoint> joints;
   Span<BodyDriver> drivers;
-  uint32_t base_count = 0;  // of joints: those that others follow or stand on
+  uint32_t base_count = 0;  // joints that others follow or are attached to
 
   bool joint_in_lod(size_t joint, size_t lod) const;
 };
@@ -44,11 +44,11 @@ bool make_body(Arena& arena, Body& out);
 /// One mesh per LOD: a tube around each limb. Fills geom, and mesh names and LODs of defn.
 bool make_body_meshes(const Body& body, Arena& arena, dna::DnaView& out);
 
-/// Definition, behavior, RBF, joint metadata, twist and swing, geometry. Controls of poses are
-/// numbered behind `ml_control_count` others.
+/// Definition, behavior, RBF, joint metadata, twist and swing, geometry. Controls of poses are numbered after
+/// `ml_control_count` others.
 bool make_body_rig(uint64_t seed, uint32_t ml_control_count, Arena& arena, dna::DnaView& out);
 
-/// Machine-machine-learned behavior for a rig of a preset: how many controls it adds, and what fills them.
+/// Machine-learned behavior for a rig of a preset: the number of controls that it adds, and its layer.
 uint32_t ml_control_count_of(SyntheticPreset preset);
 bool add_learned_behavior(SyntheticPreset preset, uint64_t seed, Arena& arena, dna::DnaView& out);
 

@@ -67,7 +67,7 @@ struct TubeMaker {
     const double size = length(way);
     const double radius = 0.5 + 0.12 * size;
     const Vec3 along = unit(way);
-    // Any direction that is not along the tube will do.
+    // Any direction that is not along the tube is suitable.
     const Vec3 helper = along.y * along.y < 0.5 ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
     const Vec3 across = unit(cross(helper, along)), up = cross(along, across);
     const uint32_t first = vertex;
@@ -96,7 +96,7 @@ struct TubeMaker {
     add_face(cap, grid.sides);
   }
 
-  // Shared evenly where limbs meet, else of the joint that the limb hangs on.
+  // Shared evenly where limbs meet; else of the joint at which the limb begins.
   void add_vertex(Vec3 at, Vec3 normal, double u, double v, uint16_t parent, uint16_t joint) {
     const double place[3] = {at.x, at.y, at.z}, out[3] = {normal.x, normal.y, normal.z};
     for (int k = 0; k < 3; ++k) {

@@ -7,7 +7,7 @@
 namespace mien::synthetic {
 namespace {
 
-// A solver for each driver, and a second one for the first ones: production bodies have as many.
+// A solver for each driver, and a second one for the first drivers: production bodies have this many.
 constexpr uint32_t kSolverCount = 72, kPoseCount = 670;
 constexpr uint32_t kMaxJoints = 8;  // corrective joints of a driver
 
@@ -175,7 +175,7 @@ struct BodyRigMaker {
 
   // RBF ---------------------------------------------------------------------------------------
 
-  /// Every distance, with one quaternion or with that of the parent's driver too.
+  /// All distance functions, with one quaternion or together with that of the parent's driver.
   bool fill_solver(uint32_t number, Random& random, dna::RbfSolver& solver) {
     const uint32_t driver = driver_of(number), poses = poses_of(number);
     const uint32_t distance = number % 4;
@@ -221,7 +221,7 @@ struct BodyRigMaker {
     const uint32_t pose = first_pose_of(solver) + ordinal, driver = driver_of(solver);
     dna::NewArray<uint16_t> inputs, outputs;
     dna::NewArray<float> weights;
-    // A few poses only count while another joint is near its rest.
+    // A few poses only count while another joint is near its rest pose.
     const bool depends = ordinal != 0 && random.chance(0.04);
     if (!make(arena, depends ? 1 : 0, inputs) || !make(arena, 1, outputs) ||
         !make(arena, 1, weights)) {
@@ -253,7 +253,7 @@ struct BodyRigMaker {
         if (!fill_pose(s, p, random)) return false;
       }
     }
-    // Without corrective joints there is nothing to solve for.
+    // Without corrective joints there is nothing to solve.
     auto in_lod = [this](size_t lod, size_t solver) {
       return out.bhvr.joints.groups[solver].lods[lod] != 0;
     };

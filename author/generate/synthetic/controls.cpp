@@ -9,13 +9,13 @@ namespace {
 
 // Names -----------------------------------------------------------------------------------------
 
-/// Raw controls whose names differ in a word or a side: prefix + name + side. How one GUI control
-/// drives several of them:
+/// Raw controls whose names differ in a word or a side: prefix + name + side. How one GUI control drives
+/// several of them:
 ///     A/B    A by its positive half, B by its negative one
 ///     A+B    A all the way, B from three quarters on
 ///     A>B>C  one after the other
 struct Family {
-  uint8_t since;  // smallest detail that has it; kNotMetaHuman: the large preset alone
+  uint8_t since;  // smallest detail that has it; kNotMetaHuman: only in the large preset
   bool wide;      // moves much of the face
   RegionKind home;
   const char* prefix;
@@ -95,7 +95,7 @@ struct Word {
   uint32_t count;
 };
 
-/// The word up to one of `stops` or the end; `rest` then points there.
+/// The word up to one of `stops` or the end; `rest` then begins there.
 Word take(const char*& rest, const char* stops) {
   const char* at = rest;
   rest += strcspn(rest, stops);
@@ -120,7 +120,7 @@ bool name_gui(const char* prefix, Word name, Word suffix, Arena& arena, dna::Str
 
 // Reach -----------------------------------------------------------------------------------------
 
-/// Settles where a raw control sits and which regions it moves: its own and the nearest ones.
+/// Chooses where a raw control is and which regions it moves: its own and the nearest ones.
 void place_control(const Regions& regions, const Family& family, int side, Random& random,
                    Control& control) {
   uint8_t home = regions.find(family.home, side);
@@ -162,7 +162,7 @@ void place_control(const Regions& regions, const Family& family, int side, Rando
 
 // Raw controls ----------------------------------------------------------------------------------
 
-/// The part of the GUI control's way in which it drives the `part`-th of its `parts` controls.
+/// Sets the part of the GUI control's range in which it drives the `part`-th of its `parts` controls.
 void set_ramps(char joiner, uint32_t part, uint32_t parts, Control& control) {
   control.ramp_count = 1;
   if (joiner == '/' && part == 1) {
@@ -254,7 +254,7 @@ bool make_raw_controls(uint64_t seed, Arena& arena, Head& head) {
 
 // RBF pose controls -----------------------------------------------------------------------------
 
-/// One for each direction and each of the joints that turn; they move the neck.
+/// One for each direction of each joint that turns; they move the neck.
 bool make_pose_controls(uint64_t seed, Arena& arena, Head& head) {
   const char* const directions[] = {"TurnUp",    "TurnDown", "TurnLeft",
                                     "TurnRight", "TiltLeft", "TiltRight"};
@@ -282,7 +282,7 @@ bool same_members(const Control& a, const Control& b) {
          std::equal(a.members, a.members + a.member_count, b.members);
 }
 
-/// Draws members that overlap with the first and are not two ways of the same GUI control.
+/// Draws members that overlap with the first and are not driven by the same GUI control.
 void draw_members(Span<const Control> raw, uint32_t wanted, Random& random, Control& corrective) {
   uint16_t* members = corrective.members;
   members[0] = static_cast<uint16_t>(random.below(static_cast<uint32_t>(raw.count)));
@@ -297,7 +297,7 @@ void draw_members(Span<const Control> raw, uint32_t wanted, Random& random, Cont
   corrective.member_count = count;
 }
 
-/// A corrective works where at least two of its members do.
+/// A corrective acts where at least two of its members do.
 void place_corrective(Span<const Control> raw, Control& corrective) {
   uint32_t once = 0;
   double share = 1.0 / corrective.member_count;

@@ -16,7 +16,7 @@ constexpr Sizes kSizes[] = {
     {"archetype", 8, 251, 174, 545, 122, 0, 82, 0, 2.0, 3, true},
 };
 
-/// Joints at each of eight LODs of a head that has 240; other counts in proportion.
+/// Joints at each of eight LODs of a head that has 240; proportional for other counts.
 constexpr uint32_t kLadder[kMaxLodCount] = {240, 160, 110, 75, 50, 32, 20, 12};
 
 // Regions ---------------------------------------------------------------------------------------
@@ -24,11 +24,11 @@ constexpr uint32_t kLadder[kMaxLodCount] = {240, 160, 110, 75, 50, 32, 20, 12};
 struct KindOfRegion {
   const char* name;
   const char* meta_human;  // the same in MetaHuman's conventions
-  bool mirrored;           // two regions, left and right; else one over the middle
+  bool mirrored;           // two regions, left and right; else one across the middle
   bool inside;             // at its own depth; else on the skin
   bool on_jaw;             // moved by the jaw joint
   uint8_t zone;            // groups of the tiny preset, which has fewer groups than regions
-  Vec3 center;             // of the left one
+  Vec3 center;             // of the left region
   Vec3 spread;
   uint8_t units[4];  // per detail; a unit is a mirrored pair of joints or one in the middle
 };
@@ -85,7 +85,7 @@ double front_depth(double x, double y) {
 
 // Rotations -------------------------------------------------------------------------------------
 
-/// Neutral rotations take these angles only: their sines are known, so no library computes them.
+/// Neutral rotations use only these angles: their sines are known, so no library computes them.
 struct Angle {
   double degrees, cosine, sine;
 };
@@ -138,7 +138,7 @@ struct Unit {
   uint16_t ordinal, first_joint, joint_count;
 };
 
-/// In regions over the middle every fourth unit is a single joint there.
+/// In regions across the middle every fourth unit is a single joint there.
 uint16_t joints_of_unit(const KindOfRegion& kind, uint32_t ordinal) {
   return kind.mirrored || ordinal % 4 != 0 ? 2 : 1;
 }
@@ -182,7 +182,7 @@ bool make_unit(const Unit& unit, const Regions& regions, uint16_t (&roots)[kRegi
   const KindOfRegion& kind = kKinds[unit.kind];
   Vec3 place = kind.center;
   if (unit.ordinal > 0) {
-    double low = kind.mirrored ? -1.0 : 0.15;  // a pair over the middle keeps apart
+    double low = kind.mirrored ? -1.0 : 0.15;  // keeps the two joints of a pair apart
     place.x += random.between(low, 1) * kind.spread.x;
     place.y += random.between(-1, 1) * kind.spread.y;
     place.z += random.between(-1, 1) * kind.spread.z;
@@ -230,8 +230,8 @@ bool make_unit(const Unit& unit, const Regions& regions, uint16_t (&roots)[kRegi
   return true;
 }
 
-/// Finer units come later: eyes, then one unit of each region, then evenly through all regions. So
-/// each LOD is a prefix, and no joint outlives its parent.
+/// Finer units come later: eyes, then one unit of each region, then evenly through all regions. So each LOD
+/// is a prefix, and every joint has its parent.
 void rank_units(Span<Unit> units, Head& head) {
   auto key = [&head](const Unit& unit) {
     uint32_t stage = unit.ordinal > 0 ? 2 : unit.kind == kEye ? 0 : 1;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The head behind a synthetic rig: where its joints and controls sit and which of them meet.
-// synthetic_rig.cpp writes it as definition and behavior, synthetic_mesh.cpp puts skin around it.
+// The head of a synthetic rig: where its joints and controls are and which of them meet. rig.cpp writes it as
+// definition and behavior, mesh.cpp puts skin around it.
 //
 // Frame: centimeters, x to the character's left, y up, z to the front.
 #pragma once
@@ -18,7 +18,7 @@ using author::make_lod_map;
 using author::NewVec3s;
 using author::Text;
 
-/// 1 in the middle, 0 from `radius` on, with a smooth end; takes squares to spare the root.
+/// 1 in the middle, 0 from `radius` on, with a smooth end; takes squares to avoid the root.
 inline double falloff(double squared_distance, double radius) {
   double rest = 1.0 - squared_distance / (radius * radius);
   return rest > 0 ? rest * rest : 0.0;
@@ -38,7 +38,7 @@ constexpr uint32_t kMaxLodCount = 8;
 struct Sizes {
   const char* name;
   uint32_t lod_count, raw_count, gui_count, psd_count, group_count, channel_count, map_count;
-  uint32_t first_grid;   // into the table of mesh grids; the next one for each LOD
+  uint32_t first_grid;   // into the table of mesh grids; other LODs have the next ones
   double target_radius;  // of blend shape targets, on the skin
   uint8_t detail;        // 0 ... 3: which families of controls and how many joints
   bool
@@ -47,12 +47,12 @@ struct Sizes {
 
 const Sizes& head_sizes_of(SyntheticPreset preset);
 
-/// Raw controls of heads of characters behind those of families: quaternions of these joints.
+/// Raw controls after those of families, in heads of characters: quaternions of these joints.
 constexpr const char* kNeckInputs[] = {"neck_01", "neck_02", "head"};
 constexpr uint32_t kNeckInputCount = 3 * 4;
 constexpr uint32_t kNeckPoseCount = 18;  // one RBF pose control each
 
-/// What remains of `count` elements at a LOD: all at LOD 0, a twentieth at the last.
+/// Elements that are left of `count` at a LOD: all at LOD 0, a twentieth at the last.
 uint32_t shrink(uint32_t count, uint32_t lod, uint32_t lod_count);
 
 // Joints ----------------------------------------------------------------------------------------
@@ -88,7 +88,7 @@ struct Region {
 constexpr uint32_t kRegionCount = 22;
 constexpr uint8_t kNoRegion = 255;
 
-/// Mirrored kinds have their right half behind the left.
+/// The right half of a mirrored kind comes after the left one.
 struct Regions {
   Region items[kRegionCount];
   uint8_t first[kRegionKindCount];
@@ -104,7 +104,7 @@ struct Joint {
   Vec3 translation, rotation;  // neutral: relative to the parent, Euler angles in degrees
   uint16_t parent = 0;
   uint16_t ordinal = 0;     // within the region
-  uint16_t rank = 0;        // exists at the LODs whose rank limit lies above
+  uint16_t rank = 0;        // is in the LODs whose rank limit is above this
   uint16_t group = 0;       // joint group, unless the region is kNoRegion
   uint16_t attributes = 0;  // bit k: attribute k has a row
   uint8_t region = kNoRegion;
@@ -132,7 +132,7 @@ struct Control {
   uint16_t members[kMaxMembers] = {};
 };
 
-/// One stream of random numbers for each thing that is drawn.
+/// A separate stream of random numbers for each kind of data.
 enum Stream : uint64_t {
   kJointStream = 1,
   kControlStream,
@@ -183,7 +183,7 @@ bool make_head(SyntheticPreset preset, uint64_t seed, Arena& arena, Head& out);
 /// The part of make_head() that needs no joints.
 bool make_controls(uint64_t seed, Arena& arena, Head& head);
 
-/// The RBF solver that turns rotations of neck and head into pose controls. Nothing if the head has none.
+/// The RBF solver that turns rotations of neck and head into pose controls; nothing if the head has none.
 bool make_neck_solver(const Head& head, Arena& arena, dna::DnaView& out);
 
 /// Head meshes, one per LOD, then two eyes that all LODs share. `kept[c]`: channel c exists at LOD

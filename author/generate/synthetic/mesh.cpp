@@ -38,9 +38,9 @@ Vec3 point_at(const dna::Vec3Array& points, size_t i) {
 
 // Surface ---------------------------------------------------------------------------------------
 
-/// Rows of vertices from the lower pole to the upper one, each counter-clockwise from the front as
-/// seen from above; then the poles. The first column of texture coordinates is there twice, so
-/// there are more layouts than positions, as in real meshes.
+/// Rows of vertices from the lower pole to the upper one, each counter-clockwise from the front as seen from
+/// above; then the poles. The first column of texture coordinates is repeated, so there are more layouts than
+/// positions, as in real meshes.
 bool make_surface(const Ellipsoid& shape, Grid grid, Arena& arena, dna::Mesh& out) {
   uint32_t rows = grid.rows, columns = grid.columns;
   uint32_t points = rows * columns, corners = rows * (columns + 1);
@@ -184,7 +184,7 @@ uint32_t weigh_vertex(Vec3 vertex, Span<const Bone> bones, double spacing,
   return kept;
 }
 
-/// Stores floats; the largest takes up what the others lost by rounding.
+/// Stores floats; the largest absorbs the rounding errors of the others.
 bool store_weights(const Weight* weights, uint32_t count, Arena& arena,
                    dna::VertexSkinWeights& out) {
   dna::NewArray<float> values;
@@ -245,8 +245,8 @@ bool make_rigid_skin(uint16_t joint, Arena& arena, dna::Mesh& out) {
 
 // Blend shape targets ---------------------------------------------------------------------------
 
-/// Calls visit(vertex, squared distance) for the vertices of a head nearer than `limit` squared,
-/// which `visit` may lower. Whole rows are passed by: all their vertices have one height.
+/// Calls visit(vertex, squared distance) for the vertices of a head nearer than `limit` squared, which
+/// `visit` may lower. Skips whole rows, because their vertices have the same height.
 template <class Visit>
 void visit_near(const dna::Mesh& mesh, uint32_t columns, Vec3 place, double& limit,
                 const Visit& visit) {
@@ -314,7 +314,7 @@ bool make_targets(const Head& head, uint64_t seed, uint32_t lod, uint32_t column
   return true;
 }
 
-/// Which mesh has which channel, read off the targets.
+/// Lists which mesh has which channel, from the targets.
 bool map_channels(const dna::Geometry& geometry, Arena& arena, dna::MeshChannelMapping& out) {
   size_t count = 0, entry = 0;
   for (const dna::Mesh& mesh : geometry.meshes) count += mesh.blend_shape_targets.count;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Machine-machine-learned behavior of a synthetic rig, in the shape of produced ones:
+// Machine-learned behavior of a synthetic rig, with the structure of production rigs:
 //
 //     gather -> encoders, one per region -> weighted sums -> decoders -> scatter -> joints
 //
-// Encoders read raw controls, take every activation in turn, and belong to regions of the first
-// mesh, whose masks switch them. Each decoder moves some joints by translation, quaternion and
-// scale. The finer half of the LODs has it all; below LOD 0 fewer joints are scattered.
+// Encoders read raw controls, use each kind of activation in turn, and belong to regions of the first mesh,
+// whose masks switch them. Each decoder moves some joints by translation, quaternion and scale. The finer
+// half of the LODs has it all; below LOD 0 fewer joints are scattered.
 #include "author/generate/synthetic/body.h"
 
 namespace mien::synthetic {
@@ -43,7 +43,7 @@ struct MlMaker {
   uint32_t raw_count() const { return out.defn.raw_control_names.count; }
   uint32_t inputs() const { return sizes.inputs < raw_count() ? sizes.inputs : raw_count(); }
 
-  /// Controls of an encoder: a run of neighbors, which begins further on for each.
+  /// Controls of an encoder: consecutive ones, with another beginning for each encoder.
   uint32_t input_of(uint32_t encoder, uint32_t i) const {
     return (encoder * raw_count() / sizes.encoders + i) % raw_count();
   }
@@ -91,7 +91,7 @@ struct MlMaker {
                inputs(), [&](uint32_t i) { return input_of(number, i); }, network.input_indices);
   }
 
-  // What comes out is near rest: small translations and scales, and a quaternion near 1.
+  // Outputs are near rest: small translations and scales, and a quaternion near 1.
   bool fill_decoder(uint32_t number, Random& random, dna::NeuralNetwork& network) {
     if (!make(arena, 2, network.layers) ||
         !fill_layer(sizes.hidden, sizes.code, kTanh, random, network.layers[0]) ||
@@ -182,7 +182,7 @@ struct MlMaker {
            fill_indices(count, number, operation.operation_dependencies);
   }
 
-  // Encoders are shared out among the sums: e, e + decoders, e + 2 decoders ...
+  // Encoders are distributed among the sums: e, e + decoders, e + 2 decoders ...
   uint32_t encoders_of(uint32_t sum) const {
     return (sizes.encoders - sum + sizes.decoders - 1) / sizes.decoders;
   }
@@ -199,7 +199,7 @@ struct MlMaker {
                kEncoders, count, [&](uint32_t i) { return number + i * sizes.decoders; }, sum);
   }
 
-  /// Network number, then rows of each layer at each LOD: whole joints, fewer from LOD 1 on.
+  /// Network number, then the number of rows of each layer at each LOD: whole joints, fewer from LOD 1 on.
   bool fill_decoder_operation(uint32_t number, dna::MlOperation& run) {
     const uint32_t lods = lod_count();
     const auto parameter = [&](uint32_t i) -> uint32_t {
@@ -255,7 +255,7 @@ struct MlMaker {
 
   // Joints ------------------------------------------------------------------------------------
 
-  /// Evenly through those of the coarsest LOD that has networks.
+  /// Evenly distributed over those of the coarsest LOD that has networks.
   uint32_t joint_of(uint32_t n) const {
     uint32_t last = 0;
     while (is_active(last + 1)) ++last;

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
-// The one RBF solver of a character's head: it compares the rotations of neck and head with poses.
+// The only RBF solver of a character's head: it compares the rotations of neck and head with poses.
 #include "author/generate/synthetic/head.h"
 
 namespace mien::synthetic {
 
 namespace {
 
-// Sine and cosine of half of 30 degrees: no library computes them, so they are the same everywhere.
+// Sine and cosine of half of 30 degrees, as constants: no library computes them, so they are the same
+// everywhere.
 constexpr float kSine = 0.25881904510252074f, kCosine = 0.96592582628906831f;
 
-/// Axis and sense of each direction, in the order of the pose controls.
+/// Axis and sign of each direction, in the order of the pose controls.
 struct Turn {
   uint8_t axis;
   float sine;
@@ -68,7 +69,7 @@ bool make_neck_solver(const Head& head, Arena& arena, dna::DnaView& out) {
   solver.raw_control_indices = controls;
   solver.pose_indices = indices;
   solver.raw_control_values = targets;
-  // Full in its pose, nothing at rest or in another pose, each of which is 30 degrees away.
+  // Full in its pose, zero at rest and in other poses, each of which is 30 degrees away.
   solver.radius = 30;
   solver.weight_threshold = 0.001f;
   solver.automatic_radius = 1;  // off

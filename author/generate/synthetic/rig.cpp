@@ -108,7 +108,7 @@ bool fill_controls(const Head& head, uint64_t seed, Arena& arena, dna::Controls&
     const Control& control = head.controls[c];
     for (uint16_t r = 0; r < control.ramp_count; ++r)
       table.set(row++, control.gui, c, control.ramps[r]);
-    // A few correctives are full before their members are.
+    // A few correctives reach 1 before their members do.
     float first_weight = c >= raw_count && random.chance(0.05) ? 2.0f : 1.0f;
     for (uint16_t m = 0; m < control.member_count; ++m) {
       rows.set(entry, static_cast<uint16_t>(c));
@@ -128,7 +128,7 @@ struct GroupMaker {
   const Head& head;
   Random random;
   Arena& arena;
-  Span<uint16_t> joint_buffer, column_buffer;  // room for all of them
+  Span<uint16_t> joint_buffer, column_buffer;  // room for all joints and columns
   Span<uint8_t> outlier;                       // by column
   Span<double> influence;                      // by column
 
@@ -155,7 +155,7 @@ struct GroupMaker {
   }
 
   /// Controls that reach one of the joints, and one percent of the others: production files have such
-  /// leftovers, and the rig compiler has to handle them.
+  /// unneeded columns, and the rig compiler has to handle them.
   Span<uint16_t> find_columns(Span<const uint16_t> joints) {
     size_t count = 0;
     for (size_t c = 0; c < head.controls.count; ++c) {
@@ -237,7 +237,7 @@ struct GroupMaker {
     return rows;
   }
 
-  /// Of the entries within a control's reach, so many are not zero.
+  /// The share of nonzero entries within a control's reach.
   static constexpr double kEntryShare = 0.62;
 };
 
@@ -315,7 +315,7 @@ uint32_t draw_pieces(size_t input, size_t output, Random& random, MapRow* rows) 
 bool fill_maps(const Head& head, uint64_t seed, Arena& arena, dna::DnaView& out) {
   const Sizes& sizes = *head.sizes;
   uint32_t count = sizes.map_count;
-  Span<uint16_t> order, place;  // maps by importance, and back
+  Span<uint16_t> order, place;  // maps by importance, and the inverse
   Span<uint32_t> end;           // of the rows of the n-th map
   Span<MapRow> rows;
   dna::NewArray<uint16_t> lods;

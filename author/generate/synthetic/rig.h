@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Generated face rigs of any size, for tests, benchmarks and first steps without a rig of one's own.
 //
-// The preset decides all sizes, the seed all numbers; the same pair gives the same bytes wherever
-// doubles are those of IEEE 754. The rigs have the structure of production rigs. Heads: controls move
-// neighboring regions of a head, correctives live where their members overlap, and LODs drop
-// joints from the finest on. The body: rotations of joints are compared with poses by RBF solvers,
-// whose controls move corrective joints; others twist and swing with them.
+// The preset determines all sizes, the seed all numbers; the same pair gives the same bytes wherever doubles
+// are those of IEEE 754. The rigs have the structure of production rigs. Heads: controls move neighboring
+// regions of a head, correctives are where their members overlap, and LODs drop the finest joints first. The
+// body: RBF solvers compare rotations of joints with poses, whose controls move corrective joints; other
+// joints twist and swing with them.
 #pragma once
 
 #include "runtime/base/arena.h"
@@ -22,14 +22,14 @@ enum class SyntheticPreset : uint32_t {
   // With the counts, versions and names of exported characters.
   kMetaHumanHead = 6,
   kMetaHumanBody = 7,
-  kArchetype = 8,  // that head without blend shapes
+  kArchetype = 8,  // the same head without blend shapes
 };
 
 /// A file with all layers loaded; of version 2.8, but for kMetaHumanHead and kArchetype (2.5) and
 /// kMetaHumanBody (2.7). Heads have no twists and swings; those of characters have one RBF solver, the others
-/// none. Networks are there if `learned`, which the last three presets must not be. Its arrays and lists
-/// lie in `arena`. Returns false if memory ran out; `out` is then empty and the arena holds what had been
-/// made.
+/// none. Networks are included if `learned`, which must be false for the last three presets. Its arrays and
+/// lists are in `arena`. Returns false if memory ran out; `out` is then empty, and the arena keeps its
+/// allocations.
 bool make_synthetic_rig(SyntheticPreset preset, uint64_t seed, Arena& arena, dna::DnaView& out,
                         bool learned = false);
 
