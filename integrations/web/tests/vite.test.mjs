@@ -44,8 +44,9 @@ test("a project of Vite with the package builds and shows the head", { skip: mis
     writeFileSync(join(work, "vite.config.js"), 'export default { build: { target: "es2022" } };\n');
     writeFileSync(join(work, "index.html"), '<!doctype html><link rel="icon" href="data:,">' +
       '<canvas id="canvas" width="256" height="256"></canvas><script type="module" src="main.js"></script>\n');
-    const { embedded } = /```js\n(?<embedded>const mien = await Mien\.load\(\);\n.*?)```/s
-      .exec(readFileSync(join(project, "README.md"), "utf8")).groups;
+    // The lines of the package's README up to the loop of its page.
+    const { embedded } = /## three\.js.*?(?<embedded>const mien = await Mien\.load\(\);\n.*?)\nrenderer/s
+      .exec(readFileSync(join(project, "integrations/web/README.md"), "utf8")).groups;
     writeFileSync(join(work, "main.js"), `
       import { Mien } from "mien";
       import { FaceObject } from "mien/three";
