@@ -184,7 +184,7 @@ TEST_F(AuthorStages, JointsOfLodsAreThoseOfTheCaller) {
   desc_.symmetry = MIEN_SYMMETRY_OFF;
   ASSERT_EQ(make(), MIEN_OK) << error_.message;
   for (uint32_t lod = 0; lod < 3; ++lod) {
-    EXPECT_EQ(file().defn.lod_joints.at(lod).count, 4 + ladder[lod]) << lod;
+    EXPECT_EQ(file().defn.lod_joints.at(lod).count, 5 + ladder[lod]) << lod;
   }
 }
 
