@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 // DNA files: opening, looking into them, writing. mien.h is the manual.
-#include <algorithm>
-
+#include "capi/arguments/fields.h"
 #include "capi/dna_handle.h"
 #include "runtime/base/coordinate_system.h"
 #include "runtime/load/dna/check/check_written.h"
 #include "runtime/load/dna/dna_reader.h"
-#include "runtime/load/dna/format/dna_path.h"
 #include "runtime/load/dna/format/dna_writer.h"
 
 using namespace mien;
@@ -22,7 +20,6 @@ static_assert(MIEN_ERROR_ISA == int(Status::kIsa) && MIEN_ERROR_MEMORY == int(St
 static_assert(MIEN_LAYER_TWIST_SWING_BEHAVIOR == int(dna::kLayerTwistSwing) &&
                   MIEN_LAYER_MACHINE_LEARNED_BEHAVIOR == int(dna::kLayerMachineLearned),
               "dna_view.h and mien.h number the same layers");
-static_assert(MIEN_FIELD_F32 == int(dna::FieldType::kF32), "dna_path.h and mien.h agree");
 static_assert(sizeof(MienError::message) == sizeof(Error::message), "messages are copied whole");
 
 MienDna* mien::capi::new_dna(const Allocator& allocator) {
@@ -242,106 +239,16 @@ MienStatus mien_dna_layer(const MienDna* dna, uint32_t index, MienDnaLayer* out_
   return MIEN_OK;
 }
 
-namespace {
-
-/// Paths of fields are shorter: a record is at most five levels down, and an index has ten digits.
-constexpr size_t kMaxPath = 255;
-
-size_t length_of(const char* text) { return text ? strlen(text) : 0; }
-
-/// A null-terminated copy of `path` in `out`.
-MienStatus copy_path(const MienDna* dna, const char* path, size_t count, char (&out)[kMaxPath + 1],
-                     MienError* error) {
-  if (MienStatus status = check(dna, "dna", error)) return status;
-  if (!path) return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "path is NULL");
-  if (count > kMaxPath || memchr(path, 0, count)) {
-    return give_error(
-        error, MIEN_ERROR_NAME,
-        "\"%.*s...\" is not a field: its path of %zu bytes is longer than %zu or has a "
-        "zero byte",
-        static_cast<int>(std::min<size_t>(count, 60)), path, count, kMaxPath);
-  }
-  memcpy(out, path, count);
-  out[count] = 0;
-  return MIEN_OK;
-}
-
-MienStatus find(const MienDna* dna, const char* path, size_t count, char (&copy)[kMaxPath + 1],
-                dna::FieldRef& field, MienError* error) {
-  if (MienStatus status = copy_path(dna, path, count, copy, error)) return status;
-  Error detail;
-  if (dna::find_field(dna->view, copy, field, detail) != Status::kOk)
-    return give_error(detail, error);
-  return MIEN_OK;
-}
-
-/// For messages about a field whose type is not the one that the caller expects.
-const char* content_of(dna::FieldType type) {
-  switch (type) {
-    case dna::FieldType::kRecord: return "a record";
-    case dna::FieldType::kList: return "a list";
-    case dna::FieldType::kString: return "a string";
-    case dna::FieldType::kF32: return "floats";
-    default: return "integers";
-  }
-}
-
-const char* reader_of(dna::FieldType type) {
-  switch (type) {
-    case dna::FieldType::kRecord: return "the paths of its fields";
-    case dna::FieldType::kList: return "the paths of its elements";
-    case dna::FieldType::kString: return "mien_dna_read_string()";
-    case dna::FieldType::kF32: return "mien_dna_read_floats()";
-    default: return "mien_dna_read_integers()";
-  }
-}
-
-/// Copies big-endian elements of type From into `out`.
-template <class From, class To>
-void copy_elements(const dna::FieldRef& field, uint64_t first, uint64_t count, To* out) {
-  const uint8_t* bytes = field.bytes ? field.bytes : field.number;
-  for (uint64_t i = 0; i < count; ++i) {
-    out[i] = static_cast<To>(load_big_endian<From>(bytes + (first + i) * sizeof(From)));
-  }
-}
-
-MienStatus check_range(const dna::FieldRef& field, const char* path, uint64_t first, uint64_t count,
-                       const void* out, MienError* error) {
-  if (first > field.count || count > field.count - first) {
-    return give_error(error, MIEN_ERROR_INDEX, "%.120s has %llu elements, not %llu from %llu on",
-                      path, static_cast<unsigned long long>(field.count),
-                      static_cast<unsigned long long>(count),
-                      static_cast<unsigned long long>(first));
-  }
-  if (!out && count != 0) return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "out is NULL");
-  return MIEN_OK;
-}
-
-}  // namespace
-
 MienStatus mien_dna_field(const MienDna* dna, const char* path, MienDnaField* out_field,
                           MienError* error) {
   return mien_dna_field_n(dna, path, length_of(path), out_field, error);
 }
 
-MienStatus mien_dna_field_n(const MienDna* dna, const char* given, size_t path_count,
+MienStatus mien_dna_field_n(const MienDna* dna, const char* path, size_t path_count,
                             MienDnaField* out_field, MienError* error) {
-  const MienStatus cleared = clear_struct(out_field);
-  if (check_error(error) != MIEN_OK) return MIEN_ERROR_STRUCT_SIZE;
-  if (cleared != MIEN_OK) {
-    return give_error(error, cleared,
-                      "out_field is NULL, or its struct_size is not sizeof(MienDnaField)");
-  }
-  char path[kMaxPath + 1];
-  dna::FieldRef field;
-  if (MienStatus status = find(dna, given, path_count, path, field, error)) return status;
-  MienDnaField result = {};
-  result.type = static_cast<uint32_t>(field.type);
-  result.count = field.count;
-  result.is_array = field.is_array;
-  result.byte_offset = field.bytes ? dna->view.offset_of(field.bytes) : MIEN_NO_OFFSET;
-  write_struct(out_field, result);
-  return succeed(error);
+  if (MienStatus status = clear_field(out_field, error)) return status;
+  if (MienStatus status = check(dna, "dna", error)) return status;
+  return describe_field(dna->view, path, path_count, out_field, error);
 }
 
 MienStatus mien_dna_child_name(const MienDna* dna, const char* path, uint32_t index,
@@ -349,18 +256,11 @@ MienStatus mien_dna_child_name(const MienDna* dna, const char* path, uint32_t in
   return mien_dna_child_name_n(dna, path, length_of(path), index, out_name, error);
 }
 
-MienStatus mien_dna_child_name_n(const MienDna* dna, const char* given, size_t path_count,
+MienStatus mien_dna_child_name_n(const MienDna* dna, const char* path, size_t path_count,
                                  uint32_t index, MienStringView* out_name, MienError* error) {
   if (MienStatus status = clear_output(out_name, error)) return status;
-  char path[kMaxPath + 1];
-  if (MienStatus status = copy_path(dna, given, path_count, path, error)) return status;
-  const char* name = nullptr;
-  Error detail;
-  if (dna::find_field_name(dna->view, path, index, name, detail) != Status::kOk) {
-    return give_error(detail, error);
-  }
-  *out_name = {name, strlen(name)};
-  return succeed(error);
+  if (MienStatus status = check(dna, "dna", error)) return status;
+  return name_field(dna->view, path, path_count, index, out_name, error);
 }
 
 MienStatus mien_dna_read_floats(const MienDna* dna, const char* path, uint64_t first,
@@ -368,20 +268,11 @@ MienStatus mien_dna_read_floats(const MienDna* dna, const char* path, uint64_t f
   return mien_dna_read_floats_n(dna, path, length_of(path), first, count, out, error);
 }
 
-MienStatus mien_dna_read_floats_n(const MienDna* dna, const char* given, size_t path_count,
+MienStatus mien_dna_read_floats_n(const MienDna* dna, const char* path, size_t path_count,
                                   uint64_t first, uint64_t count, float* out, MienError* error) {
   if (check_error(error) != MIEN_OK) return MIEN_ERROR_STRUCT_SIZE;
-  char path[kMaxPath + 1];
-  dna::FieldRef field;
-  if (MienStatus status = find(dna, given, path_count, path, field, error)) return status;
-  if (field.type != dna::FieldType::kF32) {
-    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
-                      "%.120s holds %s, not floats: read it with %s", path, content_of(field.type),
-                      reader_of(field.type));
-  }
-  if (MienStatus status = check_range(field, path, first, count, out, error)) return status;
-  copy_elements<float>(field, first, count, out);
-  return succeed(error);
+  if (MienStatus status = check(dna, "dna", error)) return status;
+  return read_field({dna->view, "mien_dna"}, path, path_count, first, count, out, error);
 }
 
 MienStatus mien_dna_read_integers(const MienDna* dna, const char* path, uint64_t first,
@@ -389,28 +280,12 @@ MienStatus mien_dna_read_integers(const MienDna* dna, const char* path, uint64_t
   return mien_dna_read_integers_n(dna, path, length_of(path), first, count, out, error);
 }
 
-MienStatus mien_dna_read_integers_n(const MienDna* dna, const char* given, size_t path_count,
+MienStatus mien_dna_read_integers_n(const MienDna* dna, const char* path, size_t path_count,
                                     uint64_t first, uint64_t count, int64_t* out,
                                     MienError* error) {
   if (check_error(error) != MIEN_OK) return MIEN_ERROR_STRUCT_SIZE;
-  char path[kMaxPath + 1];
-  dna::FieldRef field;
-  if (MienStatus status = find(dna, given, path_count, path, field, error)) return status;
-  const bool integer = field.type == dna::FieldType::kU8 || field.type == dna::FieldType::kU16 ||
-                       field.type == dna::FieldType::kU32 || field.type == dna::FieldType::kI32;
-  if (!integer) {
-    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
-                      "%.120s holds %s, not integers: read it with %s", path,
-                      content_of(field.type), reader_of(field.type));
-  }
-  if (MienStatus status = check_range(field, path, first, count, out, error)) return status;
-  switch (field.type) {
-    case dna::FieldType::kU8: copy_elements<uint8_t>(field, first, count, out); break;
-    case dna::FieldType::kU16: copy_elements<uint16_t>(field, first, count, out); break;
-    case dna::FieldType::kU32: copy_elements<uint32_t>(field, first, count, out); break;
-    default: copy_elements<int32_t>(field, first, count, out); break;
-  }
-  return succeed(error);
+  if (MienStatus status = check(dna, "dna", error)) return status;
+  return read_field({dna->view, "mien_dna"}, path, path_count, first, count, out, error);
 }
 
 MienStatus mien_dna_read_string(const MienDna* dna, const char* path, MienStringView* out_string,
@@ -418,19 +293,11 @@ MienStatus mien_dna_read_string(const MienDna* dna, const char* path, MienString
   return mien_dna_read_string_n(dna, path, length_of(path), out_string, error);
 }
 
-MienStatus mien_dna_read_string_n(const MienDna* dna, const char* given, size_t path_count,
+MienStatus mien_dna_read_string_n(const MienDna* dna, const char* path, size_t path_count,
                                   MienStringView* out_string, MienError* error) {
   if (MienStatus status = clear_output(out_string, error)) return status;
-  char path[kMaxPath + 1];
-  dna::FieldRef field;
-  if (MienStatus status = find(dna, given, path_count, path, field, error)) return status;
-  if (field.type != dna::FieldType::kString) {
-    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
-                      "%.120s holds %s, not a string: read it with %s", path,
-                      content_of(field.type), reader_of(field.type));
-  }
-  *out_string = {reinterpret_cast<const char*>(field.bytes), static_cast<size_t>(field.count)};
-  return succeed(error);
+  if (MienStatus status = check(dna, "dna", error)) return status;
+  return read_field({dna->view, "mien_dna"}, path, path_count, out_string, error);
 }
 
 // Writing -----------------------------------------------------------------------------------------

@@ -14,7 +14,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 # Of a library: its headers and its map.
-HEADERS = {"mien": ["mien.h", "mien/*.h"], "mien_author": ["mien_author.h"]}
+HEADERS = {"mien": ["mien.h", "mien/*.h"], "mien_author": ["mien_author.h", "mien_author/*.h"]}
 MAPS = {"mien": "capi/mien.map", "mien_author": "author/mien_author.map"}
 
 

@@ -250,4 +250,6 @@ MIEN_AUTHOR_CHECKED MienStatus mien_author_report_json(const MienAuthorReport* a
 }
 #endif
 
+#include "mien_author/document.h"
+
 #endif

@@ -70,18 +70,19 @@ def joined(text):
 
 def with_included(folder, name, seen):
     """(file name, text) of a header and of those that it includes from its folder, each once and before
-    what needs it. An umbrella, which has nothing but includes, comes first: its comment is the library's."""
+    what needs it. An umbrella, which has nothing but includes, comes first: its comment is the library's.
+    So does a header before chapters that it includes behind its own declarations."""
     if name in seen:
         return []
     seen.add(name)
     text = (folder / name).read_text(encoding="utf-8")
     parent = name.rpartition("/")[0]
-    included = []
-    for target in re.findall(r'^#include "([^"]+)"$', text, re.MULTILINE):
-        path = f"{parent}/{target}" if parent else target
-        included += with_included(folder, path, seen)
-    own = [(name, text)]
-    return included + own if "MIEN_API" in text else own + included
+    before, behind = [], []
+    for match in re.finditer(r'^#include "([^"]+)"$', text, re.MULTILINE):
+        path = f"{parent}/{match.group(1)}" if parent else match.group(1)
+        declared = re.search(r"^(enum|typedef)\b", text[:match.start()], re.MULTILINE)
+        (behind if declared or "MIEN_API" not in text else before).extend(with_included(folder, path, seen))
+    return before + [(name, text)] + behind
 
 
 class Interface:

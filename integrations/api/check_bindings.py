@@ -44,6 +44,10 @@ WITHOUT = {
         "mien_mix_open_file", "mien_mix_write_file")},
     **{name: {"JavaScript": "a stream reads the caller's bytes, without a copy that has to be kept"}
        for name in ("mien_dna_open_memory", "mien_baked_open_memory", "mien_clip_open_memory")},
+    # In preparation.
+    "MienDocumentDesc.allocator": {"C++": "documents: not yet"},
+    **{name: dict.fromkeys(("C++", "Python", "Rust", "JavaScript"), "documents: not yet") for name in
+       re.findall(r"\bmien_document_\w+", (INTEGRATIONS.parent / "author/mien_author.map").read_text())},
     **{name: {"JavaScript": "one by one, each on several threads if it is large"} for name in (
         "mien_deformer_instance_deform_batch", "mien_deformer_instance_write_vertices_batch")},
 }

@@ -403,6 +403,71 @@ std::vector<Call> calls_of_authoring(const World& w, const AuthorInput& input) {
   return {{"mien_author_rig", rig(desc)}, {"mien_author_rig", rig(with_lods)}};
 }
 
+/// A change of a document, which is made and destroyed with it.
+template <class Edit>
+auto edits(const World& w, const Edit& edit) {
+  return [&w, edit](MienError* error) {
+    const auto desc = w.desc<MienDocumentDesc>();
+    MienDocument* document = nullptr;
+    MienStatus status = mien_document_create(w.tiny.object, &desc, &document, error);
+    if (status == MIEN_OK) status = edit(document, error);
+    mien_document_destroy(document);
+    return status;
+  };
+}
+
+std::vector<Call> calls_of_documents(const World& w) {
+  const auto desc = w.desc<MienDocumentDesc>();
+  const auto validate = w.desc<MienValidateDesc>();
+  static const float number = 2;
+  static const int64_t integer = 0;
+  return {
+      {"mien_document_create",
+       makes(mien_document_destroy, desc, mien_document_create, w.tiny.object)},
+      {"mien_document_create", makes(mien_document_destroy, desc, mien_document_create, nullptr)},
+      {"mien_document_write_floats", edits(w,
+                                           [](MienDocument* d, MienError* error) {
+                                             return mien_document_write_floats(
+                                                 d, "geom.meshes[0].positions.xs", 0, 1, &number,
+                                                 error);
+                                           })},
+      {"mien_document_write_integers", edits(w,
+                                             [](MienDocument* d, MienError* error) {
+                                               return mien_document_write_integers(
+                                                   d, "defn.jointHierarchy", 0, 1, &integer, error);
+                                             })},
+      {"mien_document_write_string", edits(w,
+                                           [](MienDocument* d, MienError* error) {
+                                             return mien_document_write_string(
+                                                 d, "defn.jointNames[0]", "a", 1, error);
+                                           })},
+      {"mien_document_splice", edits(w,
+                                     [](MienDocument* d, MienError* error) {
+                                       return mien_document_splice(d, "desc.metadata", 0, 0, 3,
+                                                                   error);
+                                     })},
+      {"mien_document_resize", edits(w,
+                                     [](MienDocument* d, MienError* error) {
+                                       return mien_document_resize(d, "desc.metadata", 900, error);
+                                     })},
+      {"mien_document_mark", edits(w,
+                                   [](MienDocument* d, MienError* error) {
+                                     uint64_t mark;
+                                     return mien_document_mark(d, &mark, error);
+                                   })},
+      {"mien_document_to_dna", edits(w,
+                                     [desc](MienDocument* d, MienError* error) {
+                                       return makes(mien_dna_close, desc, mien_document_to_dna,
+                                                    d)(error);
+                                     })},
+      {"mien_document_validate", edits(w,
+                                       [validate](MienDocument* d, MienError* error) {
+                                         return makes(mien_report_destroy, validate,
+                                                      mien_document_validate, d)(error);
+                                       })},
+  };
+}
+
 /// Requests that the call makes.
 size_t survive_every_failure(World& world, const Call& call) {
   SCOPED_TRACE(call.function);
@@ -434,8 +499,9 @@ TEST(EveryAllocation, MayFailUnderEveryFunctionThatTakesMemory) {
   const AuthorInput input;
   ASSERT_FALSE(HasFailure());
   std::set<std::string> called;
-  for (const auto& calls : {calls_of_dna(world), calls_of_rigs(world), calls_of_clips(world),
-                            calls_of_mixes(world), calls_of_authoring(world, input)}) {
+  for (const auto& calls :
+       {calls_of_dna(world), calls_of_rigs(world), calls_of_clips(world), calls_of_mixes(world),
+        calls_of_authoring(world, input), calls_of_documents(world)}) {
     for (const Call& call : calls) {
       const size_t requests = survive_every_failure(world, call);
       EXPECT_GT(requests, 0u) << call.function;

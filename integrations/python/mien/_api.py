@@ -714,6 +714,10 @@ class MienAuthorReport(c_void_p):
     pass
 
 
+class MienDocument(c_void_p):
+    pass
+
+
 MienTask = CFUNCTYPE(None, c_void_p, c_uint32)
 
 
@@ -2760,6 +2764,20 @@ class MienAuthorDesc(Structure):
         self.lod_mesh_count = lod_mesh_count
 
 
+class MienDocumentDesc(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("allocator", POINTER(MienAllocator)),
+    ]
+    struct_size: Any
+    allocator: Any
+
+    def __init__(self, *,
+                 allocator: Any = None) -> None:
+        super().__init__(16)
+        self.allocator = allocator
+
+
 class CoordinateSystem(NamedTuple):
     """Axes, units and rotation conventions of a rig. Any handedness is allowed. See
     docs/dna-format.md, 11 "Coordinate systems".
@@ -4286,6 +4304,164 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
          "`progress` canceled"),
     ),
     "mien_author_report_json": (),
+    "mien_document_create": (
+        (Status.INVALID_ARGUMENT,
+         "an argument is outside its range"),
+        (Status.MEMORY,
+         "there is no memory"),
+        (Status.UNSUPPORTED,
+         "this build of libmien opens baked files only"),
+        (Status.DNA_STRUCTURE,
+         "what was loaded would not open by itself"),
+        (Status.DNA_REFERENCE,
+         "what was loaded would not open by itself"),
+        (Status.DNA_LIMIT,
+         "it has more than 4 GiB"),
+        (Status.DNA_LAYER,
+         "`dna` has RBF behavior without the machine-learned behavior of its file"),
+        (Status.DNA_VALUE,
+         "what was loaded would not open by itself"),
+    ),
+    "mien_document_field": (
+        (Status.INDEX,
+         "an index in the path is past the end"),
+        (Status.NAME,
+         "there is no such field"),
+    ),
+    "mien_document_child_name": (
+        (Status.INVALID_ARGUMENT,
+         "the field is not a record"),
+        (Status.INDEX,
+         "`index` or an index in the path is past the end"),
+        (Status.NAME,
+         "there is no such field"),
+    ),
+    "mien_document_read_floats": (
+        (Status.INVALID_ARGUMENT,
+         "the field does not hold numbers of this kind"),
+        (Status.INDEX,
+         "the range or an index in the path is past the end"),
+        (Status.NAME,
+         "there is no such field"),
+    ),
+    "mien_document_read_integers": (
+        (Status.INVALID_ARGUMENT,
+         "the field does not hold numbers of this kind"),
+        (Status.INDEX,
+         "the range or an index in the path is past the end"),
+        (Status.NAME,
+         "there is no such field"),
+    ),
+    "mien_document_read_string": (
+        (Status.INVALID_ARGUMENT,
+         "the field is not a string"),
+        (Status.INDEX,
+         "an index in the path is past the end"),
+        (Status.NAME,
+         "there is no such field"),
+    ),
+    "mien_document_bytes": (
+        (Status.INVALID_ARGUMENT,
+         "the field is neither an array nor a string"),
+        (Status.INDEX,
+         "an index in the path is past the end"),
+        (Status.NAME,
+         "there is no such field"),
+    ),
+    "mien_document_write_floats": (
+        (Status.INVALID_ARGUMENT,
+         "the field does not hold numbers of this kind, or none of this size"),
+        (Status.INDEX,
+         "the range or an index in the path is past the end"),
+        (Status.NAME,
+         "there is no such field"),
+        (Status.MEMORY,
+         "the allocator returns NULL"),
+    ),
+    "mien_document_write_integers": (
+        (Status.INVALID_ARGUMENT,
+         "the field does not hold numbers of this kind, or none of this size"),
+        (Status.INDEX,
+         "the range or an index in the path is past the end"),
+        (Status.NAME,
+         "there is no such field"),
+        (Status.MEMORY,
+         "the allocator returns NULL"),
+    ),
+    "mien_document_write_string": (
+        (Status.INVALID_ARGUMENT,
+         "the field is not a string, or if another element of a list of names has this "
+         "name"),
+        (Status.INDEX,
+         "an index in the path is past the end"),
+        (Status.NAME,
+         "there is no such field"),
+        (Status.MEMORY,
+         "the allocator returns NULL"),
+    ),
+    "mien_document_splice": (
+        (Status.INVALID_ARGUMENT,
+         "the field is neither an array nor a list, or would have more than 2^32 - 1 "
+         "elements"),
+        (Status.INDEX,
+         "the range or an index in the path is past the end"),
+        (Status.NAME,
+         "there is no such field"),
+        (Status.MEMORY,
+         "the allocator returns NULL"),
+    ),
+    "mien_document_resize": (
+        (Status.INVALID_ARGUMENT,
+         "the field is neither an array nor a list, or would have more than 2^32 - 1 "
+         "elements"),
+        (Status.INDEX,
+         "the range or an index in the path is past the end"),
+        (Status.NAME,
+         "there is no such field"),
+        (Status.MEMORY,
+         "the allocator returns NULL"),
+    ),
+    "mien_document_mark": (
+        (Status.MEMORY,
+         "the allocator returns NULL"),
+    ),
+    "mien_document_undo": (
+        (Status.INDEX,
+         "`mark` is not a mark of the document, or gone"),
+    ),
+    "mien_document_to_dna": (
+        (Status.INVALID_ARGUMENT,
+         "an argument is outside its range"),
+        (Status.MEMORY,
+         "there is no memory"),
+        (Status.UNSUPPORTED,
+         "this build of libmien opens baked files only"),
+        (Status.DNA_TRUNCATED,
+         "the document is not a valid file, of which the message names the first field; "
+         "mien_document_validate() lists them all"),
+        (Status.DNA_STRUCTURE,
+         "the document is not a valid file, of which the message names the first field; "
+         "mien_document_validate() lists them all"),
+        (Status.DNA_REFERENCE,
+         "the document is not a valid file, of which the message names the first field; "
+         "mien_document_validate() lists them all"),
+        (Status.DNA_LIMIT,
+         "the document is not a valid file, of which the message names the first field; "
+         "mien_document_validate() lists them all"),
+        (Status.DNA_VALUE,
+         "the document is not a valid file, of which the message names the first field; "
+         "mien_document_validate() lists them all"),
+    ),
+    "mien_document_validate": (
+        (Status.INVALID_ARGUMENT,
+         "an argument is outside its range"),
+        (Status.MEMORY,
+         "there is no memory"),
+        (Status.UNSUPPORTED,
+         "this build of libmien opens baked files only"),
+        (Status.DNA_LIMIT,
+         "the file would have more than 4 GiB"),
+    ),
 }
 
 
@@ -4726,6 +4902,36 @@ AUTHOR_FUNCTIONS: Tuple[Tuple[str, Any, Tuple[Any, ...]], ...] = (
      POINTER(MienDna), POINTER(MienAuthorReport), POINTER(MienError))),
     ("mien_author_report_close", None, (MienAuthorReport,)),
     ("mien_author_report_json", c_int32, (MienAuthorReport, POINTER(MienStringView))),
+    ("mien_document_create", c_int32, (MienDna, POINTER(MienDocumentDesc), POINTER(MienDocument),
+     POINTER(MienError))),
+    ("mien_document_destroy", None, (MienDocument,)),
+    ("mien_document_field", c_int32, (MienDocument, c_char_p, POINTER(MienDnaField),
+     POINTER(MienError))),
+    ("mien_document_child_name", c_int32, (MienDocument, c_char_p, c_uint32,
+     POINTER(MienStringView), POINTER(MienError))),
+    ("mien_document_read_floats", c_int32, (MienDocument, c_char_p, c_uint64, c_uint64, c_void_p,
+     POINTER(MienError))),
+    ("mien_document_read_integers", c_int32, (MienDocument, c_char_p, c_uint64, c_uint64, c_void_p,
+     POINTER(MienError))),
+    ("mien_document_read_string", c_int32, (MienDocument, c_char_p, POINTER(MienStringView),
+     POINTER(MienError))),
+    ("mien_document_bytes", c_int32, (MienDocument, c_char_p, POINTER(MienStringView),
+     POINTER(MienError))),
+    ("mien_document_write_floats", c_int32, (MienDocument, c_char_p, c_uint64, c_uint64, c_void_p,
+     POINTER(MienError))),
+    ("mien_document_write_integers", c_int32, (MienDocument, c_char_p, c_uint64, c_uint64, c_void_p,
+     POINTER(MienError))),
+    ("mien_document_write_string", c_int32, (MienDocument, c_char_p, c_char_p, c_size_t,
+     POINTER(MienError))),
+    ("mien_document_splice", c_int32, (MienDocument, c_char_p, c_uint64, c_uint64, c_uint64,
+     POINTER(MienError))),
+    ("mien_document_resize", c_int32, (MienDocument, c_char_p, c_uint64, POINTER(MienError))),
+    ("mien_document_mark", c_int32, (MienDocument, c_void_p, POINTER(MienError))),
+    ("mien_document_undo", c_int32, (MienDocument, c_uint64, POINTER(MienError))),
+    ("mien_document_to_dna", c_int32, (MienDocument, POINTER(MienDocumentDesc), POINTER(MienDna),
+     POINTER(MienError))),
+    ("mien_document_validate", c_int32, (MienDocument, POINTER(MienValidateDesc),
+     POINTER(MienReport), POINTER(MienError))),
 )
 
 
@@ -4736,6 +4942,23 @@ class AuthorLibrary:
     mien_author_rig: Any
     mien_author_report_close: Any
     mien_author_report_json: Any
+    mien_document_create: Any
+    mien_document_destroy: Any
+    mien_document_field: Any
+    mien_document_child_name: Any
+    mien_document_read_floats: Any
+    mien_document_read_integers: Any
+    mien_document_read_string: Any
+    mien_document_bytes: Any
+    mien_document_write_floats: Any
+    mien_document_write_integers: Any
+    mien_document_write_string: Any
+    mien_document_splice: Any
+    mien_document_resize: Any
+    mien_document_mark: Any
+    mien_document_undo: Any
+    mien_document_to_dna: Any
+    mien_document_validate: Any
 
     def __init__(self, library: ctypes.CDLL) -> None:
         for name, result, parameters in AUTHOR_FUNCTIONS:

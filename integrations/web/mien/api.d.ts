@@ -1921,6 +1921,9 @@ export interface AuthorDesc {
   lodMeshCount?: number;
 }
 
+export interface DocumentDesc {
+}
+
 /**
  * The functions of the WebAssembly module: the C interface. Pointers and handles are numbers.
  * The classes of this package call them; use them yourself where a class lacks something.
@@ -3002,4 +3005,127 @@ export interface Exports {
    * See docs/authoring.md, 6 "The report".
    */
   mien_author_report_json(author_report: number, out_json: number): number;
+  /**
+   * Makes a document of an open file, as it was loaded: layers and LODs that were left out are not in it.
+   * `dna` may be NULL, for an empty document of version 2.8 with all layers. `dna` may be closed
+   * afterwards. Destroy with mien_document_destroy().
+   * Fails with MIEN_ERROR_DNA_LAYER if `dna` has RBF behavior without the machine-learned behavior of its
+   * file, MIEN_ERROR_DNA_STRUCTURE, MIEN_ERROR_DNA_REFERENCE or MIEN_ERROR_DNA_VALUE if what was loaded
+   * would not open by itself, MIEN_ERROR_DNA_LIMIT if it has more than 4 GiB.
+   */
+  mien_document_create(dna: number, desc: number, out_document: number, error: number): number;
+  /** Destroys a document. */
+  mien_document_destroy(document: number): void;
+  /**
+   * Finds a field by its path, as mien_dna_field(). byte_offset is MIEN_NO_OFFSET.
+   * Fails with MIEN_ERROR_NAME if there is no such field, MIEN_ERROR_INDEX if an index in the path is past
+   * the end.
+   * See docs/dna-format.md, 6 "Layers, field by field".
+   */
+  mien_document_field(document: number, path: number, out_field: number, error: number): number;
+  /**
+   * Returns the name of field `index` of the record at a path, as mien_dna_child_name(). The string is static.
+   * Fails with MIEN_ERROR_NAME if there is no such field, MIEN_ERROR_INDEX if `index` or an index in the
+   * path is past the end, MIEN_ERROR_INVALID_ARGUMENT if the field is not a record.
+   */
+  mien_document_child_name(document: number, path: number, index: number, out_name: number, error: number): number;
+  /**
+   * Copies `count` elements of a field, beginning with element `first`, to `out`, as
+   * mien_dna_read_floats(). `out` may be NULL if `count` is 0.
+   * Fails with MIEN_ERROR_NAME if there is no such field, MIEN_ERROR_INDEX if the range or an index in
+   * the path is past the end, MIEN_ERROR_INVALID_ARGUMENT if the field does not hold numbers of this
+   * kind.
+   */
+  mien_document_read_floats(document: number, path: number, first: bigint, count: bigint, out: number, error: number): number;
+  /**
+   * Copies `count` elements of a field, beginning with element `first`, to `out`, as
+   * mien_dna_read_floats(). `out` may be NULL if `count` is 0.
+   * Fails with MIEN_ERROR_NAME if there is no such field, MIEN_ERROR_INDEX if the range or an index in
+   * the path is past the end, MIEN_ERROR_INVALID_ARGUMENT if the field does not hold numbers of this
+   * kind.
+   */
+  mien_document_read_integers(document: number, path: number, first: bigint, count: bigint, out: number, error: number): number;
+  /**
+   * Returns a string. Contents change with mien_document_write_string(), mien_document_undo(): the view
+   * is valid until the document is changed.
+   * Fails with MIEN_ERROR_NAME if there is no such field, MIEN_ERROR_INDEX if an index in the path is
+   * past the end, MIEN_ERROR_INVALID_ARGUMENT if the field is not a string.
+   */
+  mien_document_read_string(document: number, path: number, out_string: number, error: number): number;
+  /**
+   * Returns the bytes of an array of numbers or of a string where they are: big-endian and unaligned, as in
+   * a file. Contents change with mien_document_write_floats(), mien_document_write_integers(),
+   * mien_document_undo(): the view is valid until the document is changed.
+   * Fails with MIEN_ERROR_NAME if there is no such field, MIEN_ERROR_INDEX if an index in the path is
+   * past the end, MIEN_ERROR_INVALID_ARGUMENT if the field is neither an array nor a string.
+   */
+  mien_document_bytes(document: number, path: number, out_bytes: number, error: number): number;
+  /**
+   * Replaces `count` elements of an array, beginning with element `first`, or a single number. The first write
+   * to an array after a mark or an operation copies it, later ones do not. `values` may be NULL if `count`
+   * is 0.
+   * Fails with MIEN_ERROR_NAME if there is no such field, MIEN_ERROR_INDEX if the range or an index in
+   * the path is past the end, MIEN_ERROR_INVALID_ARGUMENT if the field does not hold numbers of this
+   * kind, or none of this size, MIEN_ERROR_MEMORY if the allocator returns NULL.
+   */
+  mien_document_write_floats(document: number, path: number, first: bigint, count: bigint, values: number, error: number): number;
+  /**
+   * Replaces `count` elements of an array, beginning with element `first`, or a single number. The first write
+   * to an array after a mark or an operation copies it, later ones do not. `values` may be NULL if `count`
+   * is 0.
+   * Fails with MIEN_ERROR_NAME if there is no such field, MIEN_ERROR_INDEX if the range or an index in
+   * the path is past the end, MIEN_ERROR_INVALID_ARGUMENT if the field does not hold numbers of this
+   * kind, or none of this size, MIEN_ERROR_MEMORY if the allocator returns NULL.
+   */
+  mien_document_write_integers(document: number, path: number, first: bigint, count: bigint, values: number, error: number): number;
+  /**
+   * Replaces a string by `string_count` bytes. `string` may be NULL if `string_count` is 0.
+   * Fails with MIEN_ERROR_NAME if there is no such field, MIEN_ERROR_INDEX if an index in the path is past
+   * the end, MIEN_ERROR_INVALID_ARGUMENT if the field is not a string, or if another element of a list of
+   * names has this name, MIEN_ERROR_MEMORY if the allocator returns NULL.
+   */
+  mien_document_write_string(document: number, path: number, string: number, string_count: number, error: number): number;
+  /**
+   * Replaces `removed_count` elements of an array or list, beginning with element `first`, by
+   * `inserted_count` new ones: zeros, empty strings, or records of these. What refers to elements by
+   * their number stays as it is. Copies the array, or the list without its contents.
+   * Fails with MIEN_ERROR_NAME if there is no such field, MIEN_ERROR_INDEX if the range or an index in
+   * the path is past the end, MIEN_ERROR_INVALID_ARGUMENT if the field is neither an array nor a list, or
+   * would have more than 2^32 - 1 elements, MIEN_ERROR_MEMORY if the allocator returns NULL.
+   */
+  mien_document_splice(document: number, path: number, first: bigint, removed_count: bigint, inserted_count: bigint, error: number): number;
+  /**
+   * Gives an array or list `count` elements: drops the last ones or adds new ones, as
+   * mien_document_splice().
+   * Fails like mien_document_splice().
+   */
+  mien_document_resize(document: number, path: number, count: bigint, error: number): number;
+  /**
+   * Remembers the current state, at the cost of some KB. Mark 0 always exists: the state in which the
+   * document was created. Memory of changes before a mark is kept until the document is destroyed or an
+   * earlier mark restored.
+   * Fails with MIEN_ERROR_MEMORY if the allocator returns NULL.
+   */
+  mien_document_mark(document: number, out_mark: number, error: number): number;
+  /**
+   * Goes back to the state at a mark: `mark` is a number of mien_document_mark(), or 0. Later marks are
+   * gone, this one stays. Does not allocate or lock.
+   * Fails with MIEN_ERROR_INDEX if `mark` is not a mark of the document, or gone.
+   */
+  mien_document_undo(document: number, mark: bigint, error: number): number;
+  /**
+   * Checks all that opening a file checks, and opens the document as a file. `document` may be destroyed
+   * afterwards. Close with mien_dna_close().
+   * Fails with MIEN_ERROR_DNA_TRUNCATED, MIEN_ERROR_DNA_STRUCTURE, MIEN_ERROR_DNA_REFERENCE,
+   * MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE if the document is not a valid file, of which the message
+   * names the first field; mien_document_validate() lists them all.
+   * See docs/dna-format.md, 13 "What is checked".
+   */
+  mien_document_to_dna(document: number, desc: number, out_dna: number, error: number): number;
+  /**
+   * Checks the document as mien_dna_validate_memory() would check its file. `document` may be destroyed
+   * afterwards. Destroy with mien_report_destroy().
+   * Fails with MIEN_ERROR_DNA_LIMIT if the file would have more than 4 GiB.
+   */
+  mien_document_validate(document: number, desc: number, out_report: number, error: number): number;
 }

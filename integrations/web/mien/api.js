@@ -955,6 +955,8 @@ export const layouts = {
     lodMeshes: [144, "*AuthorLod", "lodMeshCount"],
     lodMeshCount: [148, "u32"],
   } },
+  DocumentDesc: { size: 8, sized: true, fields: {
+  } },
 };
 
 // Parameters of each function that has numbers: p addresses, u and i of 32 bits, U and I of 64, f.
@@ -1045,4 +1047,13 @@ export const calls = {
   mien_solver_state_step: "pppI",
   mien_solver_state_step_batch: "pppuI",
   mien_solver_state_outputs: "pup",
+  mien_document_child_name: "ppupp",
+  mien_document_read_floats: "ppUUpp",
+  mien_document_read_integers: "ppUUpp",
+  mien_document_write_floats: "ppUUpp",
+  mien_document_write_integers: "ppUUpp",
+  mien_document_write_string: "pppup",
+  mien_document_splice: "ppUUUp",
+  mien_document_resize: "ppUp",
+  mien_document_undo: "pUp",
 };

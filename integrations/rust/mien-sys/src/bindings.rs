@@ -649,6 +649,16 @@ pub struct MienAuthorReport {
     _opaque: Opaque,
 }
 
+/// A DNA file that can be changed: its fields by the paths of `mien_dna_field()`, and as a whole
+/// by operations that keep together what refers to each other. Every change happens completely or,
+/// if the call fails, not at all. What is not changed stays as it is, byte for byte. Memory is
+/// taken for what is changed only, beyond a copy of the file that was opened.
+#[repr(C)]
+pub struct MienDocument {
+    _size: [u8; 0],
+    _opaque: Opaque,
+}
+
 /// Details of a failure, owned by the caller. A call that fails fills all fields; a call that
 /// succeeds sets status to `MIEN_OK` and leaves the other fields unchanged.
 #[repr(C)]
@@ -2963,6 +2973,23 @@ impl Default for MienAuthorDesc {
     }
 }
 
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienDocumentDesc {
+    pub struct_size: usize,
+    pub allocator: *const MienAllocator,
+}
+
+impl Default for MienDocumentDesc {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>();
+        zero
+    }
+}
+
 extern "C" {
     /// Returns the `MIEN_VERSION` of the library in use, which may differ from that of this
     /// header.
@@ -4242,4 +4269,141 @@ extern "C" {
     ///
     /// See docs/authoring.md, 6 "The report".
     pub fn mien_author_report_json(author_report: *const MienAuthorReport, out_json: *mut MienStringView) -> MienStatus;
+
+    /// Makes a document of an open file, as it was loaded: layers and LODs that were left out are
+    /// not in it. `dna` may be NULL, for an empty document of version 2.8 with all layers. `dna`
+    /// may be closed afterwards. Destroy with `mien_document_destroy()`.
+    ///
+    /// Fails with `MIEN_ERROR_DNA_LAYER` if `dna` has RBF behavior without the machine-learned
+    /// behavior of its file, `MIEN_ERROR_DNA_STRUCTURE`, `MIEN_ERROR_DNA_REFERENCE` or
+    /// `MIEN_ERROR_DNA_VALUE` if what was loaded would not open by itself, `MIEN_ERROR_DNA_LIMIT`
+    /// if it has more than 4 GiB.
+    pub fn mien_document_create(dna: *const MienDna, desc: *const MienDocumentDesc, out_document: *mut *mut MienDocument, error: *mut MienError) -> MienStatus;
+
+    /// Destroys a document.
+    pub fn mien_document_destroy(document: *mut MienDocument);
+
+    /// Finds a field by its path, as `mien_dna_field()`. `byte_offset` is `MIEN_NO_OFFSET`.
+    ///
+    /// Fails with `MIEN_ERROR_NAME` if there is no such field, `MIEN_ERROR_INDEX` if an index in
+    /// the path is past the end.
+    ///
+    /// See docs/dna-format.md, 6 "Layers, field by field".
+    pub fn mien_document_field(document: *const MienDocument, path: *const c_char, out_field: *mut MienDnaField, error: *mut MienError) -> MienStatus;
+
+    /// Returns the name of field `index` of the record at a path, as `mien_dna_child_name()`. The
+    /// string is static.
+    ///
+    /// Fails with `MIEN_ERROR_NAME` if there is no such field, `MIEN_ERROR_INDEX` if `index` or an
+    /// index in the path is past the end, `MIEN_ERROR_INVALID_ARGUMENT` if the field is not a
+    /// record.
+    pub fn mien_document_child_name(document: *const MienDocument, path: *const c_char, index: u32, out_name: *mut MienStringView, error: *mut MienError) -> MienStatus;
+
+    /// Copies `count` elements of a field, beginning with element `first`, to `out`, as
+    /// `mien_dna_read_floats()`. `out` may be NULL if `count` is 0.
+    ///
+    /// Fails with `MIEN_ERROR_NAME` if there is no such field, `MIEN_ERROR_INDEX` if the range or
+    /// an index in the path is past the end, `MIEN_ERROR_INVALID_ARGUMENT` if the field does not
+    /// hold numbers of this kind.
+    pub fn mien_document_read_floats(document: *const MienDocument, path: *const c_char, first: u64, count: u64, out: *mut f32, error: *mut MienError) -> MienStatus;
+
+    /// Copies `count` elements of a field, beginning with element `first`, to `out`, as
+    /// `mien_dna_read_floats()`. `out` may be NULL if `count` is 0.
+    ///
+    /// Fails with `MIEN_ERROR_NAME` if there is no such field, `MIEN_ERROR_INDEX` if the range or
+    /// an index in the path is past the end, `MIEN_ERROR_INVALID_ARGUMENT` if the field does not
+    /// hold numbers of this kind.
+    pub fn mien_document_read_integers(document: *const MienDocument, path: *const c_char, first: u64, count: u64, out: *mut i64, error: *mut MienError) -> MienStatus;
+
+    /// Returns a string. Contents change with `mien_document_write_string()`,
+    /// `mien_document_undo()`: the view is valid until the document is changed.
+    ///
+    /// Fails with `MIEN_ERROR_NAME` if there is no such field, `MIEN_ERROR_INDEX` if an index in
+    /// the path is past the end, `MIEN_ERROR_INVALID_ARGUMENT` if the field is not a string.
+    pub fn mien_document_read_string(document: *const MienDocument, path: *const c_char, out_string: *mut MienStringView, error: *mut MienError) -> MienStatus;
+
+    /// Returns the bytes of an array of numbers or of a string where they are: big-endian and
+    /// unaligned, as in a file. Contents change with `mien_document_write_floats()`,
+    /// `mien_document_write_integers()`, `mien_document_undo()`: the view is valid until the
+    /// document is changed.
+    ///
+    /// Fails with `MIEN_ERROR_NAME` if there is no such field, `MIEN_ERROR_INDEX` if an index in
+    /// the path is past the end, `MIEN_ERROR_INVALID_ARGUMENT` if the field is neither an array
+    /// nor a string.
+    pub fn mien_document_bytes(document: *const MienDocument, path: *const c_char, out_bytes: *mut MienStringView, error: *mut MienError) -> MienStatus;
+
+    /// Replaces `count` elements of an array, beginning with element `first`, or a single number.
+    /// The first write to an array after a mark or an operation copies it, later ones do not.
+    /// `values` may be NULL if `count` is 0.
+    ///
+    /// Fails with `MIEN_ERROR_NAME` if there is no such field, `MIEN_ERROR_INDEX` if the range or
+    /// an index in the path is past the end, `MIEN_ERROR_INVALID_ARGUMENT` if the field does not
+    /// hold numbers of this kind, or none of this size, `MIEN_ERROR_MEMORY` if the allocator
+    /// returns NULL.
+    pub fn mien_document_write_floats(document: *mut MienDocument, path: *const c_char, first: u64, count: u64, values: *const f32, error: *mut MienError) -> MienStatus;
+
+    /// Replaces `count` elements of an array, beginning with element `first`, or a single number.
+    /// The first write to an array after a mark or an operation copies it, later ones do not.
+    /// `values` may be NULL if `count` is 0.
+    ///
+    /// Fails with `MIEN_ERROR_NAME` if there is no such field, `MIEN_ERROR_INDEX` if the range or
+    /// an index in the path is past the end, `MIEN_ERROR_INVALID_ARGUMENT` if the field does not
+    /// hold numbers of this kind, or none of this size, `MIEN_ERROR_MEMORY` if the allocator
+    /// returns NULL.
+    pub fn mien_document_write_integers(document: *mut MienDocument, path: *const c_char, first: u64, count: u64, values: *const i64, error: *mut MienError) -> MienStatus;
+
+    /// Replaces a string by `string_count` bytes. `string` may be NULL if `string_count` is 0.
+    ///
+    /// Fails with `MIEN_ERROR_NAME` if there is no such field, `MIEN_ERROR_INDEX` if an index in
+    /// the path is past the end, `MIEN_ERROR_INVALID_ARGUMENT` if the field is not a string, or if
+    /// another element of a list of names has this name, `MIEN_ERROR_MEMORY` if the allocator
+    /// returns NULL.
+    pub fn mien_document_write_string(document: *mut MienDocument, path: *const c_char, string: *const c_char, string_count: usize, error: *mut MienError) -> MienStatus;
+
+    /// Replaces `removed_count` elements of an array or list, beginning with element `first`, by
+    /// `inserted_count` new ones: zeros, empty strings, or records of these. What refers to
+    /// elements by their number stays as it is. Copies the array, or the list without its
+    /// contents.
+    ///
+    /// Fails with `MIEN_ERROR_NAME` if there is no such field, `MIEN_ERROR_INDEX` if the range or
+    /// an index in the path is past the end, `MIEN_ERROR_INVALID_ARGUMENT` if the field is neither
+    /// an array nor a list, or would have more than 2^32 - 1 elements, `MIEN_ERROR_MEMORY` if the
+    /// allocator returns NULL.
+    pub fn mien_document_splice(document: *mut MienDocument, path: *const c_char, first: u64, removed_count: u64, inserted_count: u64, error: *mut MienError) -> MienStatus;
+
+    /// Gives an array or list `count` elements: drops the last ones or adds new ones, as
+    /// `mien_document_splice()`.
+    ///
+    /// Fails like `mien_document_splice()`.
+    pub fn mien_document_resize(document: *mut MienDocument, path: *const c_char, count: u64, error: *mut MienError) -> MienStatus;
+
+    /// Remembers the current state, at the cost of some KB. Mark 0 always exists: the state in
+    /// which the document was created. Memory of changes before a mark is kept until the document
+    /// is destroyed or an earlier mark restored.
+    ///
+    /// Fails with `MIEN_ERROR_MEMORY` if the allocator returns NULL.
+    pub fn mien_document_mark(document: *mut MienDocument, out_mark: *mut u64, error: *mut MienError) -> MienStatus;
+
+    /// Goes back to the state at a mark: `mark` is a number of `mien_document_mark()`, or 0. Later
+    /// marks are gone, this one stays. Does not allocate or lock.
+    ///
+    /// Fails with `MIEN_ERROR_INDEX` if `mark` is not a mark of the document, or gone.
+    pub fn mien_document_undo(document: *mut MienDocument, mark: u64, error: *mut MienError) -> MienStatus;
+
+    /// Checks all that opening a file checks, and opens the document as a file. `document` may be
+    /// destroyed afterwards. Close with `mien_dna_close()`.
+    ///
+    /// Fails with `MIEN_ERROR_DNA_TRUNCATED`, `MIEN_ERROR_DNA_STRUCTURE`,
+    /// `MIEN_ERROR_DNA_REFERENCE`, `MIEN_ERROR_DNA_LIMIT` or `MIEN_ERROR_DNA_VALUE` if the
+    /// document is not a valid file, of which the message names the first field;
+    /// `mien_document_validate()` lists them all.
+    ///
+    /// See docs/dna-format.md, 13 "What is checked".
+    pub fn mien_document_to_dna(document: *const MienDocument, desc: *const MienDocumentDesc, out_dna: *mut *mut MienDna, error: *mut MienError) -> MienStatus;
+
+    /// Checks the document as `mien_dna_validate_memory()` would check its file. `document` may be
+    /// destroyed afterwards. Destroy with `mien_report_destroy()`.
+    ///
+    /// Fails with `MIEN_ERROR_DNA_LIMIT` if the file would have more than 4 GiB.
+    pub fn mien_document_validate(document: *const MienDocument, desc: *const MienValidateDesc, out_report: *mut *mut MienReport, error: *mut MienError) -> MienStatus;
 }

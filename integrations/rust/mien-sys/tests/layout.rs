@@ -162,5 +162,6 @@ fn structs_are_laid_out_as_in_c() {
             144 depth_groups 152 mask 160 lod_joints 168 bone_groups 176 bone_motions 184
             joint_groups 192 overlap_correctives 196 lod_triangles 200 lod_meshes 208 lod_mesh_count
             216;
+        MienDocumentDesc 16 8: struct_size 0 allocator 8;
     }
 }

@@ -2331,4 +2331,95 @@ macro_rules! errors {
     (mien_author_report_json) => {
         "- none with valid arguments"
     };
+    (mien_document_create) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) if this build of libmien opens baked files only\n\
+         - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if what was loaded would not open by itself\n\
+         - [`Status::DNA_REFERENCE`](crate::Status::DNA_REFERENCE) if what was loaded would not open by itself\n\
+         - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if it has more than 4 GiB\n\
+         - [`Status::DNA_LAYER`](crate::Status::DNA_LAYER) if `dna` has RBF behavior without the machine-learned behavior of its file\n\
+         - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if what was loaded would not open by itself"
+    };
+    (mien_document_field) => {
+        "- [`Status::INDEX`](crate::Status::INDEX) if an index in the path is past the end\n\
+         - [`Status::NAME`](crate::Status::NAME) if there is no such field"
+    };
+    (mien_document_child_name) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if the field is not a record\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if `index` or an index in the path is past the end\n\
+         - [`Status::NAME`](crate::Status::NAME) if there is no such field"
+    };
+    (mien_document_read_floats) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if the field does not hold numbers of this kind\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if the range or an index in the path is past the end\n\
+         - [`Status::NAME`](crate::Status::NAME) if there is no such field"
+    };
+    (mien_document_read_integers) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if the field does not hold numbers of this kind\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if the range or an index in the path is past the end\n\
+         - [`Status::NAME`](crate::Status::NAME) if there is no such field"
+    };
+    (mien_document_read_string) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if the field is not a string\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if an index in the path is past the end\n\
+         - [`Status::NAME`](crate::Status::NAME) if there is no such field"
+    };
+    (mien_document_bytes) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if the field is neither an array nor a string\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if an index in the path is past the end\n\
+         - [`Status::NAME`](crate::Status::NAME) if there is no such field"
+    };
+    (mien_document_write_floats) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if the field does not hold numbers of this kind, or none of this size\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if the range or an index in the path is past the end\n\
+         - [`Status::NAME`](crate::Status::NAME) if there is no such field\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator returns NULL"
+    };
+    (mien_document_write_integers) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if the field does not hold numbers of this kind, or none of this size\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if the range or an index in the path is past the end\n\
+         - [`Status::NAME`](crate::Status::NAME) if there is no such field\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator returns NULL"
+    };
+    (mien_document_write_string) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if the field is not a string, or if another element of a list of names has this name\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if an index in the path is past the end\n\
+         - [`Status::NAME`](crate::Status::NAME) if there is no such field\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator returns NULL"
+    };
+    (mien_document_splice) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if the field is neither an array nor a list, or would have more than 2^32 - 1 elements\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if the range or an index in the path is past the end\n\
+         - [`Status::NAME`](crate::Status::NAME) if there is no such field\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator returns NULL"
+    };
+    (mien_document_resize) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if the field is neither an array nor a list, or would have more than 2^32 - 1 elements\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if the range or an index in the path is past the end\n\
+         - [`Status::NAME`](crate::Status::NAME) if there is no such field\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator returns NULL"
+    };
+    (mien_document_mark) => {
+        "- [`Status::MEMORY`](crate::Status::MEMORY) if the allocator returns NULL"
+    };
+    (mien_document_undo) => {
+        "- [`Status::INDEX`](crate::Status::INDEX) if `mark` is not a mark of the document, or gone"
+    };
+    (mien_document_to_dna) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) if this build of libmien opens baked files only\n\
+         - [`Status::DNA_TRUNCATED`](crate::Status::DNA_TRUNCATED) if the document is not a valid file, of which the message names the first field; `mien_document_validate()` lists them all\n\
+         - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if the document is not a valid file, of which the message names the first field; `mien_document_validate()` lists them all\n\
+         - [`Status::DNA_REFERENCE`](crate::Status::DNA_REFERENCE) if the document is not a valid file, of which the message names the first field; `mien_document_validate()` lists them all\n\
+         - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if the document is not a valid file, of which the message names the first field; `mien_document_validate()` lists them all\n\
+         - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if the document is not a valid file, of which the message names the first field; `mien_document_validate()` lists them all"
+    };
+    (mien_document_validate) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) if this build of libmien opens baked files only\n\
+         - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if the file would have more than 4 GiB"
+    };
 }

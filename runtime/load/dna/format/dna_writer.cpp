@@ -6,10 +6,22 @@
 namespace mien::dna {
 namespace {
 
+/// The bytes of a file that are wanted.
+struct Window {
+  uint8_t* out = nullptr;  // null: none, they are only counted
+  uint64_t first = 0, end = ~uint64_t{0};
+
+  void copy(uint64_t at, const uint8_t* bytes, size_t count) const {
+    if (!out || count == 0) return;
+    const uint64_t from = at < first ? first : at, to = at + count < end ? at + count : end;
+    if (from < to) memcpy(out + (from - first), bytes + (from - at), size_t(to - from));
+  }
+};
+
 /// Appends fields to a buffer, or only counts bytes if there is none.
 class FieldWriter {
  public:
-  FieldWriter(uint8_t* out, uint16_t version) : out_(out), version_(version) {}
+  FieldWriter(const Window& window, uint16_t version) : window_(window), version_(version) {}
 
   bool has_face_winding() const { return version_has_face_winding(version_); }
   uint64_t position() const { return at_; }
@@ -21,7 +33,7 @@ class FieldWriter {
 
   template <class T, std::enable_if_t<std::is_arithmetic<T>::value, int> = 0>
   void write(T value) {
-    if (out_) store_big_endian(out_ + at_, value);
+    put(at_, value);
     at_ += sizeof(T);
   }
 
@@ -53,17 +65,20 @@ class FieldWriter {
   }
 
   void copy(const uint8_t* bytes, size_t count) {
-    if (out_ && count) memcpy(out_ + at_, bytes, count);
+    window_.copy(at_, bytes, count);
     at_ += count;
   }
 
   /// Overwrites a number that was reserved earlier.
-  void put(uint64_t at, uint32_t value) {
-    if (out_) store_big_endian(out_ + at, value);
+  template <class T>
+  void put(uint64_t at, T value) {
+    uint8_t bytes[sizeof(T)];
+    store_big_endian(bytes, value);
+    window_.copy(at, bytes, sizeof(T));
   }
 
  private:
-  uint8_t* out_;
+  const Window window_;
   uint16_t version_;
   uint64_t at_ = 0;
 };
@@ -164,8 +179,8 @@ void write_layers(const DnaView& view, const WriteOptions& options, FieldWriter&
   });
 }
 
-uint64_t write_file_bytes(const DnaView& view, const WriteOptions& options, uint8_t* out) {
-  FieldWriter writer(out, options.version);
+uint64_t write_file_bytes(const DnaView& view, const WriteOptions& options, const Window& window) {
+  FieldWriter writer(window, options.version);
   write_header(view, options, writer);
   if (options.version == 1) {
     write_sections(view, writer);
@@ -183,11 +198,16 @@ bool is_written(const DnaView& view, const LayerKind& kind, const WriteOptions& 
 }
 
 uint64_t encoded_size(const DnaView& view, const WriteOptions& options) {
-  return write_file_bytes(view, options, nullptr);
+  return write_file_bytes(view, options, {});
 }
 
 void encode(const DnaView& view, const WriteOptions& options, uint8_t* out) {
-  write_file_bytes(view, options, out);
+  write_file_bytes(view, options, {out});
+}
+
+void encode_range(const DnaView& view, const WriteOptions& options, uint64_t first, size_t count,
+                  uint8_t* out) {
+  write_file_bytes(view, options, {out, first, first + count});
 }
 
 }  // namespace mien::dna

@@ -21,4 +21,8 @@ uint64_t encoded_size(const DnaView& view, const WriteOptions& options);
 /// Writes exactly encoded_size() bytes.
 void encode(const DnaView& view, const WriteOptions& options, uint8_t* out);
 
+/// Writes only the bytes `first` ... `first` + `count` of the file. Walks all lists.
+void encode_range(const DnaView& view, const WriteOptions& options, uint64_t first, size_t count,
+                  uint8_t* out);
+
 }  // namespace mien::dna

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: MIT
+// Documents: creating, fields, undoing, and what becomes of them. mien_author.h is the manual.
+#include "author/capi/document.h"
+
+#include "author/document/field_edit.h"
+#include "runtime/load/dna/format/dna_writer.h"
+
+using namespace mien;
+using namespace mien::capi;
+using author::Document;
+
+namespace {
+
+Status open_document(const MienDna* dna, Document& document, MienError* error) {
+  size_t size = 0;
+  if (MienStatus status = mien_dna_write_memory(dna, nullptr, nullptr, 0, &size, error)) {
+    return static_cast<Status>(status);
+  }
+  uint8_t* bytes = static_cast<uint8_t*>(document.allocator().get(size, kBlockAlignment));
+  if (!bytes) {
+    give_error(error, MIEN_ERROR_MEMORY, "no memory for a document of %zu bytes", size);
+    return Status::kMemory;
+  }
+  const MienStatus written = mien_dna_write_memory(dna, nullptr, bytes, size, &size, error);
+  Error detail;
+  const Status opened = document.open(bytes, size, detail);
+  if (written != MIEN_OK) return static_cast<Status>(written);
+  if (opened != Status::kOk) give_error(detail, error);
+  return opened;
+}
+
+/// A document as the bytes of its file.
+struct FileOf {
+  const dna::DnaView& view;
+  dna::WriteOptions options;
+  uint64_t size;
+
+  explicit FileOf(const Document& document) : view(document.view()) {
+    options.version = view.version;
+    size = dna::encoded_size(view, options);
+  }
+  static size_t MIEN_CALLBACK read(void* user, uint64_t offset, void* buffer, size_t size) {
+    const FileOf& file = *static_cast<const FileOf*>(user);
+    dna::encode_range(file.view, file.options, offset, size, static_cast<uint8_t*>(buffer));
+    return size;
+  }
+};
+
+MienStatus check_size(const FileOf& file, MienError* error) {
+  if (file.size <= UINT32_MAX) return MIEN_OK;
+  return give_error(
+      error, MIEN_ERROR_DNA_LIMIT,
+      "the file would have %llu bytes, DNA files hold less than 4 GiB: remove LODs or targets",
+      static_cast<unsigned long long>(file.size));
+}
+
+template <class Read>
+MienStatus read_of(const MienDocument* document, MienError* error, const Read& read) {
+  if (MienStatus status = check_document(document, error)) return status;
+  return read(document->document.view());
+}
+
+/// Calls write(path, detail) with a checked path.
+template <class Write>
+MienStatus write_to(MienDocument* document, const char* given, MienError* error,
+                    const Write& write) {
+  if (MienStatus status = check_document(document, error)) return status;
+  char path[kMaxPath + 1];
+  if (MienStatus status = copy_path(given, length_of(given), path, error)) return status;
+  Error detail;
+  return finish(write(path, detail), detail, error);
+}
+
+MienStatus check_values(const void* values, uint64_t count, const char* name, MienError* error) {
+  if (check_error(error) != MIEN_OK) return MIEN_ERROR_STRUCT_SIZE;
+  if (values || count == 0) return MIEN_OK;
+  return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "%s is NULL, but its count is not 0", name);
+}
+
+}  // namespace
+
+MienStatus mien_document_create(const MienDna* dna, const MienDocumentDesc* desc,
+                                MienDocument** out_document, MienError* error) {
+  if (MienStatus status = clear_output(out_document, error)) return status;
+  MienDocumentDesc known;
+  if (MienStatus status = read_desc(desc, known, "MienDocumentDesc", error)) return status;
+  Allocator allocator;
+  if (MienStatus status = read_allocator(known.allocator, allocator, error)) return status;
+  void* memory = allocator.get(sizeof(MienDocument), alignof(MienDocument));
+  if (!memory) return give_error(error, MIEN_ERROR_MEMORY, "no memory for a document");
+  MienDocument* made = new (memory) MienDocument{kDocumentTag, Document(allocator)};
+  Status status;
+  if (dna) {
+    status = open_document(dna, made->document, error);
+  } else {
+    Error detail;
+    status = made->document.create_empty(detail);
+    if (status != Status::kOk) give_error(detail, error);
+  }
+  if (status != Status::kOk) {
+    mien_document_destroy(made);
+    return static_cast<MienStatus>(status);
+  }
+  *out_document = made;
+  return succeed(error);
+}
+
+void mien_document_destroy(MienDocument* document) {
+  if (check_document(document, nullptr) != MIEN_OK) return;
+  const Allocator allocator = document->document.allocator();
+  document->tag = 0;
+  document->~MienDocument();
+  allocator.put(document, sizeof(MienDocument), alignof(MienDocument));
+}
+
+// Fields --------------------------------------------------------------------------------------------
+
+MienStatus mien_document_field(const MienDocument* document, const char* path,
+                               MienDnaField* out_field, MienError* error) {
+  if (MienStatus status = clear_field(out_field, error)) return status;
+  return read_of(document, error, [&](const dna::DnaView& view) {
+    return describe_field(view, path, length_of(path), out_field, error);
+  });
+}
+
+MienStatus mien_document_child_name(const MienDocument* document, const char* path, uint32_t index,
+                                    MienStringView* out_name, MienError* error) {
+  if (MienStatus status = clear_output(out_name, error)) return status;
+  return read_of(document, error, [&](const dna::DnaView& view) {
+    return name_field(view, path, length_of(path), index, out_name, error);
+  });
+}
+
+MienStatus mien_document_read_floats(const MienDocument* document, const char* path, uint64_t first,
+                                     uint64_t count, float* out, MienError* error) {
+  return read_of(document, error, [&](const dna::DnaView& view) {
+    return read_field({view, "mien_document"}, path, length_of(path), first, count, out, error);
+  });
+}
+
+MienStatus mien_document_read_integers(const MienDocument* document, const char* path,
+                                       uint64_t first, uint64_t count, int64_t* out,
+                                       MienError* error) {
+  return read_of(document, error, [&](const dna::DnaView& view) {
+    return read_field({view, "mien_document"}, path, length_of(path), first, count, out, error);
+  });
+}
+
+MienStatus mien_document_read_string(const MienDocument* document, const char* path,
+                                     MienStringView* out_string, MienError* error) {
+  if (MienStatus status = clear_output(out_string, error)) return status;
+  return read_of(document, error, [&](const dna::DnaView& view) {
+    return read_field({view, "mien_document"}, path, length_of(path), out_string, error);
+  });
+}
+
+MienStatus mien_document_bytes(const MienDocument* document, const char* path,
+                               MienStringView* out_bytes, MienError* error) {
+  if (MienStatus status = clear_output(out_bytes, error)) return status;
+  return read_of(document, error, [&](const dna::DnaView& view) {
+    return field_bytes({view, "mien_document"}, path, length_of(path), out_bytes, error);
+  });
+}
+
+MienStatus mien_document_write_floats(MienDocument* document, const char* path, uint64_t first,
+                                      uint64_t count, const float* values, MienError* error) {
+  if (MienStatus status = check_values(values, count, "values", error)) return status;
+  return write_to(document, path, error, [&](const char* known, Error& detail) {
+    return author::write_floats(document->document, known, first, count, values, detail);
+  });
+}
+
+MienStatus mien_document_write_integers(MienDocument* document, const char* path, uint64_t first,
+                                        uint64_t count, const int64_t* values, MienError* error) {
+  if (MienStatus status = check_values(values, count, "values", error)) return status;
+  return write_to(document, path, error, [&](const char* known, Error& detail) {
+    return author::write_integers(document->document, known, first, count, values, detail);
+  });
+}
+
+MienStatus mien_document_write_string(MienDocument* document, const char* path, const char* string,
+                                      size_t string_count, MienError* error) {
+  if (MienStatus status = check_values(string, string_count, "string", error)) return status;
+  return write_to(document, path, error, [&](const char* known, Error& detail) {
+    return author::write_string(document->document, known, string, string_count, detail);
+  });
+}
+
+MienStatus mien_document_splice(MienDocument* document, const char* path, uint64_t first,
+                                uint64_t removed_count, uint64_t inserted_count, MienError* error) {
+  return write_to(document, path, error, [&](const char* known, Error& detail) {
+    return author::splice(document->document, known, first, removed_count, inserted_count, detail);
+  });
+}
+
+MienStatus mien_document_resize(MienDocument* document, const char* path, uint64_t count,
+                                MienError* error) {
+  return write_to(document, path, error, [&](const char* known, Error& detail) {
+    return author::resize(document->document, known, count, detail);
+  });
+}
+
+// Undoing -------------------------------------------------------------------------------------------
+
+MienStatus mien_document_mark(MienDocument* document, uint64_t* out_mark, MienError* error) {
+  if (MienStatus status = clear_output(out_mark, error)) return status;
+  if (MienStatus status = check_document(document, error)) return status;
+  Error detail;
+  return finish(document->document.mark(*out_mark, detail), detail, error);
+}
+
+MienStatus mien_document_undo(MienDocument* document, uint64_t mark, MienError* error) {
+  if (MienStatus status = check_document(document, error)) return status;
+  Error detail;
+  return finish(document->document.undo(mark, detail), detail, error);
+}
+
+// Results -------------------------------------------------------------------------------------------
+
+MienStatus mien_document_to_dna(const MienDocument* document, const MienDocumentDesc* desc,
+                                MienDna** out_dna, MienError* error) {
+  if (MienStatus status = clear_output(out_dna, error)) return status;
+  if (MienStatus status = check_document(document, error)) return status;
+  MienDocumentDesc known;
+  if (MienStatus status = read_desc(desc, known, "MienDocumentDesc", error)) return status;
+  FileOf file(document->document);
+  if (MienStatus status = check_size(file, error)) return status;
+  const MienStream stream = {&file, file.size, FileOf::read};
+  MienDnaDesc open = mien_dna_desc_default();
+  open.allocator = known.allocator;
+  return mien_dna_open_stream(&stream, &open, out_dna, error);
+}
+
+MienStatus mien_document_validate(const MienDocument* document, const MienValidateDesc* desc,
+                                  MienReport** out_report, MienError* error) {
+  if (MienStatus status = clear_output(out_report, error)) return status;
+  if (MienStatus status = check_document(document, error)) return status;
+  const FileOf file(document->document);
+  if (MienStatus status = check_size(file, error)) return status;
+  const Allocator& allocator = document->document.allocator();
+  const size_t size = static_cast<size_t>(file.size);
+  uint8_t* bytes = static_cast<uint8_t*>(allocator.get(size, kBlockAlignment));
+  if (!bytes)
+    return give_error(error, MIEN_ERROR_MEMORY, "no memory for a file of %zu bytes", size);
+  dna::encode(file.view, file.options, bytes);
+  const MienStatus status = mien_dna_validate_memory(bytes, size, desc, out_report, error);
+  allocator.put(bytes, size, kBlockAlignment);
+  return status;
+}
