@@ -10,9 +10,10 @@ bl_info = {
     "category": "Rigging",
 }
 
-from . import bake_keys, handlers, live, operators, panels, properties  # noqa: E402
+from . import (auto_rig, bake_keys, expression_operators, handlers, live, operators, panels, properties,  # noqa: E402
+               take_operators)
 
-_PARTS = (properties, live, operators, bake_keys, panels, handlers)
+_PARTS = (properties, live, operators, bake_keys, take_operators, expression_operators, auto_rig, panels, handlers)
 
 
 def register():

@@ -173,6 +173,16 @@ def message_of(rig_object):
     return _messages.get(rig_object.name_full, "")
 
 
+def raw_controls(rig_object, depsgraph):
+    """float32, a copy: what the properties and the board give in this graph."""
+    evaluated = rig_object.evaluated_get(depsgraph)
+    character = character_of(evaluated, depsgraph.mode)
+    board = rig_object.mien.board
+    with character.lock:
+        character.set_controls(evaluated, board.evaluated_get(depsgraph) if board else None)
+        return np.array(character.face.raw_controls)
+
+
 # ---- what the drivers call ------------------------------------------------------------------------------------
 
 

@@ -62,7 +62,52 @@ class MIEN_PT_controls(MienPanel, bpy.types.Panel):
                 column.prop(rig_object, live.control_path(name), text=name.rpartition(".")[2])
 
 
-_CLASSES = (MIEN_PT_rig, MIEN_PT_controls)
+class MIEN_PT_performance(MienPanel, bpy.types.Panel):
+    bl_label = "Performance"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context):
+        return active_rig(context) is not None
+
+    def draw(self, context):
+        column = self.layout.column(align=True)
+        column.operator("mien.import_take", icon="IMPORT")
+        column.operator("mien.export_take", icon="EXPORT")
+        column.separator()
+        column.operator("mien.bake_shapes", icon="SHAPEKEY_DATA")
+
+
+class MIEN_PT_poses(MienPanel, bpy.types.Panel):
+    bl_label = "Pose Library"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context):
+        return active_rig(context) is not None
+
+    def draw(self, context):
+        layout = self.layout
+        row = layout.row(align=True)
+        row.operator("mien.store_pose", icon="ADD")
+        row.operator_menu_enum("mien.store_set", "set")
+        column = layout.column(align=True)
+        for index, pose in enumerate(active_rig(context).mien.poses):
+            row = column.row(align=True)
+            row.operator("mien.apply_pose", text=pose.name).index = index
+            row.operator("mien.remove_pose", text="", icon="X").index = index
+
+
+class MIEN_PT_auto_rig(MienPanel, bpy.types.Panel):
+    bl_label = "Auto-Rig"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, _context):
+        self.layout.label(text="From a mesh with shape keys")
+        self.layout.operator("mien.auto_rig", icon="ARMATURE_DATA")
+
+
+_CLASSES = (MIEN_PT_rig, MIEN_PT_controls, MIEN_PT_performance, MIEN_PT_poses, MIEN_PT_auto_rig)
 
 
 def register():

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """What the add-on keeps with objects."""
 import bpy
-from bpy.props import IntProperty, PointerProperty, StringProperty
+from bpy.props import CollectionProperty, IntProperty, PointerProperty, StringProperty
 
 from . import live, rig_file
 
@@ -16,6 +16,12 @@ def _lod_changed(settings, _context):
     settings.id_data.update_tag()
 
 
+class MienPose(bpy.types.PropertyGroup):
+    """A pose in the library of a character; `name` is every property group's own."""
+
+    values: StringProperty(description="JSON: raw controls that are not initial, by name")
+
+
 class MienObject(bpy.types.PropertyGroup):
     """Of an armature object: a character, or a face board."""
 
@@ -27,11 +33,13 @@ class MienObject(bpy.types.PropertyGroup):
                            description="The armature whose bones are the sliders of this character")
     rig: PointerProperty(name="Character", type=bpy.types.Object, override={"LIBRARY_OVERRIDABLE"},
                          description="Of a face board: the character that it moves")
+    poses: CollectionProperty(type=MienPose)
     live_action: PointerProperty(name="Live action", type=bpy.types.Action,
                                  description="What the controls play once the character is live again")
 
 
 def register():
+    bpy.utils.register_class(MienPose)
     bpy.utils.register_class(MienObject)
     bpy.types.Object.mien = PointerProperty(type=MienObject)
     bpy.types.WindowManager.mien_filter = StringProperty(
@@ -42,4 +50,5 @@ def unregister():
     del bpy.types.WindowManager.mien_filter
     del bpy.types.Object.mien
     bpy.utils.unregister_class(MienObject)
+    bpy.utils.unregister_class(MienPose)
     rig_file.forget()
