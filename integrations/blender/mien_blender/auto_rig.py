@@ -49,19 +49,19 @@ class Job:
 
     def __init__(self, arguments, path):
         self.arguments, self.path = arguments, path
-        self.progress, self.cancelled = queue.SimpleQueue(), threading.Event()
+        self.progress, self.canceled = queue.SimpleQueue(), threading.Event()
         self.error, self.report = None, None
         self.thread = threading.Thread(target=self._work, daemon=True)
         self.thread.start()
 
     def _step(self, step, share):
         self.progress.put((step, share))
-        return self.cancelled.is_set()
+        return self.canceled.is_set()
 
     def _work(self):
         try:
             made = mien.author_rig(**self.arguments, progress=self._step)
-            if not self.cancelled.is_set():
+            if not self.canceled.is_set():
                 made.dna.save(self.path)
                 self.report = made.report
         except Exception as error:  # shown by the operator
@@ -107,8 +107,8 @@ class MIEN_OT_auto_rig(bpy.types.Operator):
 
     def _finish(self, context):
         job = self._job
-        if job.cancelled.is_set():
-            self.report({"WARNING"}, "Cancelled: nothing was written")
+        if job.canceled.is_set():
+            self.report({"WARNING"}, "Canceled: nothing was written")
             return {"CANCELLED"}
         try:
             if job.error is not None:
@@ -143,7 +143,7 @@ class MIEN_OT_auto_rig(bpy.types.Operator):
 
     def modal(self, context, event):
         if event.type == "ESC":
-            self._job.cancelled.set()
+            self._job.canceled.set()
         if event.type != "TIMER":
             return {"RUNNING_MODAL"}
         while not self._job.progress.empty():

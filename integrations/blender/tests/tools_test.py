@@ -231,15 +231,15 @@ class AutoRig(unittest.TestCase):
     def test_cancel_writes_nothing(self):
         thing, _, _ = egg()
         auto_rig = module("auto_rig")
-        path = os.path.join(FOLDER, "cancelled.dna")
+        path = os.path.join(FOLDER, "canceled.dna")
         arguments = auto_rig.head_of(thing, bpy.context.scene)
         arguments.update(up=mien.MeshAxis.Z, front=mien.MeshAxis.MINUS_Y, facial_joints=200)
         job = auto_rig.Job.__new__(auto_rig.Job)
         import queue
         import threading
         job.arguments, job.path, job.error, job.report = arguments, path, None, None
-        job.progress, job.cancelled = queue.SimpleQueue(), threading.Event()
-        job.cancelled.set()
+        job.progress, job.canceled = queue.SimpleQueue(), threading.Event()
+        job.canceled.set()
         job._work()
         self.assertFalse(os.path.exists(path))
         self.assertIsNone(job.report)
