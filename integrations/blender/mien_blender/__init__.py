@@ -10,10 +10,11 @@ bl_info = {
     "category": "Rigging",
 }
 
-from . import (auto_rig, bake_keys, expression_operators, handlers, live, operators, panels, properties,  # noqa: E402
-               take_operators)
+from . import (auto_rig, bake_keys, export_rig, expression_operators, handlers, live, operators, panels,  # noqa: E402
+               properties, take_operators)
 
-_PARTS = (properties, live, operators, bake_keys, take_operators, expression_operators, auto_rig, panels, handlers)
+_PARTS = (properties, live, operators, bake_keys, take_operators, expression_operators, export_rig, auto_rig, panels,
+          handlers)
 
 
 def register():

@@ -25,6 +25,16 @@ def material_name(mesh_name):
     return re.sub(r"_?lod\d+|_?mesh$", "", mesh_name, flags=re.IGNORECASE) or mesh_name
 
 
+def name_of_part(thing, names):
+    """The name of the file's mesh that an object shows, copies included, or None."""
+    for name in (thing.data.name, thing.name):
+        while name not in names and "." in name:
+            name = name.rpartition(".")[0]
+        if name in names:
+            return name
+    return None
+
+
 def material_for(mesh_name, has_colors):
     """The material of this name if the file has one, else a new one."""
     name = material_name(mesh_name)

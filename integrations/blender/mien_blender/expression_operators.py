@@ -6,6 +6,7 @@ import bpy
 from bpy.props import EnumProperty, FloatProperty, IntProperty, StringProperty
 
 from . import expressions, live
+from .build_meshes import name_of_part
 from .operators import RigOperator, active_rig
 
 _SET_ITEMS = [("arkit", "ARKit", "52 expressions of face capture"), ("visemes", "Visemes", "15 of Oculus lip sync"),
@@ -18,10 +19,8 @@ def mesh_things(rig_object, rig_file, lod):
     found = []
     names = rig_file.rig.names(expressions.mien.Kind.MESH)
     for thing in live.meshes_of(rig_object):
-        name = thing.data.name if thing.data.name in names else thing.name
-        while name not in names and "." in name:
-            name = name.rpartition(".")[0]  # of a copy
-        if name in names and lod in rig_file.deformer.mesh(name).lods:
+        name = name_of_part(thing, names)
+        if name is not None and lod in rig_file.deformer.mesh(name).lods:
             found.append((thing, name))
     return found
 

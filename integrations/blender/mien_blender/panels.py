@@ -38,6 +38,7 @@ class MIEN_PT_rig(MienPanel, bpy.types.Panel):
             layout.operator("mien.bake_keys", icon="KEYFRAME_HLT")
         else:
             layout.operator("mien.make_live", icon="PLAY")
+        layout.operator("mien.export_rig", icon="EXPORT")
 
 
 class MIEN_PT_controls(MienPanel, bpy.types.Panel):
