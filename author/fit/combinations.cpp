@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which shapes are combinations, and which expressions would need one.
+// Finds shapes that are combinations, and pairs of expressions that would need one.
 #include <algorithm>
 #include <cstring>
 
@@ -181,7 +181,7 @@ bool add_overlaps(const AuthorMesh& mesh, uint32_t limit, const ParallelFor& par
   });
   count = std::min<size_t>(count, limit);
 
-  // Pairs stand before combinations of three and more.
+  // Pairs come before combinations of three or more.
   Span<Combination> all;
   if (!make(arena, combinations.count + count, all)) return false;
   size_t used = 0, next = 0;

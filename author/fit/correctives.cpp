@@ -30,7 +30,7 @@ struct PoseLane {
   uint32_t control_count = 0;
   Span<Vec3> from;       // vertices with the offsets of active blend shapes
   Span<Affine> pose;     // of the bones, without the corrective
-  Span<Affine> further;  // how the corrective moves each bone from there
+  Span<Affine> further;  // how the corrective moves each bone from that pose
   Span<uint8_t> active;
 };
 
@@ -53,7 +53,7 @@ class CorrectiveFitter {
         return false;
       }
     }
-    // Those with as many members do not depend on each other.
+    // Correctives with equally many members do not depend on each other.
     for (first_ = 0; first_ < count; first_ = end_) {
       end_ = first_ + 1;
       while (end_ < count && members(end_).count == members(first_).count) ++end_;
@@ -108,7 +108,7 @@ class CorrectiveFitter {
     return {&in_.weights.joints[v * m], &in_.weights.weights[v * m], m};
   }
 
-  /// The pose of all members and of the smaller correctives that they switch on.
+  /// The pose with all members and the smaller correctives that they activate.
   void set_pose(PoseLane& lane, size_t c) const {
     lane.control_count = 0;
     for (const uint32_t e : members(c)) lane.controls[lane.control_count++] = e;
@@ -127,7 +127,7 @@ class CorrectiveFitter {
                lane.pose);
   }
 
-  /// What is left to do at the pose; returns the sum of its squares.
+  /// The remaining displacements at the pose; returns the sum of their squares.
   double set_rest(const PoseLane& lane, FitLane& fit, size_t c, double* energy) const {
     double squares = 0;
     for (size_t v = 0; v < lane.from.count; ++v) {
@@ -146,7 +146,7 @@ class CorrectiveFitter {
     errors_[c] = {};
     errors_[c].before = set_rest(lane, fit, c, &errors_[c].energy);
     find_support(in_.fitter, fit, lane.active);
-    // Twice: on the bones that matter, then on all of the regions that it owns.
+    // Fitted twice: to the relevant bones, then to all bones of the regions that it owns.
     for (int round = 0; round < 2; ++round) {
       if (round > 0) set_rest(lane, fit, c, nullptr);
       std::copy(lane.pose.begin(), lane.pose.end(), lane.further.begin());
@@ -173,7 +173,7 @@ class CorrectiveFitter {
     return out;
   }
 
-  /// Angles add up, so a corrective's are those of its pose less those that are there.
+  /// Angles add up, so those of a corrective are the angles of its pose minus those already there.
   void store(const PoseLane& lane, size_t c) const {
     for (uint32_t j = 0; j < lane.further.count; ++j) {
       JointDelta& out = deltas_.at(control_of(c), j);
@@ -194,7 +194,7 @@ class CorrectiveFitter {
     }
   }
 
-  /// Counts offsets at first, and stores them where there is room.
+  /// Counts offsets in a first pass, and stores them in a second.
   void find_offsets(size_t index, size_t c) {
     PoseLane& lane = lanes_[index];
     FitLane& fit = in_.fitter.lanes[index];
@@ -211,7 +211,7 @@ class CorrectiveFitter {
     for (uint32_t v = 0; v < lane.from.count; ++v) {
       const Vec3 rest = fit.rest[v];
       const double left = dot(rest, rest);
-      // Made ones do without blend shapes: nobody has drawn them.
+      // Generated correctives get no blend shapes, as there is no sculpted shape for them.
       if (!is_given(c) || in_.threshold < 0 || left == 0) {
         errors_[c].rig += left;
         continue;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Correctives: what a rig needs on top of its expressions where several are active together.
+// Correctives: what a rig adds when several expressions are active together.
 //
-// A corrective is active by the product of its members' controls. Correctives are fitted from few
-// members to many: each takes up what is left at its pose, with its members and all smaller
-// correctives of theirs active.
+// The product of the controls of its members activates a corrective. Correctives with few members
+// are fitted first: each takes up the error that remains at its pose while its members and all
+// smaller correctives of theirs are active.
 #pragma once
 
 #include "author/fit/regions.h"
@@ -22,13 +22,14 @@ constexpr size_t kMaxMembers = 8;
 
 /// Shapes whose name is made of names of two to kMaxMembers other shapes, with _ or + between, are
 /// combinations, in the order of their number of members; the others are `expressions`, as are
-/// combinations of combinations and those of members that another one has. False if memory ran out.
+/// combinations of combinations and those with the same members as another one. False if memory ran
+/// out.
 bool find_combinations(Span<const Shape> shapes, Arena& arena, Span<Shape>& expressions,
                        Span<Combination>& combinations);
 
 /// Pairs of expressions that move the same places in the same direction, those with the largest sum
-/// of products of displacements first, at most `limit`. Appended to `combinations`, but for pairs
-/// that are there already.
+/// of products of displacements first, at most `limit`. Appended to `combinations`, except pairs
+/// that it has already.
 bool add_overlaps(const AuthorMesh& mesh, uint32_t limit, const ParallelFor& parallel, Arena& arena,
                   Arena& scratch, Span<Combination>& combinations);
 
@@ -50,8 +51,8 @@ struct CorrectiveInput {
   ParallelFor parallel;
 };
 
-/// `deltas` and `targets` hold those of the expressions; those of the combinations are put behind
-/// them. False if memory ran out.
+/// `deltas` and `targets` hold those of the expressions; those of the combinations are appended.
+/// False if memory ran out.
 bool fit_correctives(const CorrectiveInput& input, Arena& arena, const Allocator& allocator,
                      const JointDeltas& deltas, Span<Target> targets, CorrectiveReport& report);
 

@@ -36,7 +36,7 @@ bool make_motions(size_t shapes, size_t bones, Arena& arena, Motions& out) {
 
 void find_support(const Fitter& fitter, FitLane& lane, Span<uint8_t> active) {
   const Footprints& f = fitter.footprints;
-  double largest[2] = {};  // of joints for teeth and eyeballs, of facial ones
+  double largest[2] = {};  // of joints of teeth and eyeballs; of facial joints
   for (uint32_t j = 0; j < f.bone_count; ++j) {
     double energy = 0;
     if (f.fitted[j]) {
@@ -85,8 +85,9 @@ void fit_translations(const Footprints& f, FitLane& lane, Span<const uint8_t> ac
   }
 }
 
-/// The rigid motion of one bone that leaves least to do, all others held: weighted Procrustes with
-/// masses w^2 towards y = M v + rest / w. As w y = w M v + rest, no vertex is divided by its weight.
+/// The rigid motion of one bone with the least remaining error while the others are fixed: weighted
+/// Procrustes with masses w^2 towards y = M v + rest / w. As w y = w M v + rest, no vertex is
+/// divided by its weight.
 void fit_bone(const Fitter& fitter, const Footprints& f, uint32_t bone, bool is_rigid,
               FitLane& lane, Affine& motion) {
   const Moments& m = f.moments[bone];
@@ -100,7 +101,7 @@ void fit_bone(const Fitter& fitter, const Footprints& f, uint32_t bone, bool is_
     torque[1] = torque[1] + arm * pull.y;
     torque[2] = torque[2] + arm * pull.z;
   }
-  // A term towards where the bone is now damps footprints that hardly tell rotations apart.
+  // A term toward the current pose of the bone damps footprints that hardly constrain the rotation.
   const double hold = (is_rigid ? 1e-6 : 0.05) * m.size();
   Vec3 map[3];
   for (int r = 0; r < 3; ++r) {
@@ -143,7 +144,7 @@ void fit_motions(const Fitter& fitter, const Placement& placement, FitLane& lane
 
 namespace {
 
-/// What one shape asks of the rows.
+/// Sets the displacements of the rows for one shape.
 void start_rest(const Fitter& fitter, Span<const Vec3f> wanted, FitLane& lane) {
   for (size_t row = 0; row < lane.rest.count; ++row) {
     const Vec3f d = wanted[fitter.vertices.empty() ? row : fitter.vertices[row]];
@@ -152,7 +153,7 @@ void start_rest(const Fitter& fitter, Span<const Vec3f> wanted, FitLane& lane) {
   }
 }
 
-/// Goes on from the motions as they are.
+/// Continues from the current motions.
 void improve_motions(const Fitter& fitter, const Placement& placement, FitLane& lane,
                      Span<const uint8_t> active, Span<Affine> motions) {
   for (uint32_t j = 0; j < motions.count; ++j) {

@@ -9,8 +9,9 @@ namespace mien::author {
 
 namespace {
 
-// Of the translations, as a share of the mean diagonal of the Gram matrix. Footprints overlap widely:
-// with less, neighbors move far and against each other, which only the weights of LOD 0 make up for.
+// Of the translations, as a share of the mean diagonal of the Gram matrix. Footprints overlap
+// widely: with less damping, neighbors move far in opposite directions, which cancels out only with
+// the weights of LOD 0.
 constexpr double kDamping = 0.3;
 
 }  // namespace
@@ -45,7 +46,7 @@ void sort_by_bone(size_t vertex_count, const SkinWeights& weights, Footprints& o
     uint32_t& at = out.starts[weights.joints[i]];
     out.entries[at++] = {static_cast<uint32_t>(i / weights.m), weights.weights[i]};
   }
-  // Each start is now that of the next bone.
+  // Each start is now the start of the next bone.
   for (uint32_t j = out.bone_count; j > 0; --j) out.starts[j] = out.starts[j - 1];
   out.starts[0] = 0;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Skin weights by joint: which vertices a joint moves, and the sums over them that every shape needs.
+// Skin weights by joint: the vertices that a joint moves (its footprint), and sums over them for
+// the fit.
 #pragma once
 
 #include "author/mesh/author_mesh.h"
@@ -13,7 +14,7 @@ struct Influenced {
   float weight;
 };
 
-/// Squared weights of a footprint as a mass: its sum, center and second moments about it.
+/// Squared weights of a footprint as masses: their sum, center and second moments about the center.
 struct Moments {
   double mass = 0;
   Vec3 center;
@@ -22,7 +23,7 @@ struct Moments {
   double size() const { return spread[0].x + spread[1].y + spread[2].z; }
 };
 
-/// Whether a fit may move the bone: the trunk of the skeleton stays where it is.
+/// True if a fit may move the bone: root, chest, neck and head do not move.
 inline bool is_fitted(const Bone& bone) {
   return bone.kind == BoneKind::kFacial || bone.kind == BoneKind::kJaw ||
          bone.kind == BoneKind::kEye;
@@ -35,7 +36,7 @@ struct Footprints {
   Span<double> gram;         // bone_count rows: sums of products of weights; 0 for fixed bones
   Span<Moments> moments;     // per bone
   Span<uint8_t> fitted;      // per bone
-  Span<uint8_t> facial;      // per bone: one of many on the skin, no jaw and no eye
+  Span<uint8_t> facial;      // per bone: facial, not jaw or eye
   double damping = 0;        // added to the diagonal of the Gram matrix
 
   Span<Influenced> of(uint32_t bone) const {
@@ -43,7 +44,7 @@ struct Footprints {
   }
 };
 
-/// Takes all memory that fill_footprints() needs; false if there was not enough.
+/// Allocates all memory that fill_footprints() needs; false if there is not enough.
 bool make_footprints(size_t vertex_count, const Placement& placement, uint32_t influences,
                      Arena& arena, Footprints& out);
 

@@ -50,7 +50,7 @@ bool collapse_weights(const Placement& placement, uint32_t kept, const SkinWeigh
       joints[i] = 0;
       weights[i] = 0;
     }
-    // Heaviest first: insertion, as there are few.
+    // Largest first; insertion sort, as there are few.
     for (uint32_t i = 1; i < count; ++i) {
       for (uint32_t k = i; k > 0 && weights[k] > weights[k - 1]; --k) {
         std::swap(weights[k], weights[k - 1]);

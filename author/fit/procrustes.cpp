@@ -33,7 +33,7 @@ void closest_rotation(const Vec3 map[3], double max_half_sine, Vec3 out[3]) {
 Vec3 euler_angles(const Vec3 rotation[3]) {
   const Vec3 &a = rotation[0], &b = rotation[1], &c = rotation[2];
   const double across = std::sqrt(a.x * a.x + b.x * b.x);
-  // Looking along the y axis, x and z turn about the same line: z takes none of it.
+  // Gimbal lock: x and z turn about the same axis, and z is set to 0.
   const double x = across > 1e-9 ? exact_atan2(c.y, c.z) : exact_atan2(-b.z, b.y);
   const double z = across > 1e-9 ? exact_atan2(b.x, a.x) : 0;
   return Vec3{x, exact_atan2(-c.x, across), z} * (180 / kPi);

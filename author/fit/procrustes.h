@@ -12,7 +12,7 @@ namespace mien::author {
 /// absolute orientation using unit quaternions", 1987).
 void closest_rotation(const Vec3 map[3], double max_half_sine, Vec3 out[3]);
 
-/// Angles in degrees of rotations about x, then y, then z: what motion() makes a matrix of.
+/// Angles in degrees of rotations about x, then y, then z, as motion() takes them.
 Vec3 euler_angles(const Vec3 rotation[3]);
 
 }  // namespace mien::author

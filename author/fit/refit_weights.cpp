@@ -13,10 +13,11 @@ namespace {
 constexpr uint32_t kMaxInfluences = 16;
 static_assert(kMaxInfluences >= kMaxAuthorInfluences + kMaxSharedBones, "");
 constexpr uint32_t kVertexBlock = 1024;
-// Rounds after the first, in which vertices are drawn to what their neighbors got in the one before.
+// Rounds after the first; they pull the weights of a vertex to those of its neighbors in the round
+// before.
 constexpr uint32_t kSmoothRounds = 4;
-// What hardly moves is smoothed as if it moved by this much of what vertices do in the mean: there
-// shapes tell little about weights.
+// Vertices that hardly move are smoothed as if they moved by this multiple of the mean, because
+// shapes say little about their weights.
 constexpr double kTypical = 4;
 
 /// Least squares over few unknowns that may not become negative: x^T matrix x / 2 - right^T x.
@@ -32,7 +33,7 @@ void solve_nonnegative(const SmallSystem& s, double* x) {
   bool free[kMaxInfluences];
   for (uint32_t i = 0; i < s.size; ++i) free[i] = x[i] > 0;
   for (uint32_t round = 0; round < 4 * s.size; ++round) {
-    // The unconstrained optimum over the free unknowns, or as far towards it as all stay positive.
+    // The unconstrained optimum over the free unknowns, or as far toward it as all stay positive.
     for (;;) {
       uint32_t index[kMaxInfluences], n = 0;
       double packed[kMaxInfluences * kMaxInfluences], best[kMaxInfluences];
@@ -106,8 +107,8 @@ struct VertexWeights {
   }
 };
 
-/// The heaviest that there is room for, without those below 1e-4; they sum to one in float. False if
-/// there are none, as after numbers beyond what doubles hold.
+/// Stores the largest weights that fit, without those below 1e-4; they sum to one in float. False
+/// if there are none, as after numbers beyond what doubles hold.
 bool store(const VertexWeights& w, uint32_t vertex, SkinWeights& out) {
   uint16_t* joints = &out.joints[size_t{vertex} * out.m];
   float* weights = &out.weights[size_t{vertex} * out.m];
@@ -140,7 +141,7 @@ struct RefitTask {
   const SkinWeights& from;
   SkinWeights before;  // of the last round; empty in the first
   double smoothness = 0;
-  double pull = 0;     // to what weights were
+  double pull = 0;     // pull to previous weights
   double typical = 0;  // squared displacements of a vertex, all shapes together, in the mean
   SkinWeights& out;
   Span<double> sums;  // over the shapes, of each vertex: the first round keeps them for the others
@@ -154,7 +155,7 @@ double weight_of(const SkinWeights& weights, uint32_t vertex, uint16_t joint) {
   return 0;
 }
 
-/// What the neighbors have of each joint, in the mean. False without neighbors.
+/// Mean weight of each joint at the neighbors. False without neighbors.
 bool find_neighbors_mean(const RefitTask& task, uint32_t v, const VertexWeights& w, double* mean) {
   const uint32_t place = task.mesh.welded[v];
   const uint32_t first = task.graph.starts[place], end = task.graph.starts[place + 1];
@@ -172,7 +173,7 @@ bool find_neighbors_mean(const RefitTask& task, uint32_t v, const VertexWeights&
   return true;
 }
 
-/// What all shapes ask of the vertex.
+/// Adds the equations of all shapes for the vertex.
 void sum_shapes(const RefitTask& task, uint32_t v, VertexWeights& w) {
   SmallSystem& s = w.system;
   const Vec3 p = task.mesh.positions[v];
@@ -194,7 +195,7 @@ void sum_shapes(const RefitTask& task, uint32_t v, VertexWeights& w) {
   }
 }
 
-/// The same, from the sums of the first round if it is over.
+/// The same; after the first round from its sums.
 void find_sums(const RefitTask& task, uint32_t v, VertexWeights& w) {
   SmallSystem& s = w.system;
   const bool is_first = task.before.m == 0;
@@ -214,7 +215,7 @@ void find_sums(const RefitTask& task, uint32_t v, VertexWeights& w) {
   }
 }
 
-/// The least squares of the vertex. False if no bone of its own moves.
+/// The least squares problem of the vertex. False if none of its bones moves.
 bool make_system(const RefitTask& task, uint32_t v, VertexWeights& w) {
   SmallSystem& s = w.system;
   find_sums(task, v, w);
@@ -253,7 +254,7 @@ void refit_vertex(const RefitTask& task, uint32_t v) {
     (is_held ? held : w).add(given.joints[i], given.x[i]);
     if (is_held) w.sum -= given.x[i];
   }
-  // Of a vertex on the neck that nothing else moves there is nothing to find out.
+  // A vertex on the neck that no other bone moves keeps its weights.
   const bool is_rigid = given.system.size < 2 || w.system.size == 0 ||
                         (w.system.size == 1 && !task.shared.empty() && w.has(task.shared[0])) ||
                         held.system.size >= task.out.m;
@@ -265,7 +266,7 @@ void refit_vertex(const RefitTask& task, uint32_t v) {
     return;
   }
   solve_nonnegative(w.system, w.x);
-  // One unknown too many at a time goes, the lightest, and the others adapt.
+  // Removes the smallest unknown as long as there are too many, and solves for the others again.
   for (;;) {
     uint32_t used = 0, lightest = 0;
     for (uint32_t i = 0; i < w.system.size; ++i) {
@@ -345,7 +346,7 @@ bool find_held(const Placement& placement, Arena& scratch, Span<uint8_t>& out) {
   return true;
 }
 
-/// Of the edges of the mask.
+/// Edges of the mask.
 double mean_length(const Placement& placement, const SurfaceGraph& graph, double otherwise) {
   double sum = 0;
   size_t count = 0;
@@ -369,7 +370,7 @@ bool refit_finest(const AuthorMesh& mesh, const Placement& placement, const Moti
       !find_median_spacing(placement, placement.facial_count, mesh.diagonal, scratch, spacing)) {
     return false;
   }
-  // The more edges lie between two bones, the less may change along each.
+  // With more edges between two bones, weights may change less along each.
   const double edges = spacing / mean_length(placement, graph, mesh.diagonal);
   return refit_weights(mesh, graph, motions, shared, held, options.smoothness * edges, options.pull,
                        parallel, scratch, weights, weights) &&

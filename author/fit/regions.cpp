@@ -17,7 +17,7 @@ bool link_by_distance(Span<double> matrix, uint32_t count, uint32_t groups, Aren
   const auto distance = [&](uint32_t a, uint32_t b) -> double& {
     return matrix[size_t{a} * count + b];
   };
-  // The nearest of the groups behind each, so that a pair is looked at once.
+  // The nearest later group of each group, so that each pair is considered once.
   const auto find_nearest = [&](uint32_t i) {
     nearest[i] = count;
     for (uint32_t k = i + 1; k < count; ++k) {
@@ -48,7 +48,7 @@ bool link_by_distance(Span<double> matrix, uint32_t count, uint32_t groups, Aren
     size[b] = 0;
     for (uint32_t i = 0; i < count; ++i) {
       if (group[i] == b) group[i] = a;
-      // Distances to the merged group have changed, so whoever was nearest may not be any longer.
+      // Distances to the merged group have changed, so the nearest groups may have changed, too.
       if (i <= b && size[i] != 0) find_nearest(i);
     }
   }
@@ -70,7 +70,7 @@ bool is_left(const Placement& placement, uint32_t j) {
   return x != y ? x > y : j < other;
 }
 
-/// Mixture of distance and unlikeness of the translations over all controls.
+/// A mixture of distance and of the difference of translations over all controls.
 bool measure_bones(const Placement& placement, const Motions& motions, Span<const uint32_t> bones,
                    Arena& scratch, Span<double>& out) {
   const size_t n = bones.count, controls = motions.items.count / motions.bone_count;
@@ -146,7 +146,7 @@ bool find_regions(const Placement& placement, const Footprints& footprints, cons
   if (wanted == 0) wanted = std::max(6 * fitted / kRowsPerGroup, 1u);
   wanted = std::min(wanted, kMaxRegions);
 
-  // A region of their own for bones on the plane, if they are many: others go with a neighbor.
+  // Bones on the plane get their own region if there are many; otherwise they join a neighbor.
   const bool own_middle = middles > 6;
   if (wanted == 1 || halves == 0) {
     for (uint32_t j = 0; j < bones.count; ++j) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Regions of the face: joints that lie together and move together. Each becomes a joint group, a dense
-// block of the joint matrix, and holds only controls that own it.
+// Regions of the face: joints that are near each other and move alike. Each becomes a joint group,
+// a dense block of the joint matrix, which only has the controls that own the region.
 #pragma once
 
 #include "author/fit/fit_shapes.h"
@@ -14,14 +14,14 @@ struct JointRegions {
   static constexpr uint16_t kNoRegion = 0xFFFF;
 };
 
-/// Rows of a group from which on padding to 4 rows costs less than 2 %.
+/// With this many rows of a group, padding to 4 rows costs less than 2 %.
 constexpr uint32_t kRowsPerGroup = 75;
 constexpr uint32_t kMaxRegions = 24;      // that are found
 constexpr uint32_t kMaxOwnRegions = 256;  // of a caller
 
-/// Average linkage of fitted bones on distance and likeness of motion; the halves of a symmetric
-/// face get mirrored regions. As many regions as leave each kRowsPerGroup rows, if `wanted` is 0;
-/// kMaxRegions at most, and one for bones on the plane.
+/// Average linkage of fitted bones on distance and similarity of motion; the halves of a symmetric
+/// face get mirrored regions. If `wanted` is 0, regions have about kRowsPerGroup rows each;
+/// there are at most kMaxRegions, and one for bones on the plane.
 /// False if memory ran out.
 bool find_regions(const Placement& placement, const Footprints& footprints, const Motions& motions,
                   uint32_t wanted, Arena& arena, const Allocator& allocator, JointRegions& out);
@@ -31,8 +31,8 @@ bool find_regions(const Placement& placement, const Footprints& footprints, cons
 bool take_regions(const Placement& placement, Span<const uint8_t> own, Arena& arena,
                   JointRegions& out);
 
-/// Length of what a bone's motion does to its footprint: of its translation, and of its rotation
-/// times the root mean square arm.
+/// Effect of a bone's motion on its footprint, as a length: of its translation, and of its rotation
+/// times the root mean square distance from the bone.
 double effect_of(const Bone& bone, const Moments& moments, const Affine& motion);
 
 struct PruneReport {
@@ -40,12 +40,12 @@ struct PruneReport {
   uint32_t faint = 0;     // entries with an effect below the least one
 };
 
-/// A control owns regions with this share of its effect, in squares. Leaving one out costs up to the
-/// root of it in error, 3 %.
+/// A control owns regions with at least this share of its squared effect. Leaving one out adds an
+/// error of up to the square root of it, 3 %.
 constexpr double kOwnedShare = 0.001;
 
-/// Clears entries of regions that the control does not own, and those with less than `least_effect`.
-/// `full`: then marks all bones of owned regions as active.
+/// Clears entries of regions that the control does not own, and those with less than
+/// `least_effect`. `full`: then marks all bones of owned regions as active.
 PruneReport prune(const Placement& placement, const Footprints& footprints,
                   const JointRegions& regions, double least_effect, bool full, size_t control,
                   const Motions& motions);

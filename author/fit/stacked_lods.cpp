@@ -11,11 +11,11 @@ namespace mien::author {
 
 namespace {
 
-// What the vertices of a further LOD count together, in shares of those of LOD 0. Of 0.02 to 0.1, less
-// leaves more to do at coarse LODs and more at LOD 0.
+// Weight of all vertices of another LOD, relative to those of LOD 0. Between 0.02 and 0.1, less
+// leaves larger errors at coarse LODs, and more leaves larger errors at LOD 0.
 constexpr double kLodShare = 0.06;
 
-/// Of so many vertices one is a row.
+/// One of this many vertices becomes a row.
 uint32_t stride_of(size_t count, size_t finest) {
   return static_cast<uint32_t>(std::max<size_t>(1, 4 * count / std::max<size_t>(1, finest)));
 }
@@ -46,7 +46,7 @@ bool stack_lods(Span<const FittedLod> lods, Arena& arena, StackedLods& out) {
     const uint32_t first = out.starts[l], end = out.starts[l + 1];
     const double share = l == 0 ? 1 : kLodShare;
     const double scale = std::sqrt(share * static_cast<double>(finest) / (end - first));
-    // One of each run, by chance: vertices may lie in the order of rows or of halves of the face.
+    // A random one of each run, because vertices may be ordered by rows or by halves of the face.
     Random random = Random::from_seed(1, l);
     for (uint32_t row = first; row < end; ++row) {
       const uint32_t run = (row - first) * stride;

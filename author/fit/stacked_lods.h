@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// All LODs share one joint matrix. Motions that are fitted to the vertices of LOD 0 alone are those of
-// small footprints, and few of them do badly for the whole face. So vertices of every LOD, with the
-// weights that they have there, are rows of one least squares problem.
+// All LODs share one joint matrix. Motions fitted to the vertices of LOD 0 alone suit small
+// footprints; the few bones of a coarse LOD would move the whole face badly with them. So the
+// vertices of every LOD, with their weights there, are rows of one least squares problem.
 #pragma once
 
 #include "author/fit/targets.h"
@@ -25,11 +25,11 @@ struct StackedLods {
   SkinWeights weights;      // of each row, times its scale
 };
 
-/// Rows are all vertices of LOD 0, and of each further LOD at most about a quarter as many. False if
+/// Rows are all vertices of LOD 0, and at most about a quarter as many of each other LOD. False if
 /// memory ran out.
 bool stack_lods(Span<const FittedLod> lods, Arena& arena, StackedLods& out);
 
-/// Takes the weights of the LODs as they are now.
+/// Copies the current weights of the LODs.
 void fill_weights(Span<const FittedLod> lods, const StackedLods& out);
 
 }  // namespace mien::author

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What joints cannot do: deltas as the joint matrix holds them, blend shape targets for the rest, and
-// how far the rig then is from the shapes.
+// Deltas as the joint matrix holds them, blend shape targets for what joints cannot do, and the
+// remaining error of the rig.
 #pragma once
 
 #include "author/fit/fit_shapes.h"
@@ -10,12 +10,12 @@ namespace mien::author {
 /// In the file's frame.
 JointDelta delta_of_motion(const Bone& bone, const Frame& frame, const Affine& motion);
 
-/// Deltas in the file's frame, rounded as they are written, and the motions that they mean.
+/// Deltas in the file's frame, rounded as they are written, and the motions that they give.
 void deltas_of_motions(const Placement& placement, const Frame& frame, Motions& motions,
                        const JointDeltas& out);
 
-/// How bones move where these deltas add up. In the internal frame; bones whose parent moves are not
-/// supported.
+/// How bones move where these deltas add up. In the internal frame; bones whose parent moves are
+/// not supported.
 void pose_bones(const Placement& placement, const Frame& frame, const JointDeltas& deltas,
                 Span<const uint32_t> controls, Span<Affine> out);
 
@@ -42,12 +42,12 @@ struct FitError {
   double error = 0;              // of all shapes together
   double median = 0, worst = 0;  // of single shapes
   uint32_t worst_shape = kNone;
-  double rms = 0, max = 0;  // of residuals, in shares of the diagonal
+  double rms = 0, max = 0;  // of residuals, relative to the diagonal
   Span<ShapeError> shapes;
 };
 
-/// The rig with each control alone at 1 against the shapes. `targets` may be empty. False if memory
-/// ran out.
+/// Compares the rig, with each control alone at 1, with the shapes. `targets` may be empty. False
+/// if memory ran out.
 bool measure_fit(const AuthorMesh& mesh, const SkinWeights& weights, const Motions& motions,
                  Span<const Target> targets, const ParallelFor& parallel, Arena& arena,
                  FitError& out);

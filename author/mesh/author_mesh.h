@@ -4,8 +4,8 @@
 //     AuthorMesh ──place──> Placement ──weigh──> SkinWeights ──fit──> joint matrix ──> DNA
 //
 // Each is plain data that the next stage reads and a caller can replace. Positions, displacements
-// and bones are in the internal frame: centimeters, +X the character's left, +Y up, +Z to the front.
-// Vertices of all parts are numbered in one row, part after part.
+// and bones are in the internal frame: centimeters, +X the character's left, +Y up, +Z to the
+// front. Vertices are numbered consecutively across all parts.
 #pragma once
 
 #include <cstdint>
@@ -75,8 +75,8 @@ struct AuthorMesh {
   Span<const uint32_t> welded;     // per vertex: the first vertex at the same place
   Span<const uint32_t> component;  // per vertex: connected component of the welded mesh
   uint32_t component_count = 0;
-  Span<const uint8_t> is_skin;  // per vertex: of the surface that facial bones move
-  double next_area = 0;         // of the largest other component, in shares of the skin's
+  Span<const uint8_t> is_skin;  // per vertex: 1 on the surface that facial bones move
+  double next_area = 0;         // of the largest other component, relative to that of the skin
 
   Span<const Part> parts;
   Span<const Shape> shapes;
@@ -92,11 +92,11 @@ struct Bone {
   Vec3 position;        // in the mesh, not relative to the parent
   uint32_t parent = 0;  // before this bone; root: itself
   uint32_t mirror = 0;  // its mirror image; itself if it has none or lies on the plane
-  uint32_t rank = 0;    // of facial bones: 0 stays longest when LODs drop bones; others 0
+  uint32_t rank = 0;    // facial bones only: LODs drop the highest ranks first; 0 for all others
   BoneKind kind = BoneKind::kFacial;
 };
 
-/// Where the head ends, and the neck below it. It rises towards the back.
+/// The surface that separates head and neck, and where the neck ends. It rises toward the back.
 struct NeckCut {
   bool exists = false;
   double y = 0, z = 0;    // of the throat
@@ -118,8 +118,8 @@ struct Placement {
   NeckCut neck_cut;
 };
 
-/// Influences of vertex v: slots v * m ... v * m + m - 1, the heaviest first; unused ones have weight
-/// 0 and joint 0. Joints are numbers of bones.
+/// Influences of vertex v: slots v * m ... v * m + m - 1, the heaviest first; unused ones have
+/// weight 0 and joint 0. Joints are numbers of bones.
 struct SkinWeights {
   Span<uint16_t> joints;  // n * m
   Span<float> weights;    // n * m

@@ -11,12 +11,12 @@ namespace mien::author {
 
 namespace {
 
-// A step along the surface costs as much as one of 3 % of its length away from it: where the surface
-// is flat, short edges go first.
+// A step along the surface costs as much as a step of 3 % of its length away from it. So short
+// edges are removed first where the surface is flat.
 constexpr double kAlong = 1e-3;
-constexpr double kBorder = 10, kSeam = 1;  // weights of leaving a border or a seam sideways
-constexpr double kLeastTurn = 0.2;         // cosine between a triangle and how it lay a LOD before
-constexpr double kLeastShape = 0.05;       // 1: equilateral, 0: a line
+constexpr double kBorder = 10, kSeam = 1;  // weights of moving off a border or a seam
+constexpr double kLeastTurn = 0.2;    // cosine between normals in this LOD and the previous one
+constexpr double kLeastShape = 0.05;  // 1: equilateral, 0: a line
 
 /// 1 for an equilateral triangle, 0 for a line.
 double shape_of(Vec3 a, Vec3 b, Vec3 c) {
@@ -50,7 +50,7 @@ bool EdgeCollapse::make(const AuthorMesh& mesh, Span<const Shape> poses, Arena& 
   return true;
 }
 
-/// Joins vertices at one place where the border of one chart runs back along that of another.
+/// Joins vertices at one position where the borders of two charts run along each other.
 bool EdgeCollapse::find_places(Arena& scratch, Span<uint32_t>& vertex_places) const {
   struct Edge {
     uint32_t low, high;  // welded
@@ -89,7 +89,7 @@ bool EdgeCollapse::find_places(Arena& scratch, Span<uint32_t>& vertex_places) co
   };
   for (size_t i = 0, end = 0; i < count; i = end) {
     while (end < count && edges[end].low == edges[i].low && edges[end].high == edges[i].high) ++end;
-    // Borders: edges that no face runs back along between the same vertices.
+    // Borders: edges that no other face has in the opposite direction.
     const Edge* borders[2] = {};
     uint32_t found = 0;
     for (size_t k = i; k < end && end - i <= kMaxRing; ++k) {
@@ -184,7 +184,7 @@ bool EdgeCollapse::make_charts(Arena& arena, Arena& scratch) {
   return true;
 }
 
-/// Borders, and places where the surface is none: these stay.
+/// Finds borders, and places where the surface is not a manifold: those are never removed.
 bool EdgeCollapse::classify_edges(Arena& scratch) {
   struct Edge {
     uint32_t low, high, corner;
@@ -228,7 +228,7 @@ bool EdgeCollapse::classify_edges(Arena& scratch) {
   return true;
 }
 
-/// Whether triangles around the place hang together by edges.
+/// True if the triangles around the place are connected by edges.
 bool EdgeCollapse::is_one_fan(uint32_t place) {
   Ring ring;
   find_ring(place, ring);
@@ -281,7 +281,7 @@ void EdgeCollapse::make_quadrics() {
   }
 }
 
-/// Moving off the edge, within the triangle, costs.
+/// Moving off the edge within the triangle costs, too.
 void EdgeCollapse::add_border(uint32_t corner, double weight) {
   const size_t poses = poses_.count + 1;
   const uint32_t a = places_[corner], b = places_[next_corner(corner)];
@@ -301,7 +301,7 @@ Vec3 EdgeCollapse::at(uint32_t place, size_t pose) const {
   return rest + Vec3{double{d.x}, double{d.y}, double{d.z}};
 }
 
-/// Twice its area long; as if place `moved` were at `to`.
+/// Its length is twice the area. Computed as if place `moved` were at `to`.
 Vec3 EdgeCollapse::normal_of(uint32_t triangle, uint32_t moved, uint32_t to, size_t pose) const {
   Vec3 p[3];
   for (uint32_t i = 0; i < 3; ++i) {
@@ -311,7 +311,7 @@ Vec3 EdgeCollapse::normal_of(uint32_t triangle, uint32_t moved, uint32_t to, siz
   return cross(p[1] - p[0], p[2] - p[0]);
 }
 
-/// Also takes triangles that are gone out of the list of the place, which has kMaxRing at most.
+/// Also removes deleted triangles from the list of the place, which has at most kMaxRing.
 void EdgeCollapse::find_ring(uint32_t place, Ring& ring) {
   ring.corner_count = ring.place_count = 0;
   uint32_t* link = &first_[place];
@@ -329,7 +329,7 @@ void EdgeCollapse::find_ring(uint32_t place, Ring& ring) {
   }
 }
 
-/// False if a chart at the ring's place has no corner on an edge to v, or two.
+/// False if a chart at the place of the ring has no corner, or two, on an edge to v.
 bool EdgeCollapse::map_charts(const Ring& ring, uint32_t v, ChartMap& map) const {
   for (uint32_t i = 0; i < ring.corner_count; ++i) {
     const uint32_t c = ring.corners[i];
@@ -367,7 +367,7 @@ bool EdgeCollapse::may_collapse(uint32_t u, const Ring& ring, uint32_t v) {
   }
   if (shared != (border_[u] ? 1u : 2u) || (border_[u] && !border_[v])) return false;
   if (valence_[u] + valence_[v] - 2 * shared > kMaxRing) return false;
-  // Places beside both ends lie across the edge, or the surface would touch itself.
+  // Neighbors of both ends must lie across the edge; otherwise the surface would touch itself.
   Ring other;
   find_ring(v, other);
   uint32_t common = 0;
@@ -384,7 +384,7 @@ bool EdgeCollapse::may_collapse(uint32_t u, const Ring& ring, uint32_t v) {
   return map_charts(ring, v, map) && keeps_facing(u, ring, v, map);
 }
 
-/// No triangle may turn over, on the surface or in its texture, or become a splinter.
+/// No triangle may flip, on the surface or in the texture, or become a sliver.
 bool EdgeCollapse::keeps_facing(uint32_t u, const Ring& ring, uint32_t v,
                                 const ChartMap& map) const {
   for (uint32_t i = 0; i < ring.corner_count; ++i) {
@@ -429,7 +429,7 @@ void EdgeCollapse::refresh(uint32_t u) {
   find_ring(u, ring);
   double costs[2 * kMaxRing];
   for (uint32_t i = 0; i < ring.place_count; ++i) costs[i] = cost(u, ring.places[i]);
-  // The cheapest first: most may collapse.
+  // The cheapest first, because most collapses are allowed.
   for (uint32_t tried = 0; tried < ring.place_count; ++tried) {
     uint32_t best = tried;
     for (uint32_t i = tried + 1; i < ring.place_count; ++i) {
@@ -493,7 +493,7 @@ void EdgeCollapse::reduce(uint32_t wanted, Span<const uint32_t> floors) {
   for (uint32_t t = 0; t < alive_.count; ++t) {
     if (alive_[t]) facing_[t] = normalized(normal_of(t, kNone, kNone, 0));
   }
-  // All anew: what an earlier floor held back may go now.
+  // Start over: what an earlier floor kept may be removed now.
   for (uint32_t place = 0; place < first_.count; ++place) refresh(place);
   while (alive_count_ > wanted && heap_count_ > 0) {
     const uint32_t u = heap_[0];
@@ -502,7 +502,7 @@ void EdgeCollapse::reduce(uint32_t wanted, Span<const uint32_t> floors) {
       remove(u);
       continue;
     }
-    // Places two edges away may have changed since.
+    // Costs of places up to two edges away may have changed.
     Ring ring;
     find_ring(u, ring);
     if (may_collapse(u, ring, targets_[u])) {
@@ -513,7 +513,7 @@ void EdgeCollapse::reduce(uint32_t wanted, Span<const uint32_t> floors) {
   }
 }
 
-/// Slot 0 of a place that is not in the heap.
+/// Slot 0 means that the place is not in the heap.
 void EdgeCollapse::sift(uint32_t slot) {
   const uint32_t place = heap_[slot];
   while (slot > 0 && before(place, heap_[(slot - 1) / 2])) {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// A mesh that loses one place after the other, always the one that costs least.
+// Simplifies a mesh: removes one place after another, always the one whose removal costs least.
 //
 // Triangles are fans of the faces. Each corner lies at a place, and has a vertex and a texture
-// coordinate. A place is a vertex, or several along a seam where two borders are one: shells that only
-// touch have places of their own. Where u collapses onto v, triangles that have both go; the others get the
-// corner at v that lies in the same chart: so u goes only if edges to v have corners of all charts
-// at u, and the chart stays whole.
+// coordinate. A place is one vertex, or the vertices that two borders share along a seam. Shells
+// that only touch have separate places. When u collapses onto v, triangles that contain both are
+// removed. The others get the corner at v in the same chart. So u can only be removed if the edges
+// to v have corners of all charts at u; then the chart stays whole.
 #pragma once
 
 #include "author/mesh/author_mesh.h"
@@ -16,7 +16,8 @@ namespace mien::author {
 
 class EdgeCollapse {
  public:
-  /// Keeps `mesh`. Displacements of `poses` count as the surface at rest does. False if memory ran out.
+  /// Keeps `mesh`. Displacements of `poses` count as the surface at rest does. False if memory ran
+  /// out.
   bool make(const AuthorMesh& mesh, Span<const Shape> poses, Arena& arena,
             const Allocator& allocator);
 

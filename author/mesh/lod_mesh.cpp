@@ -138,7 +138,7 @@ class Extraction {
   const LodTriangles& triangles_;
   Arena& arena_;
   Arena& scratch_;
-  Span<uint32_t> numbers_;  // per vertex of the whole mesh; of those that stay
+  Span<uint32_t> numbers_;  // per vertex of the whole mesh; per remaining vertex
   size_t faces_ = 0, corners_ = 0;
 };
 

@@ -11,7 +11,7 @@ namespace mien::author {
 
 namespace {
 
-// A DNA file numbers what it holds with 32 bits, nine numbers for a joint of a vertex.
+// Counts in a DNA file have 32 bits, and each joint of a vertex takes nine numbers.
 constexpr size_t kMaxVertices = size_t{1} << 26;
 constexpr size_t kMaxName = 200;
 
@@ -145,7 +145,7 @@ bool copy_name(Arena& arena, Name from, Name& out) {
   return true;
 }
 
-/// The arrays of a mesh while they fill.
+/// The arrays of a mesh while they are filled.
 struct Building {
   Span<Vec3> positions;
   Span<uint32_t> source_vertices, face_starts, corners, corner_uvs, triangles;
@@ -166,7 +166,7 @@ bool add_object(const MeshSource& source, const ObjectSource& object, size_t& fi
   part.first_vertex = static_cast<uint32_t>(building.vertices);
   part.first_face = static_cast<uint32_t>(building.faces);
 
-  // Which faces stay: those with three distinct vertices.
+  // Finds the faces to keep: those with at least three distinct vertices.
   size_t at = 0;
   const size_t kept_from = building.corner_count;
   for (uint32_t f = 0; f < object.face_count; ++f) {
@@ -312,7 +312,7 @@ bool choose_skin(const MeshSource& source, Arena& arena, Arena& scratch, AuthorM
   return true;
 }
 
-/// What no bones can be placed on.
+/// Refuses meshes on which no bones can be placed.
 Status check_skin(const AuthorMesh& mesh, Arena& scratch, double& out_diagonal, Error& error) {
   Span<Vec3> skin;
   if (!make(scratch, mesh.positions.count, skin)) return no_memory(error);

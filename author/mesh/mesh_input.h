@@ -21,7 +21,8 @@ struct ShapeSource {
   Span<const double> displacements;  // 3 each
 };
 
-/// As in MienAuthorMesh of capi/include/mien_author.h, in the caller's frame and unit. Nothing is checked.
+/// As in MienAuthorMesh of capi/include/mien_author.h, in the caller's frame and unit. Nothing is
+/// checked.
 struct MeshSource {
   Span<const double> positions;      // 3 each
   Span<const uint32_t> face_sizes;   // corners of each face
@@ -30,7 +31,7 @@ struct MeshSource {
   Span<const uint32_t> corner_uvs;   // empty: no UVs
   Span<const ObjectSource> objects;  // in the order of their faces; empty: one object
   Span<const ShapeSource> shapes;
-  Span<const char> skin_object;  // name of the object with the face; empty: found
+  Span<const char> skin_object;  // name of the object with the face; empty: chosen automatically
   double unit = 1;               // centimeters
   Frame frame;
 };
@@ -39,8 +40,8 @@ struct MeshSource {
 struct ReadMesh {
   AuthorMesh mesh;
   Span<const uint32_t> source_vertices;  // per vertex, the number in the source
-  uint32_t loose_vertices = 0;           // of the source, in no face: left out
-  uint32_t dropped_faces = 0;            // without area or with the same vertex twice
+  uint32_t loose_vertices = 0;  // vertices of the source that are in no face; they are left out
+  uint32_t dropped_faces = 0;   // without area or with the same vertex twice
 };
 
 /// Checks the arrays and copies them. Vertices without a face are left out; a vertex that two

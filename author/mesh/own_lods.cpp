@@ -154,7 +154,8 @@ class LodTaker {
                c[0], c[1], c[2]);
   }
 
-  /// Where charts meet a vertex has several: those nearest to each other are most likely of one chart.
+  /// Where charts meet, a vertex has several coordinates: the nearest ones most likely belong to
+  /// one chart.
   void find_uvs(const uint32_t* vertices, uint32_t* out) const {
     constexpr size_t kMost = 64;  // corners of a vertex that are looked at
     const auto distance = [this](uint32_t a, uint32_t b) {

@@ -56,7 +56,7 @@ bool PointTree::build(Span<const Vec3> points, Arena& arena) {
                        return pa != pb ? pa < pb : a < b;
                      });
     splits_[middle] = static_cast<uint8_t>(axis);
-    // Halves are equal, so 64 ranges are more than can wait.
+    // The halves are equal, so at most 64 ranges wait at a time.
     stack[depth++] = {range.from, middle};
     stack[depth++] = {middle + 1, range.to};
   }
@@ -82,7 +82,7 @@ void PointTree::search(Query& query, uint32_t from, uint32_t to) const {
   } else {
     search(query, middle + 1, to);
   }
-  // Not only when nearer: a point equally far may have a lower index.
+  // Also search on equal distance: that point may have a lower index.
   if (query.found < query.wanted ||
       offset * offset <= query.out[query.found - 1].squared_distance) {
     if (below) {

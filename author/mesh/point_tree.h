@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Nearest points by a k-d tree. Of points equally far, the one with the lowest index is nearest, so
+// Nearest points by a k-d tree. Of equally distant points the one with the lowest index counts, so
 // answers do not depend on how the tree was built.
 #pragma once
 

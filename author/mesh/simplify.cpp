@@ -12,7 +12,7 @@ namespace {
 
 constexpr uint32_t kLeastTriangles = 8;  // of a component; smaller ones stay as they are
 
-/// The expressions that move most of what those before them leave at rest.
+/// Chooses expressions one by one: each moves most of what the earlier ones leave at rest.
 bool choose_poses(const AuthorMesh& mesh, uint32_t most, Arena& arena, Span<Shape>& out) {
   Span<float> covered;  // per vertex: the longest displacement so far, squared
   Span<uint8_t> used;
@@ -47,7 +47,7 @@ bool choose_poses(const AuthorMesh& mesh, uint32_t most, Arena& arena, Span<Shap
   return true;
 }
 
-/// What is left of `mesh`. Parts of which no face has a triangle, as all of them lie on lines, stay
+/// What is left of `mesh`. Parts without a triangle, because all their faces are degenerate, stay
 /// as they are.
 bool take_triangles(const AuthorMesh& mesh, const EdgeCollapse& left, Arena& arena,
                     LodTriangles& out) {

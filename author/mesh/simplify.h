@@ -15,11 +15,11 @@ struct SimplifyOptions {
   uint32_t max_poses = 8;  // expressions that count beside the mesh at rest
 };
 
-/// The mesh at each LOD. LOD 0 is `mesh`; further ones have triangles only, and the vertices of each
-/// are among those of the one before. Borders and seams of texture coordinates collapse only along
-/// themselves, no triangle turns over, edges of two triangles stay such, and every component keeps
-/// its share, and eight triangles. A LOD has more than asked for where nothing else may go.
-/// False if memory ran out.
+/// The mesh at each LOD. LOD 0 is `mesh`; further ones have triangles only, and the vertices of
+/// each are among those of the one before. Borders and texture seams collapse only along
+/// themselves, no triangle flips, an edge of two triangles stays one, and every component keeps its
+/// share, but at least eight triangles. A LOD has more triangles than asked for if no more can be
+/// removed. False if memory ran out.
 bool make_lod_meshes(const AuthorMesh& mesh, const SimplifyOptions& options, Arena& arena,
                      const Allocator& allocator, Span<LodMesh>& out);
 

@@ -60,7 +60,7 @@ bool weld(Span<const Vec3> positions, Span<const Shape> shapes, Arena& arena, Ar
   for (uint32_t i = 0, first = 0; i < cells.count; ++i) {
     const uint32_t v = cells[i].vertex;
     if (i == 0 || !cells[i].same_place(cells[i - 1])) first = i;
-    // Of those before it at the same place, the first that moves like it.
+    // The first earlier vertex at the same position that moves in the same way.
     out[v] = v;
     constexpr uint32_t kMaxParts = 64;  // bounds the work for any number of copies
     for (uint32_t k = first, parts = 0; k < i && parts < kMaxParts; ++k) {
@@ -108,7 +108,7 @@ bool find_components(Span<const uint32_t> triangles, Span<const uint32_t> welded
 
 bool make_surface_graph(const AuthorMesh& mesh, Arena& arena, Arena& scratch, SurfaceGraph& out) {
   const size_t n = mesh.positions.count;
-  // Of small faces, every pair of corners: a diagonal must not depend on where a face begins.
+  // For small faces, every pair of corners: the diagonal must not depend on the first corner.
   constexpr uint32_t kAllPairs = 6;
   size_t capacity = 0;
   for (size_t f = 0; f + 1 < mesh.face_starts.count; ++f) {

@@ -119,7 +119,7 @@ bool find_eyes(const AuthorMesh& mesh, double plane, bool symmetric, Arena& scra
   }
   for (uint32_t v = 0; v < n; ++v) ++ends[mesh.component[v] + 1];
   for (uint32_t c = 0; c < mesh.component_count; ++c) ends[c + 1] += ends[c];
-  // ends[c] is where component c begins, and where it ends once its members are in.
+  // ends[c] is the start of component c, and its end once its members are filled in.
   for (uint32_t v = 0; v < n; ++v) members[ends[mesh.component[v]]++] = v;
   for (uint32_t c = 0, from = 0; c < mesh.component_count; from = ends[c++]) {
     size_t used = 0;
@@ -159,7 +159,8 @@ bool find_eyes(const AuthorMesh& mesh, double plane, bool symmetric, Arena& scra
   return true;
 }
 
-// Jaw ----------------------------------------------------------------------------------------------
+// Jaw
+// ----------------------------------------------------------------------------------------------
 
 namespace {
 
@@ -177,7 +178,7 @@ uint32_t letters_of(Name name, char (&out)[256]) {
 }  // namespace
 
 uint32_t jaw_open_shape(const AuthorMesh& mesh) {
-  // The plainest name wins: jawOpen before mouthOpen before jawOpenWide.
+  // The simplest name is taken: jawOpen before mouthOpen before jawOpenWide.
   constexpr const char* kNames[] = {"jawopen", "jawdrop", "openjaw", "mouthopen", "openmouth"};
   for (const char* wanted : kNames) {
     for (int exact = 1; exact >= 0; --exact) {
@@ -210,7 +211,7 @@ bool find_jaw(const AuthorMesh& mesh, double plane, Arena& scratch, Jaw& out) {
     const Vec3f d = shape.displacements[v];
     moved[count++] = {length({d.x, d.y, d.z}), v};
   }
-  // By place and not by number where motions are equal: the numbers are those of the file.
+  // Equal motions are ordered by position, not by index, which depends on the file.
   std::sort(moved.data, moved.data + count, [&](const Moved& a, const Moved& b) {
     if (a.motion != b.motion) return a.motion > b.motion;
     const Vec3 p = mesh.positions[a.vertex], q = mesh.positions[b.vertex];
@@ -245,7 +246,7 @@ bool find_jaw(const AuthorMesh& mesh, double plane, Arena& scratch, Jaw& out) {
   }
   if (!solve(normal)) return true;
   out.position = {plane, normal[0][2], normal[1][2]};
-  // An axis far off the head is none: the shape does not turn a jaw.
+  // If the axis is far from the head, the shape does not turn a jaw.
   Vec3 center;
   for (const Vec3& p : from) center = center + p * (1.0 / static_cast<double>(count));
   out.found = length(out.position - center) < 0.75 * mesh.diagonal;

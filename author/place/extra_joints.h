@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Joints for what turns as a whole: eyeballs, and the jaw where a shape opens it.
+// Joints for rigid parts: the eyeballs, and the jaw if a shape opens it.
 #pragma once
 
 #include "author/mesh/author_mesh.h"
@@ -12,7 +12,7 @@ struct Sphere {
   double radius = 0;
   double error = 0;  // root mean square distance of the points from it
 };
-/// Least squares. False if the points do not tell a sphere.
+/// Least squares. False if the points do not determine a sphere.
 bool fit_sphere(Span<const Vec3> points, Sphere& out);
 
 struct RigidMotion {
@@ -30,8 +30,8 @@ struct Eye {
 };
 constexpr uint32_t kMaxEyes = 8;
 
-/// Eyeballs: components that are most of a sphere of the size of an eye. Several shells about one center
-/// are one eye. `eye_of_component` gets the eye of each, or kNone. False if memory ran out.
+/// Eyeballs: components that cover most of a sphere of the size of an eye. Concentric shells are
+/// one eye. `eye_of_component` gets the eye of each component, or kNone. False if memory ran out.
 bool find_eyes(const AuthorMesh& mesh, double plane, bool symmetric, Arena& scratch,
                Eye (&eyes)[kMaxEyes], uint32_t& count, Span<uint32_t> eye_of_component);
 
@@ -45,7 +45,7 @@ struct Jaw {
 /// From the shape named like jawOpen. False if memory ran out.
 bool find_jaw(const AuthorMesh& mesh, double plane, Arena& scratch, Jaw& out);
 
-/// The number of the shape that opens the jaw by its name, or kNone.
+/// Index of the shape whose name says that it opens the jaw, or kNone.
 uint32_t jaw_open_shape(const AuthorMesh& mesh);
 
 }  // namespace mien::author

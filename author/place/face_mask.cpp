@@ -10,9 +10,9 @@ namespace mien::author {
 
 namespace {
 
-// A head is at least as deep as this part of its width; the front of one is not.
+// A head is at least this deep relative to its width; a mask of the front is not.
 constexpr double kFaceOnlyDepth = 0.75;
-// Motion that adds a place to the mask, part of the diagonal.
+// Motion above which a place is in the mask, relative to the diagonal.
 constexpr double kMoves = 1e-3;
 // Mean distance of mirrored places to the mesh, part of the diagonal of the mask.
 constexpr double kSymmetric = 0.005;
@@ -33,7 +33,7 @@ Status find_skin(Placing& placing) {
   for (uint32_t v = 0; v < n; ++v) {
     if (mesh.is_skin[v] && mesh.welded[v] == v) placing.skin[count++] = v;
   }
-  // The order decides which random number meets which place, so it must not be that of the file.
+  // The order decides which place gets which random number, so it must not depend on the file.
   std::sort(placing.skin.begin(), placing.skin.end(), [&](uint32_t a, uint32_t b) {
     const Vec3 p = mesh.positions[a], q = mesh.positions[b];
     if (p.z != q.z) return p.z < q.z;
@@ -142,7 +142,7 @@ Status group_in_depth(Placing& placing) {
 
 namespace {
 
-/// Places of which a copy is in the caller's mask; without one, those that a shape moves by more than
+/// Places with a vertex in the caller's mask; without a mask, those that a shape moves by more than
 /// the least amount.
 Status mark_places(Placing& placing, Span<uint8_t>& out) {
   const AuthorMesh& mesh = placing.mesh;

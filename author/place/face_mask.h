@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The places that facial bones are put on: the front group in depth, without the neck.
+// The places where facial bones are put: the front group in depth, without the neck.
 #pragma once
 
 #include "author/mesh/topology.h"
@@ -13,7 +13,7 @@ struct Placing {
   const PlaceOptions& options;
   const ParallelFor& parallel;
   Arena& arena;    // results
-  Arena& scratch;  // gone when the placement is done
+  Arena& scratch;  // freed when the placement is done
   PlaceReport& report;
   Error& error;
 
@@ -21,9 +21,9 @@ struct Placing {
   double plane = 0;  // x of the plane of symmetry
   bool symmetric = false;
   Span<uint32_t> skin =
-      {};                   // places (first vertices) of the skin, by z, y, x: no order of the file
-  Span<Vec3> points = {};   // their positions
-  Span<double> areas = {};  // per vertex
+      {};  // places (first vertices) of the skin, sorted by z, y, x, not in the order of the file
+  Span<Vec3> points = {};      // their positions
+  Span<double> areas = {};     // per vertex
   Span<uint8_t> group = {};    // per place: 0 front; empty with a face only
   Span<uint8_t> in_mask = {};  // per place
   Span<uint32_t> mask = {};    // places of the mask, numbers in `skin`

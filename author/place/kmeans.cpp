@@ -19,7 +19,7 @@ void LloydRun::start_dense(bool plane, uint32_t from, uint32_t to, double median
   };
   uint32_t candidates = 0;
   for (uint32_t i = 0; i < n(); ++i) candidates += candidate(i);
-  // Where every point is sparse, all of them will do.
+  // If no point is dense, all are candidates.
   const bool any = candidates < to - from;
   uint32_t first_random = random && candidates > 0 ? random->below(candidates) : 0;
   for (uint32_t i = 0; i < n(); ++i) distances[i] = std::numeric_limits<double>::infinity();
@@ -49,8 +49,8 @@ void LloydRun::start_dense(bool plane, uint32_t from, uint32_t to, double median
   }
 }
 
-/// Of several candidates, each with the probability of its share of the sum of squared distances, the
-/// one that leaves the least sum.
+/// Draws several candidates, each with a probability in proportion to its squared distance, and
+/// takes the one that leaves the least sum.
 void LloydRun::start_plus_plus(bool plane, uint32_t from, uint32_t to, Random& random) {
   uint32_t candidates = 2;
   for (uint32_t left = to - from; left > 2; left = left * 3 / 8) ++candidates;  // 2 + log(means)
@@ -67,7 +67,7 @@ void LloydRun::start_plus_plus(bool plane, uint32_t from, uint32_t to, Random& r
       const double drawn = random.real() * total;
       const double* found = std::upper_bound(passed.begin(), passed.end(), drawn);
       if (found == passed.end()) found = std::lower_bound(passed.begin(), passed.end(), total);
-      // Nothing left to choose from: an empty group, to be filled later.
+      // No candidates are left: the group stays empty and is filled later.
       const Vec3 at = held(mean, problem.points[total > 0 ? found - passed.begin() : 0]);
       double sum = 0;
       for (uint32_t i = 0; i < n() && mean > from; ++i) {
@@ -86,7 +86,8 @@ void LloydRun::start_plus_plus(bool plane, uint32_t from, uint32_t to, Random& r
   }
 }
 
-// Lloyd's rounds -------------------------------------------------------------------------------------
+// Lloyd's rounds
+// -------------------------------------------------------------------------------------
 
 void LloydRun::sort_neighbors() {
   const uint32_t others = k() - 1;
@@ -105,8 +106,8 @@ void LloydRun::sort_neighbors() {
   }
 }
 
-/// True if a point changed its group. A mean that is more than twice as far from a point's mean as the
-/// point is cannot be nearer, so the search among sorted neighbors ends early.
+/// True if a point changed its group. A mean that is more than twice as far from a point's mean as
+/// the point is cannot be nearer, so the search among sorted neighbors ends early.
 bool LloydRun::assign() {
   sort_neighbors();
   const uint32_t others = k() - 1;
@@ -155,7 +156,7 @@ void LloydRun::move_means() {
   }
 }
 
-/// All points into groups, by the means as they are.
+/// Assigns all points to groups by the current means.
 void LloydRun::gather() {
   for (uint32_t& g : group) g = 0;
   for (uint32_t& size : sizes) size = 0;
@@ -164,7 +165,7 @@ void LloydRun::gather() {
   assign();
 }
 
-/// Rounds until no point changes its group.
+/// Repeats rounds until no point changes its group.
 void LloydRun::lloyd(KMeansRun& out) {
   double before = std::numeric_limits<double>::infinity();
   for (uint32_t round = 0; round < kMaxRounds; ++round, ++out.rounds) {
@@ -180,7 +181,7 @@ void LloydRun::lloyd(KMeansRun& out) {
   }
 }
 
-/// The worst served point becomes a group of its own.
+/// The point farthest from its mean becomes a new group.
 void LloydRun::fill_empty_groups() {
   for (uint32_t c = 0; c < k(); ++c) {
     if (sizes[c] > 0) continue;
@@ -188,7 +189,8 @@ void LloydRun::fill_empty_groups() {
     uint32_t chosen = n();
     for (uint32_t pass = 0; pass < 2 && chosen == n(); ++pass) {
       for (uint32_t i = 0; i < n(); ++i) {
-        // A mean that is held on the plane serves points near it; any point if there are none.
+        // A mean that is held on the plane gets a point near the plane; any point if there are
+        // none.
         if (pass == 0 && on_plane(c) && !may_start(true, problem.points[i])) continue;
         const double error = problem.weights[i] * distances[i];
         if (sizes[group[i]] < 2 || !(error > worst)) continue;
@@ -196,10 +198,10 @@ void LloydRun::fill_empty_groups() {
         chosen = i;
       }
     }
-    if (chosen == n()) return;  // every point has a mean of its own
+    if (chosen == n()) return;  // every point is a mean
     const Vec3 at = held(c, problem.points[chosen]);
     const double moved = squared_distance(at, problem.points[chosen]);
-    if (!(moved < distances[chosen])) continue;  // held too far away to be of use
+    if (!(moved < distances[chosen])) continue;  // held too far away to improve the sum
     means[c] = at;
     --sizes[group[chosen]];
     group[chosen] = c;
@@ -253,7 +255,7 @@ bool run_kmeans(const KMeansProblem& problem, uint64_t seed, const ParallelFor& 
   Arena scratch(allocator);
   const uint32_t n = static_cast<uint32_t>(problem.points.count);
   Span<double> sorted;
-  // Before the tasks: the caller's allocator serves the calling thread.
+  // Allocated before the tasks start: the caller's allocator is used on the calling thread only.
   Task task = {&problem, seed, runs, {}, 0};
   if (!make(scratch, n, sorted) || !make(scratch, runs.count, task.arrays)) return false;
   for (uint32_t i = 0; i < runs.count; ++i) {

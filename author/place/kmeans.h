@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Bones of the face: means of k groups of points that minimize the weighted sum of squared distances
-// (Lloyd's algorithm), from several starts.
+// Bones of the face: means of k groups of points that minimize the weighted sum of squared
+// distances (Lloyd's algorithm), from several starts.
 //
 // With a plane of symmetry all work is done on one half: points are folded onto x >= 0, and a mean
 // stands for a mirrored pair, or is held on the plane. The nearest mean of a point with x >= 0 is
@@ -24,11 +24,11 @@ struct KMeansProblem {
 
 /// How a run starts.
 enum class Start : uint8_t {
-  kDenseSpread,        // as the paper: dense regions, well separated
+  kDenseSpread,        // as in the paper: dense regions, well separated
   kDenseSpreadRandom,  // the same from a random first point
-  kPlusPlus,           // several with the probability of their squared distance from those before;
-                       // the one that leaves least
-  kSwaps               // from another run: means that are hardly missed move to where they are
+  kPlusPlus,           // candidates drawn in proportion to the squared distance to earlier means;
+                       // the one that leaves the least sum is taken
+  kSwaps               // from another run: means that contribute little move to where they are
 };
 
 struct KMeansRun {
@@ -42,13 +42,14 @@ struct KMeansRun {
 
 constexpr uint32_t kMaxRounds = 300;
 
-/// Runs start[i] for each i, with streams of `seed`. Memory of the runs comes from `arena`. The same
-/// bits for any threads. False if memory ran out.
+/// Runs start[i] for each i, with streams of `seed`. Memory of the runs comes from `arena`. The
+/// same bits for any threads. False if memory ran out.
 bool run_kmeans(const KMeansProblem& problem, uint64_t seed, const ParallelFor& parallel,
                 Arena& arena, const Allocator& allocator, Span<KMeansRun> runs);
 
-/// Goes on from `from`: as long as the sum falls, means whose loss costs least move into groups that
-/// gain most from a second one, and rounds follow. The same memory and bits as for run_kmeans().
+/// Continues from `from`: as long as the sum falls, the means whose removal costs least move into
+/// the groups that gain most from a second mean, and rounds follow. The same memory and bits as for
+/// run_kmeans().
 bool improve_kmeans(const KMeansProblem& problem, const KMeansRun& from, Arena& arena,
                     const Allocator& allocator, KMeansRun& out);
 

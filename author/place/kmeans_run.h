@@ -58,7 +58,7 @@ struct LloydRun : RunArrays {
   double gain_of_split(uint32_t split, bool plane, Vec3& second) const;
 };
 
-/// Takes all memory of a run; false if there was not enough.
+/// Allocates all memory of a run; false if there is not enough.
 bool make_arrays(const KMeansProblem& problem, Arena& arena, RunArrays& run);
 
 }  // namespace mien::author

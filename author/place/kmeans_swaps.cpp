@@ -6,8 +6,8 @@
 
 namespace mien::author {
 
-/// What a second mean, which is held on the plane or not, takes from the sum of a group at least.
-/// Found by two rounds from the worst served point.
+/// A lower bound of what a second mean, on the plane or off it, takes from the sum of a group.
+/// Found by two rounds that start at the point farthest from its mean.
 double LloydRun::gain_of_split(uint32_t split, bool plane, Vec3& second) const {
   double own = 0, worst = 0;
   bool found = false;
@@ -89,7 +89,7 @@ uint32_t swap_means(LloydRun& run, SwapArrays& arrays, uint32_t most) {
       const double apart = squared_distance(problem.points[i], run.means[other]);
       arrays.losses[c].value -= problem.weights[i] * (apart - run.distances[i]);
     }
-    // The largest gain and the smallest loss first; losses are negative.
+    // The largest gain and the smallest loss come first; losses are negative.
     std::sort(arrays.gains.begin(), arrays.gains.end(), Choice::larger);
     std::sort(arrays.losses.begin(), arrays.losses.end(), Choice::larger);
     uint32_t lost = 0;
@@ -100,7 +100,7 @@ uint32_t swap_means(LloydRun& run, SwapArrays& arrays, uint32_t most) {
       if (lost == k || arrays.losses[lost].mean == gain.mean) continue;
       if (!(gain.value > -arrays.losses[lost].value * (1 + 1e-9))) break;
       const uint32_t mean = arrays.losses[lost].mean;
-      // Those that would take over its points must stay as they were counted on.
+      // The means that would take over its points must not move: the loss was computed with them.
       for (uint32_t i = 0; i < run.n(); ++i) {
         if (run.group[i] != mean) continue;
         arrays.touched[arrays.nearest[i] == mean ? arrays.next[i] : arrays.nearest[i]] = 1;

@@ -14,7 +14,7 @@ struct Group {
   double sum, weight;
   uint32_t next;      // first point of the group above, or the number of points
   uint32_t previous;  // of the group below; of the lowest, itself
-  uint32_t version;   // counts changes: pairs found before are stale
+  uint32_t version;   // counts changes: earlier pairs with it are stale
 
   double mean() const { return sum / weight; }
 };
@@ -67,7 +67,7 @@ bool link_on_line(Span<const double> values, Span<const double> weights, Arena& 
   std::sort(out.order.begin(), out.order.end(), [&](uint32_t a, uint32_t b) {
     return values[a] != values[b] ? values[a] < values[b] : a < b;
   });
-  // Means are taken from the lowest value, so that they keep their digits far from the origin.
+  // Means are relative to the lowest value, so that they stay precise far from the origin.
   const double lowest = values[out.order[0]];
   for (uint32_t i = 0; i < n; ++i) {
     const double weight = weights.empty() ? 1 : weights[out.order[i]];
@@ -96,7 +96,7 @@ bool link_on_line(Span<const double> values, Span<const double> weights, Arena& 
 
 void Linkage::group_starts(uint32_t count, uint32_t* out) const {
   out[0] = 0;
-  // The boundaries that are left are those of the merges that have not happened yet.
+  // The remaining boundaries are those of the merges that were not done.
   for (uint32_t i = 1; i < count; ++i) out[i] = merges[merges.count - i].boundary;
   std::sort(out + 1, out + count);
 }

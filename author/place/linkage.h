@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Groups of points on a line by average linkage: the two groups merge whose points are nearest to each
-// other, as a mean over all pairs, until one group is left.
+// Groups points on a line by average linkage: the two groups with the least mean distance over all
+// pairs of their points merge, until one group is left.
 //
 // On a line the mean distance of two groups that do not overlap is the difference of their means.
 // For groups in the order A, B, C the distance of A and C is no less than that of A and B, so a
@@ -30,10 +30,10 @@ struct Linkage {
 bool link_on_line(Span<const double> values, Span<const double> weights, Arena& arena,
                   Arena& scratch, Linkage& out);
 
-/// Average linkage on distances in space, to compare with. With more than kMaxLinked points, cells of
-/// neighbors are linked, each as a point at its mean with their weight. `group` gets the number of
-/// each point's group, those with the largest mean z first; boundaries of the merges mean nothing.
-/// At least `groups` points. False if memory ran out.
+/// Average linkage on distances in space, to compare with. With more than kMaxLinked points, cells
+/// of neighbors are linked, each as a point at its mean with their weight. `group` gets the number
+/// of each point's group, those with the largest mean z first; boundaries of the merges mean
+/// nothing. At least `groups` points. False if memory ran out.
 bool link_in_space(Span<const Vec3> points, Span<const double> weights, uint32_t groups,
                    Arena& arena, Arena& scratch, Linkage& out, Span<uint8_t> group);
 constexpr uint32_t kMaxLinked = 2048;

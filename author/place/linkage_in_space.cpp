@@ -139,7 +139,7 @@ bool link_in_space(Span<const Vec3> points, Span<const double> weights, uint32_t
   link_nodes(nodes, distances, chain, merges);
   for (uint32_t m = 0; m < merges.count; ++m) out.merges[m] = {merges[m].distance, 0};
 
-  // The groups that are left are those of the merges that have happened.
+  // The remaining groups are those that the merges made.
   const auto root_of = [&](uint32_t node) {
     while (nodes[node].parent != node) node = nodes[node].parent;
     return node;

@@ -53,7 +53,7 @@ bool split_by_linkage(Placing& placing, Span<const uint32_t> places, bool by_are
   linkage.group_starts(2, starts);
   const double low = heights[linkage.order[starts[1] - 1]],
                high = heights[linkage.order[starts[1]]];
-  // Halfway, but above `low` also where the two round to one.
+  // Halfway, but above `low` even if both round to the same number.
   const double middle = (low + high) / 2;
   out = split_at(placing, places, middle > low ? middle : high);
   return true;
@@ -88,8 +88,8 @@ Vec3 neck_axis(const Placing& placing) {
   return best.y >= kSteepest ? best : Vec3{};
 }
 
-/// How far the line from `from` along `direction` runs until it leaves the skin or passes its lowest
-/// point.
+/// How far the line from `from` along `direction` runs until it leaves the skin or passes its
+/// lowest point.
 double reach_down(const Placing& placing, Vec3 from, Vec3 direction) {
   double reach = (from.y - placing.box.low.y) / -direction.y;
   const AuthorMesh& mesh = placing.mesh;
@@ -152,8 +152,8 @@ void measure_neck(const Placing& placing, NeckCut& cut) {
   cut.base = std::max(cut.base, std::min(shoulders, highest));
 }
 
-/// In the middle between front and back of the neck: about a joint in front of it or behind it the neck
-/// would grow and shrink as the head nods.
+/// In the middle between front and back of the neck: about a joint in front of it or behind it the
+/// neck would grow and shrink as the head nods.
 void move_to_axis(const Placing& placing, const NeckCut& cut, Vec3& head) {
   constexpr int kSlices = 8;
   double front[kSlices], back[kSlices];
@@ -169,7 +169,7 @@ void move_to_axis(const Placing& placing, const NeckCut& cut, Vec3& head) {
   double sum = 0, count = 0;
   for (int slice = 0; slice < kSlices; ++slice) {
     if (!has[slice]) continue;
-    // The higher, the more of it goes with the head.
+    // Higher places follow the head more.
     const double share = (slice + 0.5) * (slice + 0.5);
     sum += share * (front[slice] + back[slice]) / 2;
     count += share;
@@ -190,7 +190,7 @@ Status find_neck_and_head(Placing& placing, Vec3& neck, Vec3& head) {
   }
   Span<uint32_t> middle;
   if (!make(placing.scratch, placing.points.count, middle)) return no_memory(placing);
-  // With another number of groups than three, all but the front one and the back one.
+  // If there are not three groups: all but the front and the back one.
   size_t count = 0;
   const uint32_t back = report.group_count - 1;
   for (uint32_t i = 0; i < placing.points.count; ++i) {
@@ -242,7 +242,8 @@ Status find_neck_and_head(Placing& placing, Vec3& neck, Vec3& head) {
   head = means.upper;
   // Not below the throat: the mean of the lower group lies within the neck.
   const double least = throat.found ? std::max(means.lower.y, throat.y) : means.lower.y;
-  // A line through both means meets the vertical at the head's mean, which is no place to turn about.
+  // A line through both means would meet the vertical at the mean of the head, which is not a
+  // pivot.
   const double most = has_neck ? means.upper.y : least;
   head.y = std::min(std::max(head.y + rise, least), std::min(most, means.upper.y));
   hold(neck);
@@ -264,7 +265,7 @@ Status find_body(Placing& placing, Body& out) {
   const Vec3 along = out.head - out.chest;
   const double rise = out.cut.exists && along.y > 0 ? (out.cut.base - out.chest.y) / along.y : 0;
   const Vec3 base = out.chest + along * std::min(std::max(rise, 0.0), 0.75);
-  // One joint for each half of the neck's width that it is long.
+  // One joint per half of the width of the neck, along its length.
   const double length_of_neck = length(out.head - base);
   const double links = out.cut.half_width > 0 ? length_of_neck / out.cut.half_width : 1;
   out.neck_count = links > 2.5 ? 3 : links > 1.25 ? 2 : 1;

@@ -14,7 +14,7 @@ namespace mien::author {
 
 namespace {
 
-// Of the width of the mask: what is nearer to the plane lies on it.
+// Relative to the width of the mask: points nearer to the plane than this lie on it.
 constexpr double kOnPlane = 0.02;
 constexpr double kLeastMotionWeight = 0.15;
 constexpr double kCheapWork = 4e6;  // points times means times runs
@@ -31,7 +31,7 @@ struct Facial {
   Span<const uint32_t> lod_counts;  // joints of each LOD
 };
 
-/// Points, weights and densities of the mask; folded if it is symmetric.
+/// Points, weights and densities of the mask; folded if the mask is symmetric.
 Status pose_problem(Placing& placing, KMeansProblem& out) {
   const size_t n = placing.mask.count;
   const AuthorMesh& mesh = placing.mesh;
@@ -143,7 +143,7 @@ Status rank_units(Placing& placing, const KMeansRun& chosen, Facial& facial) {
 Status find_facial(Placing& placing, const Allocator& allocator, Facial& facial) {
   PlaceReport& report = placing.report;
   if (Status status = pose_problem(placing, facial.problem); status != Status::kOk) return status;
-  // Few points and means have many bad ends, but runs cost next to nothing.
+  // With few points and means many runs end badly, but runs are cheap.
   const double work = static_cast<double>(facial.problem.points.count) *
                       (facial.problem.free_means + facial.problem.plane_means);
   const double affordable = kCheapWork / work;
@@ -178,7 +178,7 @@ Status find_facial(Placing& placing, const Allocator& allocator, Facial& facial)
 
 // Names ------------------------------------------------------------------------------------------
 
-/// About where on the face: by height and distance from the middle, in parts of the mask.
+/// The region of the face, by height and distance from the middle relative to the mask.
 const char* region_of(double height, double aside) {
   if (height > 0.82) return "Forehead";
   if (height > 0.68) return "Brow";

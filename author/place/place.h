@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Bones for a head: root, neck, head, face, and facial bones at the means of groups of the face mask.
-// docs/authoring.md says what of it is the published method and what is ours.
+// Bones for a head: root, neck, head, face, and facial bones at the means of groups of the face
+// mask. docs/authoring.md says what follows the published method and what was added.
 #pragma once
 
 #include "author/place/kmeans.h"
@@ -23,17 +23,17 @@ struct PlaceOptions {
   bool mask_from_shapes = false;  // the mask is what shapes move, and two rings around it
   bool area_density = false;      // vertices count by their area: for scans
   bool group_in_space = false;    // groups by distance in space, to compare with
-  // Of the caller, in place of what would be found; empty: found.
+  // Replace what would be computed; empty: computed.
   Span<const uint8_t> own_groups;   // per vertex: 0 in front, below `groups`
   Span<const uint8_t> own_mask;     // per vertex: not 0 where facial bones are placed
-  Span<const uint32_t> lod_joints;  // per LOD: facial joints at most; the first one keeps all
+  Span<const uint32_t> lod_joints;  // per LOD: the largest number of facial joints; LOD 0 keeps all
 };
 
-/// How the neck was told from the head.
+/// How neck and head were separated.
 enum class NeckSplit : uint8_t { kNoNeck, kLinkage, kAreaLinkage, kPlane };
 
 constexpr uint32_t kMaxGroups = 16;
-constexpr uint32_t kRuns = 8, kMaxRuns = 32;  // and one more, which goes on from the best
+constexpr uint32_t kRuns = 8, kMaxRuns = 32;  // and one more, which continues from the best
 
 /// Along z.
 struct DepthRange {
@@ -41,7 +41,7 @@ struct DepthRange {
 };
 
 struct PlaceReport {
-  bool face_only = false;  // no back of the head: groups are measured, but all is the mask
+  bool face_only = false;  // no back of the head: groups are measured, the mask is everything
   Linkage linkage;         // of all places in depth
   uint32_t group_count = 0;
   uint32_t group_sizes[kMaxGroups] = {};  // front first, of places

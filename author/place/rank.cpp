@@ -76,10 +76,10 @@ void joint_ladder(uint32_t top, Span<uint32_t> out) {
   constexpr size_t kStepCount = sizeof(kSteps) / sizeof(kSteps[0]);
   constexpr uint32_t kLeast = 6;
   for (size_t lod = 0; lod < out.count; ++lod) {
-    // Below the last step each LOD keeps two thirds.
+    // After the last step each LOD keeps two thirds.
     double share = kSteps[lod < kStepCount ? lod : kStepCount - 1] / kSteps[0];
     for (size_t beyond = kStepCount; beyond <= lod; ++beyond) share *= 2.0 / 3;
-    // Six in the last LOD, and one more in each before it.
+    // At least six in the last LOD, and one more in each LOD before it.
     const uint32_t least = kLeast + static_cast<uint32_t>(out.count - 1 - lod);
     uint32_t count = static_cast<uint32_t>(top * share + 0.5);
     if (count < least) count = least;

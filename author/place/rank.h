@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which bones stay when LODs keep fewer: each LOD's bones are among those of the one before it.
+// Chooses the bones of each LOD: they are among those of the LOD before it.
 #pragma once
 
 #include "runtime/base/arena.h"
@@ -19,7 +19,7 @@ bool rank_by_deletion(Span<const Vec3> points, Span<const double> weights, Span<
 /// falling by one at least down to 1, and 6 or more where `top` allows it.
 void joint_ladder(uint32_t top, Span<uint32_t> out);
 
-/// The caller's ladder if there is one, without more joints than there are; the first LOD has all.
+/// The caller's numbers if there are any, at most the number of joints; LOD 0 has all.
 void joint_ladder(uint32_t top, Span<const uint32_t> own, Span<uint32_t> out);
 
 }  // namespace mien::author

@@ -7,15 +7,15 @@ namespace mien::author {
 
 namespace {
 
-// Part of the height. Human heads have 0.12 to 0.19, the stylized head of this library 0.09 to 0.10;
-// the front of a face has 0.07, and what has no neck less.
+// Part of the height. Human heads have 0.12 to 0.19, the stylized head of this library 0.09 to
+// 0.10; the front of a face has 0.07, and meshes without a neck have less.
 constexpr double kLeastDepth = 0.085;
 
 struct Point {
   double y, z;
 };
 
-/// Of the segment, what lies in each bin.
+/// The part of the segment in each bin.
 void enter(Profile& profile, Point a, Point b) {
   if (a.y > b.y) std::swap(a, b);
   const double per_bin = kProfileBins / profile.height;
@@ -74,7 +74,7 @@ Profile front_profile(const AuthorMesh& mesh, double plane) {
 Throat find_throat(const Profile& profile) {
   Throat throat;
   throat.height = profile.height;
-  // The rim of a crop is ragged and looks like a notch.
+  // The ragged edge of a cropped mesh could be taken for a notch.
   const uint32_t lowest = (kProfileBins * 3 + 99) / 100;
   uint32_t nose = kProfileBins;
   for (uint32_t bin = kProfileBins * 3 / 10; bin < kProfileBins * 9 / 10; ++bin) {

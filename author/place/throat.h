@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where the face ends and the neck begins: the deepest notch below the nose in the profile of the head.
+// Where the face ends and the neck begins: the deepest notch below the nose in the profile of the
+// head.
 #pragma once
 
 #include "author/mesh/author_mesh.h"
@@ -35,7 +36,7 @@ struct Throat {
     return out;
   }
 };
-/// A notch of less than 8.5 % of the height is no throat.
+/// A notch of less than 8.5 % of the height does not count as a throat.
 Throat find_throat(const Profile& profile);
 
 }  // namespace mien::author

@@ -32,8 +32,8 @@ void measure_groups(const dna::Joints& joints, GroupReport& report) {
   }
 }
 
-/// Diagonal of the box of the mask: what else the mesh has, as a body, does not change what counts as
-/// small on the face.
+/// Diagonal of the box of the mask: what else the mesh has, as a body, does not change what counts
+/// as small on the face.
 double size_of_face(const AuthorMesh& mesh, const Placement& placement) {
   if (placement.mask.empty()) return mesh.diagonal;
   Vec3 low = mesh.positions[placement.mask[0]], high = low;
@@ -45,11 +45,11 @@ double size_of_face(const AuthorMesh& mesh, const Placement& placement) {
   return length(high - low);
 }
 
-/// What weights of a further LOD begin with.
+/// Initial weights of a LOD after LOD 0.
 struct LodStarts {
   SkinWeights made;       // new ones for the bones that it keeps
-  SkinWeights collapsed;  // those of LOD 0 with dropped bones' on the nearest bone that is left
-  SkinWeights other;      // fitted, of the one that is not taken
+  SkinWeights collapsed;  // those of LOD 0; dropped bones' weights on the nearest remaining bone
+  SkinWeights other;      // fitted, of the variant that is not taken
   bool has_new = false;
   enum : uint8_t { kUndecided, kNew, kCollapsed } better = kUndecided;
 };
@@ -84,7 +84,7 @@ class RigMaker {
     return measure_fit(mesh, weights, motions_, targets, options_.parallel, arena_, out);
   }
 
-  /// The head's joint, which stays where it is, and the jaw's may carry every vertex.
+  /// The joint of the head, which does not move, and that of the jaw may influence every vertex.
   bool refit(const AuthorMesh& mesh, const SkinWeights& from, SkinWeights& out) {
     uint16_t shared[kMaxSharedBones];
     uint32_t count = 0;
@@ -226,7 +226,7 @@ class RigMaker {
       groups.pruned.outliers += pruned.outliers;
       groups.pruned.faint += pruned.faint;
     }
-    // Weights adapt once more to the bones that are left.
+    // Weights are fitted once more to the remaining bones.
     if (!measure(weights, {}, groups.removed)) return false;
     fit_all(fitter, mesh_, placement_, weights, true, options_.parallel, motions_);
     if (!options_.keep_weights && options_.fit.alternations > 0) {
@@ -234,7 +234,7 @@ class RigMaker {
       fit_all(fitter, mesh_, placement_, weights, true, options_.parallel, motions_);
     }
     if (lods_.count > 1 && !options_.keep_weights && !share_motions(weights)) return false;
-    // From here on motions are what the numbers of the file mean.
+    // From here on motions are those that the numbers in the file give.
     deltas_of_motions(placement_, mesh_.frame, motions_, model_.deltas);
     return measure(weights, {}, groups.refitted);
   }
@@ -246,7 +246,7 @@ class RigMaker {
                : take_regions(placement_, options_.own_regions, scratch_, model_.regions);
   }
 
-  /// The caller's motions as they are; weights adapt to them.
+  /// The caller's motions do not change; weights are fitted to them.
   bool take_motions(SkinWeights& weights) {
     const size_t bones = placement_.bones.count;
     for (uint32_t s = 0; s < mesh_.shapes.count; ++s) {
@@ -274,7 +274,7 @@ class RigMaker {
     return true;
   }
 
-  /// Motions that suit all LODs, and weights that suit them.
+  /// Fits motions to all LODs, and weights to the motions.
   bool share_motions(SkinWeights& weights) {
     if (!starts("all levels of detail")) return false;
     Arena for_fit(allocator_);
@@ -304,8 +304,8 @@ class RigMaker {
     return collapse_weights(placement_, placement_.lod_facial_counts[l], out, for_heirs, out);
   }
 
-  /// New weights and those that dropped bones leave are fitted to the motions. What does better the
-  /// first time is taken from then on.
+  /// New weights, and those that result from dropping bones, are fitted to the motions. What fits
+  /// better the first time is taken from then on.
   bool fit_lod_weights(uint32_t l) {
     FittedLod& lod = lods_[l];
     LodStarts& starts = starts_[l];
@@ -335,7 +335,7 @@ class RigMaker {
     return true;
   }
 
-  /// Weights of a further LOD for the motions as they are written.
+  /// Weights of a LOD after LOD 0 for the motions as they are written.
   bool weigh_lod(uint32_t l, LodReport& report) {
     FittedLod& lod = lods_[l];
     const LodStarts& starts = starts_[l];
@@ -369,7 +369,7 @@ class RigMaker {
     return true;
   }
 
-  /// LOD 0 has targets for all controls, LOD 1 for the expressions that need them most.
+  /// LOD 0 has targets for all controls, LOD 1 only for the expressions that need them most.
   bool make_shape_targets(uint32_t l, FittedLod& lod) {
     Span<Target> targets, all;
     if (!make_targets(lod.mesh, lod.weights, motions_, options_.residual_threshold * face_size_,

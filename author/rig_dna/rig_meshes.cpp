@@ -9,7 +9,7 @@ namespace mien::author {
 
 namespace {
 
-/// Area-weighted normals of the vertices; copies of a vertex at one place share theirs.
+/// Area-weighted normals of the vertices; vertices at one position share a normal.
 void find_normals(const AuthorMesh& mesh, Span<Vec3> out) {
   for (Vec3& n : out) n = {};
   for (size_t t = 0; t + 2 < mesh.triangles.count; t += 3) {
@@ -26,7 +26,7 @@ void find_normals(const AuthorMesh& mesh, Span<Vec3> out) {
   for (size_t v = 0; v < out.count; ++v) out[v] = out[mesh.welded[v]];
 }
 
-/// A coarse surface is shaded like the fine one, but for folds that it has no more.
+/// A coarse surface is shaded like the fine one, except where it has lost a fold.
 void take_normals(const FittedLod& lod, Span<const Vec3> finest, Span<Vec3> out) {
   find_normals(lod.mesh, out);
   for (size_t v = 0; v < lod.vertices.count; ++v) {
@@ -61,7 +61,7 @@ class MeshMaker {
     return true;
   }
 
-  /// One layout for each pair of position and texture coordinate that some corner has.
+  /// One layout for each distinct pair of position and texture coordinate.
   bool make_corners(dna::Mesh& out) {
     const Span<const uint32_t> starts =
         mesh_.face_starts.slice(part_.first_face, part_.face_count + 1);
@@ -78,7 +78,7 @@ class MeshMaker {
     for (uint32_t i = 0; i < count; ++i) pairs[i] = pair_of(i);
     std::sort(pairs.begin(), pairs.end());
     pairs.count = static_cast<size_t>(std::unique(pairs.begin(), pairs.end()) - pairs.begin());
-    // Texture coordinates that the part uses, in the order of their numbers.
+    // Texture coordinates that the part uses, in ascending order of index.
     for (size_t i = 0; i < pairs.count; ++i) uv_numbers[i] = static_cast<uint32_t>(pairs[i]);
     uv_numbers.count = pairs.count;
     std::sort(uv_numbers.begin(), uv_numbers.end());
@@ -145,7 +145,7 @@ class MeshMaker {
     return true;
   }
 
-  /// The range of a target's offsets that are of this part.
+  /// The range of offsets of a target that belong to this part.
   void range_of(const Target& target, size_t& from, size_t& to) const {
     const auto at = [&](uint32_t vertex) {
       return static_cast<size_t>(

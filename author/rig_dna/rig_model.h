@@ -40,7 +40,7 @@ struct RigModel {
   uint32_t channels_in_lod(size_t lod) const { return lod < 2 ? shape_channels[lod] : 0; }
 };
 
-/// A string of several parts.
+/// A string made of several parts.
 bool join_text(Arena& arena, std::initializer_list<Name> parts, dna::String& out);
 
 /// Names, axes, units.

@@ -20,7 +20,7 @@ Status no_memory(Error& error) {
   return fail(error, Status::kMemory, kNoOffset, "no memory for the rig");
 }
 
-/// Whether expressions move the bone. Those above it were checked.
+/// True if expressions move the bone. Its ancestors were checked.
 bool is_moved(Span<const OwnBone> bones, uint32_t b) {
   Bone bone;
   bone.kind = bones[b].kind;
@@ -136,7 +136,7 @@ Status take_weights(const ReadMesh& read, const RiggingOptions& options, size_t 
     size_t used = 0;
     for (size_t i = 0; i < m; ++i) {
       if (!(own.weights[from + i] > 0)) continue;
-      // The heaviest come first.
+      // The largest come first.
       size_t slot = used++;
       const float weight = static_cast<float>(own.weights[from + i] / sum);
       for (; slot > 0 && out.weights[v * m + slot - 1] < weight; --slot) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Results of stages that the caller gives: checked, and brought from the numbers, frame and unit of the
-// source to those of the mesh. Meshes of further LODs are taken in author/mesh/own_lods.h.
+// Results of stages that the caller supplies: checked, and converted from the indices, frame and
+// unit of the source to those of the mesh. author/mesh/own_lods.h does this for meshes of LODs.
 #pragma once
 
 #include "author/base/joint_motion.h"
@@ -11,15 +11,16 @@ namespace mien::author {
 /// Names, positions, order and kinds of `options.bones`. `moves`: there are expressions to fit.
 Status check_bones(const RiggingOptions& options, bool moves, Error& error);
 
-/// The caller's bones, which were checked, in place of those that were found; the mask stays.
+/// Puts the caller's bones, which were checked, in place of the computed ones; the mask stays.
 Status take_bones(const MeshSource& source, const RiggingOptions& options, Arena& arena,
                   Placement& out, Error& error);
 
-/// Weights of the source's positions as those of the mesh's vertices, the heaviest first, with sum one.
+/// Converts weights of the source's positions to weights of vertices, the largest first, with sum
+/// one.
 Status take_weights(const ReadMesh& read, const RiggingOptions& options, size_t sources,
                     Arena& arena, SkinWeights& out, Error& error);
 
-/// Values of the source's positions as those of the mesh's vertices.
+/// Converts values of the source's positions to values of vertices.
 Status take_bytes(const ReadMesh& read, Span<const uint8_t> own, Arena& arena,
                   Span<const uint8_t>& out, Error& error);
 

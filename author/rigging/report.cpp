@@ -11,7 +11,7 @@ namespace mien::author {
 
 namespace {
 
-/// JSON that grows in an arena. After memory ran out it stays as it is.
+/// JSON text that grows in an arena. It no longer changes after memory ran out.
 class Json {
  public:
   explicit Json(Arena& arena) : arena_(&arena) {}
@@ -67,7 +67,7 @@ class Json {
     raw(value);
   }
   void boolean(bool value) { word(value ? "true" : "false"); }
-  /// What is not ASCII text is escaped byte by byte if it is not valid UTF-8.
+  /// Bytes that are not valid UTF-8 are escaped one by one.
   void string(Name name) {
     separate();
     raw("\"");
@@ -298,7 +298,7 @@ void write_fit(const Rigging& rigging, Json& json) {
     for (const bool joints : {false, true}) {
       const FitError& fit = joints ? rig.joints : rig.rig;
       json.key(joints ? "joints_per_shape" : "per_shape").open("{");
-      // Expressions are the raw controls; shapes that combine others are none.
+      // Raw controls are the expressions, without shapes that combine others.
       const dna::List<dna::String> names = rigging.dna.defn.raw_control_names;
       for (uint32_t s = 0; s < fit.shapes.count && s < names.count; ++s) {
         json.key(Name{names[s].chars(), names[s].count});
@@ -395,7 +395,7 @@ bool write_report(const MeshSource& source, const RiggingOptions& options, const
   json.key("face_only").boolean(place.face_only);
   json.key("neck").open("{");
   json.key("split").string(place.face_only ? "none" : split_name(place.neck_split));
-  for (const bool head : {true, false}) {  // of groups, which the front of a face has none of
+  for (const bool head : {true, false}) {  // of groups; the front of a face has none
     json.key(head ? "head_mean" : "neck_mean");
     if (place.face_only) {
       json.word("null");

@@ -10,7 +10,7 @@ namespace mien::author {
 
 namespace {
 
-/// The stages of docs/authoring.md, in their order. Each takes the caller's result where there is one.
+/// The stages of docs/authoring.md, in order. Each takes the caller's result if there is one.
 class Rigger {
  public:
   Rigger(const MeshSource& source, const RiggingOptions& options, Arena& arena,
@@ -22,7 +22,7 @@ class Rigger {
     using Stage = Status (Rigger::*)();
     struct {
       const char* name;
-      double share;  // of the work that is done before
+      double share;  // share of the work before this step
       Stage run;
     } const stages[] = {
         {"mesh", 0, &Rigger::read},
@@ -66,7 +66,7 @@ class Rigger {
     return take_bones(source_, options_, arena_, out_.placement, error_);
   }
 
-  /// Weights of every LOD over the bones that it keeps; of LOD 0 alone if they are the caller's.
+  /// Weights of every LOD over the bones that it keeps; only of LOD 0 if the caller gave them.
   Status weigh() {
     if (!author::make(arena_, has_own_weights() ? 1 : options_.place.lods, weights_)) {
       return no_memory();
@@ -85,7 +85,7 @@ class Rigger {
       const uint32_t count = std::min(lods - first, kWeightLanes);
       WeightOptions weigh[kWeightLanes];
       for (uint32_t l = 0; l < count; ++l) {
-        // Shapes choose among more joints where most are gone.
+        // LODs with few joints may choose among more influences.
         const bool chooses = first + l > 0 && !mesh_.shapes.empty();
         weigh[l].influences = chooses ? kMaxAuthorInfluences : options_.influences;
         weigh[l].facial_bones = out_.placement.lod_facial_counts[first + l];
@@ -122,7 +122,7 @@ class Rigger {
     rig_.user = this;
     rig_.go_on = [](void* user, const char* step) {
       Rigger& rigger = *static_cast<Rigger*>(user);
-      // Steps of the fit do not tell how far they are: each takes a quarter of what is left.
+      // Steps of the fit do not report progress: each counts as a quarter of the remaining work.
       rigger.fit_share_ += (1 - rigger.fit_share_) * 0.25;
       return rigger.go_on(step, rigger.fit_share_);
     };

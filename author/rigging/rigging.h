@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From a mesh to a rig: all stages in their order, each of which the caller may replace.
+// From a mesh to a rig: all stages in order. The caller may replace the result of each.
 #pragma once
 
 #include "author/mesh/own_lods.h"
@@ -17,21 +17,21 @@ struct OwnBone {
   BoneKind kind;
 };
 
-/// Weights of the caller: rows as long as there are influences, one for each position of the source.
+/// Weights of the caller: one row per position of the source, one column per influence.
 struct OwnWeights {
   Span<const uint16_t> joints;
   Span<const float> weights;
 };
 
 struct RiggingOptions {
-  PlaceOptions place;  // but for own_groups and own_mask
+  PlaceOptions place;  // except own_groups and own_mask
   uint32_t influences = 8;
-  double lod_triangles = 0.5;  // share that each LOD keeps of those of the one before
+  double lod_triangles = 0.5;  // share of the LOD before it that each LOD keeps
   bool residual_targets = true;
   Name name = {"head", 4};
   Span<const OwnBone> bones;  // empty: placed
   OwnWeights weights;         // empty: made
-  // Of the caller; empty: found. One for each position of the source:
+  // Supplied by the caller; empty: computed. One for each position of the source:
   Span<const uint8_t> depth_groups, mask;
   Span<const uint32_t> bone_groups;  // one for each of `bones`
   Span<const LodSource> lod_meshes;  // one for each LOD but LOD 0
@@ -55,12 +55,13 @@ struct Rigging {
   dna::DnaView dna;
 };
 
-/// Fails with kAuthorMesh if arrays contradict each other, kAuthorRefused for what cannot be rigged,
-/// kAuthorCanceled if go_on said so. What `out` refers to lies in `arena` and in `source`.
+/// Fails with kAuthorMesh if arrays contradict each other, kAuthorRefused if the mesh cannot be
+/// rigged, kAuthorCanceled if go_on returned false. `out` refers to `arena` and `source`.
 Status make_rig(const MeshSource& source, const RiggingOptions& options, Arena& arena,
                 const Allocator& allocator, Rigging& out, Error& error);
 
-/// What was done and measured, as JSON (docs/authoring.md, 6 "The report"). False if memory ran out.
+/// What was done and measured, as JSON (docs/authoring.md, 6 "The report"). False if memory ran
+/// out.
 bool write_report(const MeshSource& source, const RiggingOptions& options, const Rigging& rigging,
                   Arena& arena, Span<const char>& out);
 

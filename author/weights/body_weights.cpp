@@ -10,7 +10,8 @@ namespace mien::author {
 
 namespace {
 
-// From the axis of the neck, in shares of half its width: where its skin ends, and where shoulders do.
+// Distances from the axis of the neck, in halves of its width: the end of the neck, and of the
+// shoulders.
 constexpr double kNeckSkin = 1.5, kShoulder = 2.6;
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// How head, neck and chest share a place before any shape is looked at. Facial bones take their
-// weights from the head's share, so turning the head moves no more than this, whatever is fitted.
+// How head, neck and chest share a place, before shapes are considered. Facial bones take their
+// weights from the share of the head, so a turning head moves no more than this, whatever the fit
+// does.
 #pragma once
 
 #include "author/mesh/author_mesh.h"
@@ -11,16 +12,16 @@ namespace mien::author {
 struct BodyChain {
   static constexpr uint32_t kCapacity = 6;
   uint32_t bones[kCapacity];
-  uint32_t count = 0;  // 1 at least
+  uint32_t count = 0;  // at least 1
 };
 BodyChain body_chain(const Placement& placement);
 
 /// 0 at the chest and below, 1 in the head. By height above the base of the neck, and by distance
-/// from its axis: shoulders are no neck however high they are.
+/// from its axis: shoulders do not count as neck, however high they are.
 double height_in_neck(const Placement& placement, Vec3 p);
 
-/// Shares of the chain's bones at a height in the neck, which sum to 1: Bernstein polynomials, so each
-/// bone bends the whole neck, and its weight and slope are 0 at the base.
+/// Shares of the chain's bones at a height in the neck, which sum to 1: Bernstein polynomials, so
+/// each bone bends the whole neck, and its weight and slope are 0 at the base.
 void share_body(const BodyChain& chain, double height, double (&shares)[BodyChain::kCapacity]);
 
 /// The share of the head at the place.

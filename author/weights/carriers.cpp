@@ -15,9 +15,9 @@ namespace {
 
 constexpr double kOnSkin = 0.02;    // parts of the diagonal: lies on the skin
 constexpr double kFar = 0.05;       // no longer follows it
-constexpr double kRigid = 0.05;     // part of the motion that no rigid motion explains
+constexpr double kRigid = 0.05;     // part of the motion that is not rigid
 constexpr double kWithChin = 0.30;  // part of the chin's motion
-constexpr double kMoves = 1e-3;     // part of the diagonal: what moves less is at rest
+constexpr double kMoves = 1e-3;     // part of the diagonal: less motion counts as rest
 
 struct Carried {
   Carrier carrier = Carrier::kRigid;
@@ -29,7 +29,8 @@ Vec3 moved(const Shape& shape, uint32_t v) {
   return {d.x, d.y, d.z};
 }
 
-/// Whether shapes move these vertices as a whole. Points and targets are room for all of them.
+/// True if shapes move these vertices rigidly. Points and targets are scratch memory for all of
+/// them.
 bool moves_rigidly(const AuthorMesh& mesh, Span<const uint32_t> vertices, Span<Vec3> points,
                    Span<Vec3> targets) {
   double motion = 0, rest = 0;
@@ -78,7 +79,7 @@ bool carry_components(const AuthorMesh& mesh, const Placement& placement, uint32
   }
   for (uint32_t v = 0; v < n; ++v) ++ends[mesh.component[v] + 1];
   for (uint32_t c = 0; c < mesh.component_count; ++c) ends[c + 1] += ends[c];
-  // ends[c] is where component c begins, and where it ends once its members are in.
+  // ends[c] is the start of component c, and its end once its members are filled in.
   size_t skin_count = 0;
   for (uint32_t v = 0; v < n; ++v) {
     members[ends[mesh.component[v]]++] = v;
@@ -89,7 +90,8 @@ bool carry_components(const AuthorMesh& mesh, const Placement& placement, uint32
   PointTree tree;
   if (!tree.build(skin_points.first(skin_count), scratch)) return false;
 
-  // How far the chin moves when the jaw opens: the mean of the 200 that move most, as for the joint.
+  // How far the chin moves when the jaw opens: the mean of the 200 that move most, as for the
+  // joint.
   Jaw jaw;
   if (!find_jaw(mesh, placement.symmetry_plane, scratch, jaw)) return false;
   uint32_t jaw_bone = kNone;
@@ -131,7 +133,7 @@ bool carry_components(const AuthorMesh& mesh, const Placement& placement, uint32
         for (const Shape& shape : mesh.shapes) {
           for (uint32_t v : all) farthest = std::max(farthest, length(moved(shape, v)));
         }
-        // The head's joint never moves, that of the jaw as a whole.
+        // The joint of the head never moves; the jaw moves rigidly.
         follows = farthest > kMoves * mesh.diagonal &&
                   (part.bone != jaw_bone || !moves_rigidly(mesh, all, points, targets));
       }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Weights of what is not skin: eyeballs, teeth, tongue, lashes, the inside of the mouth.
+// Weights of everything that is not skin: eyeballs, teeth, tongue, lashes, the inside of the mouth.
 #pragma once
 
 #include "author/weights/skin_weights.h"
 
 namespace mien::author {
 
-/// Influences of one vertex while they are put together.
+/// Influences of one vertex, while they are collected.
 struct InfluenceList {
   static constexpr uint32_t kCapacity = 2 * kMaxAuthorInfluences + 8;
   uint32_t joints[kCapacity];
@@ -27,20 +27,20 @@ struct InfluenceList {
   double sum() const;
 };
 
-/// The heaviest m, without those below 1e-4, with sum one in single precision.
+/// The m largest weights, without those below 1e-4; their sum in single precision is 1.
 void store(const InfluenceList& list, uint32_t vertex, SkinWeights& out);
 InfluenceList load(uint32_t vertex, const SkinWeights& from);
 
-/// Components that are not skin. An eyeball turns with its joint. What no shape moves is rigid on the
-/// head; what moves as a whole in all shapes, and at least 30 % as far as the chin when the jaw opens,
-/// on the jaw. The rest follows the nearest skin, the less the farther from it. Without shapes, what
-/// lies on the skin follows it and the rest is rigid. With `report`, counts and writes no weights.
-/// False if memory ran out.
+/// Components that are not skin. An eyeball turns with its joint. A component that no shape moves
+/// is rigid on the head. One that all shapes move rigidly, at least 30 % as far as the chin when
+/// the jaw opens, is rigid on the jaw. Others follow the nearest skin, less with more distance.
+/// Without shapes, components that lie on the skin follow it, and the others are rigid. With
+/// `report`, counts and writes no weights. False if memory ran out.
 bool carry_components(const AuthorMesh& mesh, const Placement& placement, uint32_t head,
                       Arena& scratch, SkinWeights& out, WeightReport* report);
 
-/// Median distance of the first facial bones to the nearest other; of the diagonal where there is one
-/// bone. False if memory ran out.
+/// Median distance of the first facial bones to the nearest other; a share of the diagonal if there
+/// is one bone. False if memory ran out.
 bool find_median_spacing(const Placement& placement, uint32_t facial, double diagonal,
                          Arena& scratch, double& out);
 

@@ -16,10 +16,10 @@ namespace mien::author {
 namespace {
 
 constexpr float kLeastWeight = 1e-4f;
-// Noise: parts of what a shape moves most, but for its farthest hundredth, and of the diagonal.
+// Noise: relative to the 99th percentile of the displacements of a shape, and to the diagonal.
 constexpr double kNoise = 0.03, kLeastMotion = 2e-4;
 
-/// What weighing the skin needs.
+/// Inputs of the weights of the skin.
 struct Weighing {
   const AuthorMesh& mesh;
   const Placement& placement;
@@ -38,7 +38,7 @@ struct Weighing {
   Span<uint8_t> counts = {};
 };
 
-/// The shortest ways to a vertex that are known while the search goes on: of as many bones as it may
+/// The shortest paths to a vertex known so far in the search, for as many bones as it may
 /// keep. What is not among them need not be queued.
 struct ShortestWays {
   uint32_t capacity = 0;
@@ -52,7 +52,7 @@ struct ShortestWays {
            author::make(arena, vertices * capacity, distances) &&
            author::make(arena, vertices, counts);
   }
-  /// False if the vertex knows a way as short, or enough bones that are nearer.
+  /// False if the vertex has a path as short, or enough nearer bones.
   bool offer(uint32_t v, uint32_t bone, double distance) {
     uint16_t* list = bones.data + size_t{v} * capacity;
     double* ways = distances.data + size_t{v} * capacity;
@@ -67,7 +67,7 @@ struct ShortestWays {
     } else if (at < capacity) {
       ++counts[v];
     } else {
-      // The queue takes the lower number first of bones that are equally far.
+      // Of equally distant bones the queue returns the one with the lower index first.
       if (distance > ways[farthest] || (distance == ways[farthest] && bone > list[farthest])) {
         return false;
       }
@@ -79,7 +79,8 @@ struct ShortestWays {
   }
 };
 
-/// Ways from every bone at once, nearest first; each vertex passes on a bone only if it keeps it.
+/// Searches from all bones at once, in order of distance; a vertex passes on only bones that it
+/// keeps.
 bool find_nearest_bones(Weighing& w) {
   const size_t n = w.mesh.positions.count;
   Span<double> depths;
@@ -136,14 +137,14 @@ bool find_nearest_bones(Weighing& w) {
   return true;
 }
 
-/// Weights of a vertex with support up to the next bone; they sum to one.
+/// Weights of a vertex that reach 0 at the distance of the next bone; they sum to one.
 void kernel_weights(const Weighing& w, uint32_t v, InfluenceList& out) {
   const uint32_t found = w.counts[v];
   if (found == 0) return;
   const size_t slot = size_t{v} * w.lists;
   const uint32_t used = std::min(found, w.lists - 1);
   const double least = 1e-9 * w.mesh.diagonal;
-  // Without a next bone all that can be reached share the vertex.
+  // Without a next bone, all reachable bones share the vertex.
   const double reach = std::max(
       found == w.lists ? w.distances[slot + found - 1] * 1.0001 : w.distances[slot + found - 1] * 2,
       2 * least);
@@ -159,8 +160,8 @@ void kernel_weights(const Weighing& w, uint32_t v, InfluenceList& out) {
   }
 }
 
-/// The squared distance from which on a shape moves the skin: less is noise, as shapes of scans have
-/// everywhere. `room` is for all vertices.
+/// The squared distance from which on a shape moves the skin: less is noise, as shapes of scans
+/// have everywhere. `room` is for all vertices.
 double noise_of(const AuthorMesh& mesh, const Shape& shape, Span<double> room) {
   size_t count = 0;
   for (const uint32_t v : shape.moving) {
@@ -175,8 +176,8 @@ double noise_of(const AuthorMesh& mesh, const Shape& shape, Span<double> room) {
   return std::max(least, kNoise * kNoise * *most);
 }
 
-/// The mask and all else of the skin that a shape moves: below the throat there are no bones, but the
-/// chin pulls at what is there. False if memory ran out.
+/// The mask and all else of the skin that a shape moves: below the throat there are no bones, but
+/// the chin pulls at what is there. False if memory ran out.
 bool find_moved(const Weighing& w, Span<uint32_t>& out) {
   const AuthorMesh& mesh = w.mesh;
   Span<uint8_t> is_in;
@@ -281,7 +282,7 @@ bool make_slots(const AuthorMesh& mesh, uint32_t influences, Arena& arena, SkinW
   return make(arena, count, out.joints) && make(arena, count, out.weights);
 }
 
-/// Fills `out`, which has its memory.
+/// Fills `out`, whose memory is allocated.
 bool weigh(const AuthorMesh& mesh, const Placement& placement, const WeightOptions& options,
            const Allocator& allocator, SkinWeights& out) {
   Arena scratch(allocator);
@@ -298,8 +299,8 @@ bool weigh(const AuthorMesh& mesh, const Placement& placement, const WeightOptio
   return carry_components(mesh, placement, w.head, scratch, out, nullptr);
 }
 
-/// Memory of one task: the caller's allocator serves the calling thread only. Nothing is given back
-/// before all of it.
+/// Memory of one task: the caller's allocator is used on the calling thread only. Nothing is
+/// released before all of it.
 struct Block {
   uint8_t* data = nullptr;
   size_t size = 0, used = 0;
@@ -317,7 +318,7 @@ struct Block {
   }
 };
 
-/// What weighing mostly needs, with room for queues that grow.
+/// What a task usually needs, with room for growing queues.
 size_t likely_memory(const AuthorMesh& mesh, uint32_t influences) {
   const size_t lists = influences + 1;
   return mesh.positions.count * (lists * 64 + 512) + mesh.triangles.count * 64 + 65536;
@@ -369,7 +370,7 @@ bool make_lod_weights(const AuthorMesh& mesh, const Placement& placement,
         &task);
     blocks.clear();
   }
-  // One after the other, or where more was needed than is likely.
+  // Sequentially, or again if a task needed more than that.
   for (size_t l = 0; l < out.count; ++l) {
     if (!task.lanes[l].done && !weigh(mesh, placement, options[l], allocator, out[l])) return false;
   }
