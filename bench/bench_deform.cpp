@@ -11,7 +11,6 @@
 #include "bench/bench_support.h"
 #include "bench/thread_pool.h"
 #include "capi/dna_handle.h"
-#include "capi/handles.h"
 
 namespace mien::bench {
 namespace {
@@ -39,9 +38,10 @@ MienDna* head() {
   static MienDna* const made = [] {
     MienDna* dna = open_rig(MIEN_LAYER_ALL, 0);
     const std::vector<float> joints = joint_positions(dna);
-    dna::Mesh& mesh = dna->view.geom.meshes[0];
+    dna::DnaFile& file = *capi::object(dna);
+    dna::Mesh& mesh = file.view.geom.meshes[0];
     mesh.skin_weights.items =
-        dna->arena.array<dna::VertexSkinWeights>(mesh.positions.xs.count).data;
+        file.arena.array<dna::VertexSkinWeights>(mesh.positions.xs.count).data;
     mesh.skin_weights.count = mesh.positions.xs.count;
     std::vector<std::pair<float, uint16_t>> near(joints.size() / 3);
     for (uint32_t v = 0; v < mesh.skin_weights.count; ++v) {
@@ -52,8 +52,8 @@ MienDna* head() {
         near[j] = {x * x + y * y + z * z, static_cast<uint16_t>(j)};
       }
       std::partial_sort(near.begin(), near.begin() + kInfluences, near.end());
-      const auto weights = dna::new_array<float>(dna->arena, kInfluences);
-      const auto indices = dna::new_array<uint16_t>(dna->arena, kInfluences);
+      const auto weights = dna::new_array<float>(file.arena, kInfluences);
+      const auto indices = dna::new_array<uint16_t>(file.arena, kInfluences);
       for (uint32_t k = 0; k < kInfluences; ++k) {
         weights.set(k, 1.0f / kInfluences);
         indices.set(k, near[k].second);

@@ -108,7 +108,7 @@ struct DenseMix {
     Error error;
     scene_requires(create_mix(desc, default_allocator(), mix, error));
   }
-  ~DenseMix() { release_mix(mix); }
+  ~DenseMix() { release(mix); }
 
   Mixer* mixer() const {
     Mixer* made = create_mixer(*mix, 1, false, default_allocator());
@@ -135,7 +135,7 @@ void dense_layers(benchmark::State& state, Isa isa) {
   using benchmark::Counter;
   state.counters["per_character"] =
       Counter(static_cast<double>(count), Counter::kIsIterationInvariantRate | Counter::kInvert);
-  for (Mixer* mixer : mixers) destroy_mixer(mixer);
+  for (Mixer* mixer : mixers) release(mixer);
 }
 
 /// Eight guards of 24 curves and 8 pairs each, fully active, while later layers move all of the 48 curves

@@ -42,7 +42,7 @@ MienStatus mien_bake_file(const MienRig* rig, const MienDeformer* deformer, cons
   Error detail;
   const Status status = write_file(path, bytes, size, allocator, detail);
   allocator.put(bytes, size, kBlockAlignment);
-  return status == Status::kOk ? succeed(error) : give_error(detail, error);
+  return give_status(status, detail, error);
 }
 
 MienStatus mien_bake_memory(const MienRig* rig, const MienDeformer* deformer, void* buffer,
@@ -78,37 +78,7 @@ MienStatus read_baked_desc(const MienBakedDesc* desc, MienBakedDesc& known, Allo
                       error);
 }
 
-/// A Baked and room for a copy of `copied` bytes after it, in one block; `data` points to the copy.
-MienStatus new_baked(const Allocator& allocator, uint32_t check, uint64_t copied, Baked*& out,
-                     MienError* error) {
-  const size_t head = align_up(sizeof(Baked), kBlockAlignment);
-  void* block = copied > SIZE_MAX - head
-                    ? nullptr
-                    : allocator.get(head + static_cast<size_t>(copied), kBlockAlignment);
-  if (!block) {
-    return give_error(error, MIEN_ERROR_MEMORY, "no memory for a baked file of %llu bytes",
-                      static_cast<unsigned long long>(copied));
-  }
-  out = new (block) Baked;
-  out->bytes.allocator = allocator;
-  out->bytes.block_size = head + static_cast<size_t>(copied);
-  out->bytes.data = static_cast<uint8_t*>(block) + head;
-  out->bytes.size = static_cast<size_t>(copied);
-  out->check = static_cast<BakedCheck>(check);
-  return MIEN_OK;
-}
-
-/// Checks the bytes; then passes `baked` to the caller, or releases it on failure.
-MienStatus finish_open(Baked* baked, MienBaked** out_baked, MienError* error) {
-  Error detail;
-  if (read_baked(*baked, detail) != Status::kOk) {
-    release_bytes(&baked->bytes);
-    return give_error(detail, error);
-  }
-  baked->bytes.tag = kBakedTag;
-  *out_baked = reinterpret_cast<MienBaked*>(baked);
-  return succeed(error);
-}
+BakedCheck check_of(const MienBakedDesc& desc) { return static_cast<BakedCheck>(desc.check); }
 
 }  // namespace
 
@@ -120,17 +90,10 @@ MienStatus mien_baked_open_file(const char* path, const MienBakedDesc* desc, Mie
   Allocator allocator;
   if (MienStatus status = read_baked_desc(desc, known, allocator, error)) return status;
   Baked* baked = nullptr;
-  if (MienStatus status = new_baked(allocator, known.check, 0, baked, error)) return status;
   Error detail;
-  if (open_file(path, static_cast<FileAccess>(known.file_access),
-                {kBakedMagic, sizeof(kBakedMagic)}, allocator, baked->bytes.file,
-                detail) != Status::kOk) {
-    release_bytes(&baked->bytes);
-    return give_error(detail, error);
-  }
-  baked->bytes.data = baked->bytes.file.bytes;
-  baked->bytes.size = baked->bytes.file.size;
-  return finish_open(baked, out_baked, error);
+  const Status status = open_baked_file(path, static_cast<FileAccess>(known.file_access),
+                                        check_of(known), allocator, baked, detail);
+  return give_object(status, baked, detail, out_baked, error);
 }
 
 MienStatus mien_baked_open_memory(const void* bytes, size_t size, const MienBakedDesc* desc,
@@ -140,17 +103,12 @@ MienStatus mien_baked_open_memory(const void* bytes, size_t size, const MienBake
   MienBakedDesc known;
   Allocator allocator;
   if (MienStatus status = read_baked_desc(desc, known, allocator, error)) return status;
-  const bool aligned = reinterpret_cast<uintptr_t>(bytes) % kBlockAlignment == 0;
-  const size_t copied = aligned && known.file_access == MIEN_FILE_MAP ? 0 : size;
   Baked* baked = nullptr;
-  if (MienStatus status = new_baked(allocator, known.check, copied, baked, error)) return status;
-  if (copied != 0) {
-    memcpy(const_cast<uint8_t*>(baked->bytes.data), bytes, copied);
-  } else {
-    baked->bytes.data = static_cast<const uint8_t*>(bytes);
-    baked->bytes.size = size;
-  }
-  return finish_open(baked, out_baked, error);
+  Error detail;
+  const Status status = open_baked_memory({static_cast<const uint8_t*>(bytes), size},
+                                          static_cast<FileAccess>(known.file_access),
+                                          check_of(known), allocator, baked, detail);
+  return give_object(status, baked, detail, out_baked, error);
 }
 
 MienStatus mien_baked_open_stream(const MienStream* stream, const MienBakedDesc* desc,
@@ -163,37 +121,25 @@ MienStatus mien_baked_open_stream(const MienStream* stream, const MienBakedDesc*
   Allocator allocator;
   if (MienStatus status = read_baked_desc(desc, known, allocator, error)) return status;
   Baked* baked = nullptr;
-  if (MienStatus status = new_baked(allocator, known.check, stream->size, baked, error)) {
-    return status;
-  }
-  const size_t size = baked->bytes.size;
-  if (size != 0 &&
-      stream->read(stream->user, 0, const_cast<uint8_t*>(baked->bytes.data), size) != size) {
-    release_bytes(&baked->bytes);
-    return give_error(error, MIEN_ERROR_FILE_READ,
-                      "the read function of the stream gave fewer than the %zu bytes asked for",
-                      size);
-  }
-  return finish_open(baked, out_baked, error);
+  Error detail;
+  const Status status = open_baked_stream({stream->user, stream->size, stream->read},
+                                          check_of(known), allocator, baked, detail);
+  return give_object(status, baked, detail, out_baked, error);
 }
 
-void mien_baked_close(MienBaked* baked) {
-  if (check(baked) != MIEN_OK) return;
-  object(baked)->bytes.tag = 0;
-  release_bytes(&object(baked)->bytes);
-}
+void mien_baked_close(MienBaked* baked) { destroy(baked); }
 
-MienStatus mien_baked_info(const MienBaked* handle, MienBakedInfo* out_info) {
+MienStatus mien_baked_info(const MienBaked* baked, MienBakedInfo* out_info) {
   if (MienStatus status = clear_struct(out_info)) return status;
-  if (MienStatus status = check(handle)) return status;
-  const Baked& baked = *object(handle);
+  if (MienStatus status = check(baked)) return status;
+  const Baked& of = *object(baked);
   MienBakedInfo info = {};
-  info.file_bytes = baked.bytes.size;
-  info.memory_bytes = baked.bytes.block_size + baked.bytes.file.capacity;
-  info.rig_bytes = baked.rig ? baked.rig->size : 0;
-  info.deformer_bytes = baked.deformer ? baked.deformer->size : 0;
-  info.part_count = header_of(baked.bytes.data)->part_count;
-  info.is_mapped = baked.bytes.file.mapped;
+  info.file_bytes = of.size;
+  info.memory_bytes = of.block_size + of.file.capacity;
+  info.rig_bytes = of.rig ? of.rig->size : 0;
+  info.deformer_bytes = of.deformer ? of.deformer->size : 0;
+  info.part_count = header_of(of.data)->part_count;
+  info.is_mapped = of.file.mapped;
   write_struct(out_info, info);
   return MIEN_OK;
 }
@@ -225,14 +171,9 @@ MienStatus mien_rig_from_baked(const MienBaked* baked, const MienBakedRigDesc* d
   if (!object(baked)->rig) return no_part("rig", error);
   Rig* rig = nullptr;
   Error detail;
-  if (open_baked_rig(*object(baked), kernels, allocator, rig, detail) != Status::kOk) {
-    return give_error(detail, error);
-  }
-  rig->always_evaluate = known.reuse == MIEN_REUSE_NOTHING;
-  rig->instance_size = instance_size(*rig);
-  rig->tag = kRigTag;
-  *out_rig = reinterpret_cast<MienRig*>(rig);
-  return succeed(error);
+  const Status status = open_baked_rig(*object(baked), kernels, allocator, rig, detail);
+  if (status == Status::kOk) rig->always_evaluate = known.reuse == MIEN_REUSE_NOTHING;
+  return give_object(status, rig, detail, out_rig, error);
 }
 
 MienStatus mien_deformer_from_baked(const MienBaked* baked, const MienRig* rig,
@@ -252,7 +193,7 @@ MienStatus mien_deformer_from_baked(const MienBaked* baked, const MienRig* rig,
   if (known.isa != MIEN_ISA_BEST) {
     if (MienStatus status = find_kernels(known.isa, kernels, error)) return status;
   }
-  if (object(rig)->bytes != &object(baked)->bytes) {
+  if (object(rig)->bytes != object(baked)) {
     return give_error(
         error, MIEN_ERROR_MISMATCH,
         "the rig was not created from this baked file: use that of mien_rig_from_baked()");
@@ -260,14 +201,10 @@ MienStatus mien_deformer_from_baked(const MienBaked* baked, const MienRig* rig,
   if (!object(baked)->deformer) return no_part("deformer", error);
   Deformer* deformer = nullptr;
   Error detail;
-  if (open_baked_deformer(*object(baked), *object(rig), kernels, allocator, deformer, detail) !=
-      Status::kOk) {
-    return give_error(detail, error);
-  }
-  if (known.normals != MIEN_NORMALS_DEFAULT) {
+  const Status status =
+      open_baked_deformer(*object(baked), *object(rig), kernels, allocator, deformer, detail);
+  if (status == Status::kOk && known.normals != MIEN_NORMALS_DEFAULT) {
     deformer->normals = static_cast<Normals>(known.normals);
   }
-  deformer->tag = kDeformerTag;
-  *out_deformer = reinterpret_cast<MienDeformer*>(deformer);
-  return succeed(error);
+  return give_object(status, deformer, detail, out_deformer, error);
 }

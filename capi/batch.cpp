@@ -40,14 +40,11 @@ MienStatus mien_batch_create(const MienRig* rig, const MienBatchDesc* desc, Mien
     return give_error(error, MIEN_ERROR_MEMORY, "no memory for a batch of %zu bytes",
                       batch_size(*object(rig), known.capacity, known.tasks));
   }
-  batch->tag = kBatchTag;
   *out_batch = reinterpret_cast<MienBatch*>(batch);
   return succeed(error);
 }
 
-void mien_batch_destroy(MienBatch* batch) {
-  if (check(batch) == MIEN_OK) destroy_batch(object(batch));
-}
+void mien_batch_destroy(MienBatch* batch) { destroy(batch); }
 
 MienStatus mien_batch_bytes(const MienRig* rig, const MienBatchDesc* desc, uint64_t* out_bytes) {
   if (!out_bytes) return MIEN_ERROR_NULL_ARGUMENT;
@@ -59,14 +56,14 @@ MienStatus mien_batch_bytes(const MienRig* rig, const MienBatchDesc* desc, uint6
   return MIEN_OK;
 }
 
-MienStatus mien_rig_evaluate_batch(const MienRig* handle, MienBatch* batch,
+MienStatus mien_rig_evaluate_batch(const MienRig* rig, MienBatch* batch,
                                    MienInstance* const* instances, const uint32_t* lods,
                                    uint32_t count, uint32_t stages,
                                    const MienParallelFor* parallel) {
-  if (MienStatus status = check(handle)) return status;
+  if (MienStatus status = check(rig)) return status;
   if (MienStatus status = check(batch)) return status;
-  const Rig& rig = *object(handle);
-  if (object(batch)->rig != &rig) return MIEN_ERROR_MISMATCH;
+  const Rig& of = *object(rig);
+  if (object(batch)->rig != &of) return MIEN_ERROR_MISMATCH;
   if (stages & ~uint32_t{kStagesAll}) return MIEN_ERROR_INVALID_ARGUMENT;
   if (parallel && !parallel->run) return MIEN_ERROR_INVALID_ARGUMENT;
   if (count == 0) return MIEN_OK;
@@ -79,9 +76,9 @@ MienStatus mien_rig_evaluate_batch(const MienRig* handle, MienBatch* batch,
     status = check(instances[i]);
     if (status != MIEN_OK) break;
     Instance& instance = *object(instances[i]);
-    if (instance.rig != &rig) {
+    if (instance.rig != &of) {
       status = MIEN_ERROR_MISMATCH;
-    } else if (lods[i] >= rig.lod_count) {
+    } else if (lods[i] >= of.lod_count) {
       status = MIEN_ERROR_LOD;
     } else if (instance.in_batch) {
       status = MIEN_ERROR_INVALID_ARGUMENT;

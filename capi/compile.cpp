@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // DNA -> rig, DNA -> deformer. mien.h is the manual.
-#include <algorithm>
-
 #include "capi/dna_handle.h"
 #include "runtime/load/compile/compile_deformer.h"
 #include "runtime/load/compile/compile_rig.h"
@@ -27,7 +25,7 @@ MienStatus mien_rig_create(const MienDna* dna, const MienRigDesc* desc, MienRig*
   if (in_range != MIEN_OK) return in_range;
   const KernelTable* kernels = nullptr;
   if (MienStatus status = find_kernels(known.isa, kernels, error)) return status;
-  if (!dna->view.has(dna::kLayerBehavior)) {
+  if (!object(dna)->view.has(dna::kLayerBehavior)) {
     return give_error(error, MIEN_ERROR_DNA_LAYER,
                       "the DNA was opened without its behavior; open it with MIEN_LAYER_BEHAVIOR");
   }
@@ -39,56 +37,16 @@ MienStatus mien_rig_create(const MienDna* dna, const MienRigDesc* desc, MienRig*
                                   known.storage == MIEN_STORAGE_16_BIT,
                                   known.arithmetic == MIEN_ARITHMETIC_PORTABLE,
                                   known.reuse == MIEN_REUSE_NOTHING};
-  if (compile_rig(dna->view, options, allocator, rig, detail) != Status::kOk) {
-    return give_error(detail, error);
-  }
-  rig->tag = kRigTag;
-  rig->instance_size = instance_size(*rig);
-  *out_rig = reinterpret_cast<MienRig*>(rig);
-  return succeed(error);
+  const Status status = compile_rig(object(dna)->view, options, allocator, rig, detail);
+  return give_object(status, rig, detail, out_rig, error);
 }
 
-namespace {
-
-/// A rig and a DNA file must have the same joints, channels and meshes.
-MienStatus compare_names(const dna::DnaView& view, const Rig& rig, MienError* error) {
-  const struct {
-    Kind kind;
-    const dna::List<dna::String>& names;
-    const char* noun;
-  } lists[] = {{Kind::kJoint, view.defn.joint_names, "joint"},
-               {Kind::kBlendShapeChannel, view.defn.channel_names, "blend shape channel"},
-               {Kind::kMesh, view.defn.mesh_names, "mesh"}};
-  for (const auto& list : lists) {
-    const NameList& own = rig.names[size_t(list.kind)];
-    if (own.count() != list.names.count) {
-      return give_error(error, MIEN_ERROR_MISMATCH,
-                        "the rig was made of another file, or with other LODs: it has %u %s names, "
-                        "the DNA has %u",
-                        own.count(), list.noun, list.names.count);
-    }
-    for (uint32_t i = 0; i < own.count(); ++i) {
-      const Span<char> a = own[i];
-      const dna::String& b = list.names[i];
-      if (a.count == b.count && (a.count == 0 || memcmp(a.data, b.data, a.count) == 0)) continue;
-      return give_error(error, MIEN_ERROR_MISMATCH,
-                        "the rig was made of another file, or with other LODs: %s %u is %.*s, "
-                        "in the DNA it is %.*s",
-                        list.noun, i, static_cast<int>(std::min<size_t>(a.count, 40)), a.data,
-                        static_cast<int>(std::min<size_t>(b.count, 40)), b.chars());
-    }
-  }
-  return MIEN_OK;
-}
-
-}  // namespace
-
-MienStatus mien_deformer_create(const MienDna* dna, const MienRig* handle,
+MienStatus mien_deformer_create(const MienDna* dna, const MienRig* rig,
                                 const MienDeformerDesc* desc, MienDeformer** out_deformer,
                                 MienError* error) {
   if (MienStatus status = clear_output(out_deformer, error)) return status;
   if (MienStatus status = check(dna, "dna", error)) return status;
-  if (MienStatus status = check(handle, "rig", error)) return status;
+  if (MienStatus status = check(rig, "rig", error)) return status;
   MienDeformerDesc known;
   if (MienStatus status = read_desc(desc, known, "MienDeformerDesc", error)) return status;
   Allocator allocator;
@@ -100,20 +58,19 @@ MienStatus mien_deformer_create(const MienDna* dna, const MienRig* handle,
                     {"MienDeformerDesc.reserved", known.reserved, 0}},
                    error);
   if (in_range != MIEN_OK) return in_range;
-  const Rig& rig = *object(handle);
-  const KernelTable* kernels = rig.kernels;
+  const Rig& of = *object(rig);
+  const KernelTable* kernels = of.kernels;
   if (known.isa != MIEN_ISA_BEST) {
     if (MienStatus status = find_kernels(known.isa, kernels, error)) return status;
   }
-  if (known.compose == MIEN_COMPOSE_EULER_ADD && rig.quaternion_outputs) {
+  if (known.compose == MIEN_COMPOSE_EULER_ADD && of.quaternion_outputs) {
     return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
-                      "MIEN_COMPOSE_EULER_ADD needs a rig with MIEN_ROTATION_OUTPUT_EULER");
+                      "MIEN_COMPOSE_EULER_ADD needs a of with MIEN_ROTATION_OUTPUT_EULER");
   }
-  if (!dna->view.has(dna::kLayerGeometry)) {
+  if (!object(dna)->view.has(dna::kLayerGeometry)) {
     return give_error(error, MIEN_ERROR_DNA_LAYER,
                       "the DNA was opened without its geometry; open it with MIEN_LAYER_GEOMETRY");
   }
-  if (MienStatus status = compare_names(dna->view, rig, error)) return status;
 
   DeformOptions options;
   options.kernels = kernels;
@@ -123,10 +80,7 @@ MienStatus mien_deformer_create(const MienDna* dna, const MienRig* handle,
   if (known.normals != MIEN_NORMALS_DEFAULT) options.normals = static_cast<Normals>(known.normals);
   Deformer* deformer = nullptr;
   Error detail;
-  if (compile_deformer(dna->view, rig, options, allocator, deformer, detail) != Status::kOk) {
-    return give_error(detail, error);
-  }
-  deformer->tag = kDeformerTag;
-  *out_deformer = reinterpret_cast<MienDeformer*>(deformer);
-  return succeed(error);
+  const Status status =
+      compile_deformer(object(dna)->view, of, options, allocator, deformer, detail);
+  return give_object(status, deformer, detail, out_deformer, error);
 }

@@ -27,81 +27,77 @@ MienFloatView view_of(const Span<float>& span) { return {span.data, span.count};
 
 // Deformer ----------------------------------------------------------------------------------------
 
-void mien_deformer_destroy(MienDeformer* deformer) {
-  if (check(deformer) != MIEN_OK) return;
-  object(deformer)->tag = 0;
-  release_deformer(object(deformer));
-}
+void mien_deformer_destroy(MienDeformer* deformer) { destroy(deformer); }
 
-MienStatus mien_deformer_info(const MienDeformer* handle, MienDeformerInfo* out_info) {
+MienStatus mien_deformer_info(const MienDeformer* deformer, MienDeformerInfo* out_info) {
   if (MienStatus status = clear_struct(out_info)) return status;
-  if (MienStatus status = check(handle)) return status;
-  const Deformer& deformer = *object(handle);
+  if (MienStatus status = check(deformer)) return status;
+  const Deformer& of = *object(deformer);
   MienDeformerInfo info = {};
-  info.isa = static_cast<uint32_t>(deformer.kernels->isa);
-  info.compose = static_cast<uint32_t>(deformer.skeleton.compose);
-  info.weights = deformer.fix_weights ? MIEN_WEIGHTS_FIX : MIEN_WEIGHTS_AS_STORED;
-  info.normals = static_cast<uint32_t>(deformer.normals);
-  info.lod_count = deformer.rig->lod_count;
-  info.joint_count = deformer.skeleton.joint_count;
-  info.channel_count = deformer.rig->channel_count;
-  info.mesh_count = static_cast<uint32_t>(deformer.meshes.count);
-  info.deformer_bytes = deformer.block_size + deformer.baked_size;
-  info.instance_bytes = deformer_instance_size(deformer, 0);
+  info.isa = static_cast<uint32_t>(of.kernels->isa);
+  info.compose = static_cast<uint32_t>(of.skeleton.compose);
+  info.weights = of.fix_weights ? MIEN_WEIGHTS_FIX : MIEN_WEIGHTS_AS_STORED;
+  info.normals = static_cast<uint32_t>(of.normals);
+  info.lod_count = of.rig->lod_count;
+  info.joint_count = of.skeleton.joint_count;
+  info.channel_count = of.rig->channel_count;
+  info.mesh_count = static_cast<uint32_t>(of.meshes.count);
+  info.deformer_bytes = of.block_size + of.baked_size;
+  info.instance_bytes = deformer_instance_size(of, 0);
   write_struct(out_info, info);
   return MIEN_OK;
 }
 
-MienStatus mien_deformer_mesh(const MienDeformer* handle, uint32_t m, MienMesh* out_mesh) {
+MienStatus mien_deformer_mesh(const MienDeformer* deformer, uint32_t mesh, MienMesh* out_mesh) {
   if (MienStatus status = clear_struct(out_mesh)) return status;
-  if (MienStatus status = check(handle)) return status;
-  if (m >= object(handle)->meshes.count) return MIEN_ERROR_INDEX;
-  const DeformMesh& mesh = object(handle)->meshes[m];
+  if (MienStatus status = check(deformer)) return status;
+  if (mesh >= object(deformer)->meshes.count) return MIEN_ERROR_INDEX;
+  const DeformMesh& shape = object(deformer)->meshes[mesh];
   MienMesh told = {};
-  told.position_count = mesh.position_count;
-  told.vertex_count = mesh.vertex_count;
-  told.triangle_count = mesh.triangle_count;
-  told.max_influences = mesh.max_influences;
-  told.target_count = mesh.target_count;
-  told.delta_count = static_cast<uint32_t>(mesh.delta_count);
-  told.lods = mesh.lods;
-  told.positions = {mesh.positions.data, size_t{mesh.position_count} * 3};
-  told.normals = {mesh.normals.data, size_t{mesh.vertex_count} * 3};
-  told.tangents = view_of(mesh.tangents);
-  told.texture_coordinates = view_of(mesh.texture_coordinates);
-  told.vertex_position_indices = view_of(mesh.vertex_position_indices);
-  told.triangles = view_of(mesh.triangles);
-  told.target_channels = view_of(mesh.target_channels);
+  told.position_count = shape.position_count;
+  told.vertex_count = shape.vertex_count;
+  told.triangle_count = shape.triangle_count;
+  told.max_influences = shape.max_influences;
+  told.target_count = shape.target_count;
+  told.delta_count = static_cast<uint32_t>(shape.delta_count);
+  told.lods = shape.lods;
+  told.positions = {shape.positions.data, size_t{shape.position_count} * 3};
+  told.normals = {shape.normals.data, size_t{shape.vertex_count} * 3};
+  told.tangents = view_of(shape.tangents);
+  told.texture_coordinates = view_of(shape.texture_coordinates);
+  told.vertex_position_indices = view_of(shape.vertex_position_indices);
+  told.triangles = view_of(shape.triangles);
+  told.target_channels = view_of(shape.target_channels);
   write_struct(out_mesh, told);
   return MIEN_OK;
 }
 
-MienStatus mien_deformer_influences(const MienDeformer* handle, uint32_t m, uint32_t position,
+MienStatus mien_deformer_influences(const MienDeformer* deformer, uint32_t mesh, uint32_t position,
                                     MienIndex16View* out_joints, MienFloatView* out_weights) {
   if (out_joints) *out_joints = {nullptr, 0};
   if (out_weights) *out_weights = {nullptr, 0};
   if (!out_joints || !out_weights) return MIEN_ERROR_NULL_ARGUMENT;
-  if (MienStatus status = check(handle)) return status;
-  if (m >= object(handle)->meshes.count) return MIEN_ERROR_INDEX;
-  const DeformMesh& mesh = object(handle)->meshes[m];
-  if (position >= mesh.position_count) return MIEN_ERROR_INDEX;
-  const uint32_t sorted_index = mesh.sorted_indices[position];
-  const SkinRun* run = skin_run_of(mesh, sorted_index);
+  if (MienStatus status = check(deformer)) return status;
+  if (mesh >= object(deformer)->meshes.count) return MIEN_ERROR_INDEX;
+  const DeformMesh& shape = object(deformer)->meshes[mesh];
+  if (position >= shape.position_count) return MIEN_ERROR_INDEX;
+  const uint32_t sorted_index = shape.sorted_indices[position];
+  const SkinRun* run = skin_run_of(shape, sorted_index);
   const size_t row = run->first_weight + size_t{sorted_index - run->first} * run->influences;
-  *out_joints = view_of(mesh.joints.slice(row, run->influences));
-  *out_weights = view_of(mesh.weights.slice(row, run->influences));
+  *out_joints = view_of(shape.joints.slice(row, run->influences));
+  *out_weights = view_of(shape.weights.slice(row, run->influences));
   return MIEN_OK;
 }
 
-MienStatus mien_deformer_target(const MienDeformer* handle, uint32_t m, uint32_t target,
+MienStatus mien_deformer_target(const MienDeformer* deformer, uint32_t mesh, uint32_t target,
                                 float* out_deltas, size_t count) {
-  if (MienStatus status = check(handle)) return status;
-  if (m >= object(handle)->meshes.count) return MIEN_ERROR_INDEX;
-  const DeformMesh& mesh = object(handle)->meshes[m];
-  if (target >= mesh.target_count) return MIEN_ERROR_INDEX;
+  if (MienStatus status = check(deformer)) return status;
+  if (mesh >= object(deformer)->meshes.count) return MIEN_ERROR_INDEX;
+  const DeformMesh& shape = object(deformer)->meshes[mesh];
+  if (target >= shape.target_count) return MIEN_ERROR_INDEX;
   if (!out_deltas) return MIEN_ERROR_NULL_ARGUMENT;
-  if (count < size_t{mesh.position_count} * 3) return MIEN_ERROR_INVALID_ARGUMENT;
-  write_target(mesh, target, out_deltas);
+  if (count < size_t{shape.position_count} * 3) return MIEN_ERROR_INVALID_ARGUMENT;
+  write_target(shape, target, out_deltas);
   return MIEN_OK;
 }
 
@@ -126,8 +122,9 @@ MienStatus mien_deformer_inverse_bind_matrices(const MienDeformer* deformer,
 
 MienStatus mien_deformer_instance_create(const MienDeformer* deformer,
                                          const MienDeformerInstanceDesc* desc,
-                                         MienDeformerInstance** out_instance, MienError* error) {
-  if (MienStatus status = clear_output(out_instance, error)) return status;
+                                         MienDeformerInstance** out_deformer_instance,
+                                         MienError* error) {
+  if (MienStatus status = clear_output(out_deformer_instance, error)) return status;
   if (MienStatus status = check(deformer, "deformer", error)) return status;
   MienDeformerInstanceDesc known;
   if (MienStatus status = read_desc(desc, known, "MienDeformerInstanceDesc", error)) return status;
@@ -138,31 +135,32 @@ MienStatus mien_deformer_instance_create(const MienDeformer* deformer,
     return give_error(error, MIEN_ERROR_MEMORY, "no memory for a deformer instance of %zu bytes",
                       deformer_instance_size(*object(deformer), known.lods));
   }
-  instance->tag = kDeformerInstanceTag;
-  *out_instance = reinterpret_cast<MienDeformerInstance*>(instance);
+  *out_deformer_instance = reinterpret_cast<MienDeformerInstance*>(instance);
   return succeed(error);
 }
 
-void mien_deformer_instance_destroy(MienDeformerInstance* instance) {
-  if (check(instance) == MIEN_OK) destroy_deformer_instance(object(instance));
+void mien_deformer_instance_destroy(MienDeformerInstance* deformer_instance) {
+  destroy(deformer_instance);
 }
 
-MienStatus mien_deformer_instance_update(MienDeformerInstance* handle, const MienInstance* source) {
-  if (MienStatus status = check(handle)) return status;
-  if (MienStatus status = check(source)) return status;
-  const Instance& evaluated = *object(source);
-  if (evaluated.rig != object(handle)->deformer->rig) return MIEN_ERROR_MISMATCH;
-  update_deformer_instance(*object(handle), evaluated.joints.data, evaluated.channels.data);
+MienStatus mien_deformer_instance_update(MienDeformerInstance* deformer_instance,
+                                         const MienInstance* instance) {
+  if (MienStatus status = check(deformer_instance)) return status;
+  if (MienStatus status = check(instance)) return status;
+  const Instance& evaluated = *object(instance);
+  if (evaluated.rig != object(deformer_instance)->deformer->rig) return MIEN_ERROR_MISMATCH;
+  update_deformer_instance(*object(deformer_instance), evaluated.joints.data,
+                           evaluated.channels.data);
   return MIEN_OK;
 }
 
-MienStatus mien_deformer_instance_update_from_values(MienDeformerInstance* handle,
+MienStatus mien_deformer_instance_update_from_values(MienDeformerInstance* deformer_instance,
                                                      const float* joint_values,
                                                      size_t joint_value_count,
                                                      const float* channel_weights,
                                                      size_t channel_weight_count) {
-  if (MienStatus status = check(handle)) return status;
-  DeformerInstance& instance = *object(handle);
+  if (MienStatus status = check(deformer_instance)) return status;
+  DeformerInstance& instance = *object(deformer_instance);
   if (joint_value_count != (joint_values ? instance.deformer->skeleton.value_count() : 0) ||
       channel_weight_count != (channel_weights ? instance.channels.count : 0)) {
     return MIEN_ERROR_INVALID_ARGUMENT;
@@ -171,31 +169,31 @@ MienStatus mien_deformer_instance_update_from_values(MienDeformerInstance* handl
   return MIEN_OK;
 }
 
-MienStatus mien_deformer_instance_joint_matrices(const MienDeformerInstance* instance,
+MienStatus mien_deformer_instance_joint_matrices(const MienDeformerInstance* deformer_instance,
                                                  MienFloatView* out_matrices) {
   if (!out_matrices) return MIEN_ERROR_NULL_ARGUMENT;
   *out_matrices = {nullptr, 0};
-  if (MienStatus status = check(instance)) return status;
-  *out_matrices = view_of(object(instance)->joints.model);
+  if (MienStatus status = check(deformer_instance)) return status;
+  *out_matrices = view_of(object(deformer_instance)->joints.model);
   return MIEN_OK;
 }
 
-MienStatus mien_deformer_instance_skin_matrices(const MienDeformerInstance* instance,
+MienStatus mien_deformer_instance_skin_matrices(const MienDeformerInstance* deformer_instance,
                                                 MienFloatView* out_matrices) {
   if (!out_matrices) return MIEN_ERROR_NULL_ARGUMENT;
   *out_matrices = {nullptr, 0};
-  if (MienStatus status = check(instance)) return status;
-  *out_matrices = view_of(object(instance)->joints.skin);
+  if (MienStatus status = check(deformer_instance)) return status;
+  *out_matrices = view_of(object(deformer_instance)->joints.skin);
   return MIEN_OK;
 }
 
-MienStatus mien_deformer_instance_local_transforms(const MienDeformerInstance* instance,
+MienStatus mien_deformer_instance_local_transforms(const MienDeformerInstance* deformer_instance,
                                                    float* out_transforms, size_t count) {
-  if (MienStatus status = check(instance)) return status;
+  if (MienStatus status = check(deformer_instance)) return status;
   if (!out_transforms) return MIEN_ERROR_NULL_ARGUMENT;
-  const Skeleton& skeleton = object(instance)->deformer->skeleton;
+  const Skeleton& skeleton = object(deformer_instance)->deformer->skeleton;
   if (count < skeleton.joint_count * kLocalTransformFloats) return MIEN_ERROR_INVALID_ARGUMENT;
-  write_local_transforms(skeleton, object(instance)->joints, out_transforms);
+  write_local_transforms(skeleton, object(deformer_instance)->joints, out_transforms);
   return MIEN_OK;
 }
 
@@ -283,33 +281,38 @@ MienStatus read_outputs(const DeformBatch& batch, uint32_t mesh, const MienVerte
 
 }  // namespace
 
-MienStatus mien_deformer_instance_deform(MienDeformerInstance* handle, uint32_t mesh,
+MienStatus mien_deformer_instance_deform(MienDeformerInstance* deformer_instance, uint32_t mesh,
                                          uint32_t normals, const MienParallelFor* parallel) {
-  return mien_deformer_instance_deform_batch(&handle, 1, mesh, normals, parallel);
+  return mien_deformer_instance_deform_batch(&deformer_instance, 1, mesh, normals, parallel);
 }
 
-MienStatus mien_deformer_instance_deform_batch(Handles handles, size_t count, uint32_t mesh,
-                                               uint32_t normals, const MienParallelFor* parallel) {
+MienStatus mien_deformer_instance_deform_batch(Handles deformer_instances, size_t count,
+                                               uint32_t mesh, uint32_t normals,
+                                               const MienParallelFor* parallel) {
   if (count == 0) return MIEN_OK;
   DeformBatch batch;
-  if (MienStatus status = read_batch(handles, count, mesh, normals, parallel, batch)) return status;
+  if (MienStatus status = read_batch(deformer_instances, count, mesh, normals, parallel, batch))
+    return status;
   deform(*batch.deformer, batch.instances, mesh, batch.normals, batch.parallel);
   return MIEN_OK;
 }
 
-MienStatus mien_deformer_instance_write_vertices(MienDeformerInstance* handle, uint32_t mesh,
-                                                 uint32_t normals, const MienVertexOutput* output,
+MienStatus mien_deformer_instance_write_vertices(MienDeformerInstance* deformer_instance,
+                                                 uint32_t mesh, uint32_t normals,
+                                                 const MienVertexOutput* output,
                                                  const MienParallelFor* parallel) {
-  return mien_deformer_instance_write_vertices_batch(&handle, 1, mesh, normals, output, parallel);
+  return mien_deformer_instance_write_vertices_batch(&deformer_instance, 1, mesh, normals, output,
+                                                     parallel);
 }
 
-MienStatus mien_deformer_instance_write_vertices_batch(Handles handles, size_t count, uint32_t mesh,
-                                                       uint32_t normals,
+MienStatus mien_deformer_instance_write_vertices_batch(Handles deformer_instances, size_t count,
+                                                       uint32_t mesh, uint32_t normals,
                                                        const MienVertexOutput* outputs,
                                                        const MienParallelFor* parallel) {
   if (count == 0) return MIEN_OK;
   DeformBatch batch;
-  if (MienStatus status = read_batch(handles, count, mesh, normals, parallel, batch)) return status;
+  if (MienStatus status = read_batch(deformer_instances, count, mesh, normals, parallel, batch))
+    return status;
   if (MienStatus status = read_outputs(batch, mesh, outputs)) return status;
   write_vertices(*batch.deformer, batch.instances, mesh, batch.normals, batch.parallel);
   return MIEN_OK;
@@ -332,16 +335,16 @@ MienStatus view_mesh(const MienDeformerInstance* handle, uint32_t m, MienFloatVi
 
 }  // namespace
 
-MienStatus mien_deformer_instance_positions(const MienDeformerInstance* instance, uint32_t mesh,
-                                            MienFloatView* out_positions) {
+MienStatus mien_deformer_instance_positions(const MienDeformerInstance* deformer_instance,
+                                            uint32_t mesh, MienFloatView* out_positions) {
   return view_mesh(
-      instance, mesh, out_positions, [](const DeformMesh& m) { return m.position_count; },
+      deformer_instance, mesh, out_positions, [](const DeformMesh& m) { return m.position_count; },
       &DeformedMesh::positions);
 }
 
-MienStatus mien_deformer_instance_normals(const MienDeformerInstance* instance, uint32_t mesh,
-                                          MienFloatView* out_normals) {
+MienStatus mien_deformer_instance_normals(const MienDeformerInstance* deformer_instance,
+                                          uint32_t mesh, MienFloatView* out_normals) {
   return view_mesh(
-      instance, mesh, out_normals, [](const DeformMesh& m) { return m.vertex_count; },
+      deformer_instance, mesh, out_normals, [](const DeformMesh& m) { return m.vertex_count; },
       &DeformedMesh::normals);
 }

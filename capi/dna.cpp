@@ -22,12 +22,6 @@ static_assert(MIEN_LAYER_TWIST_SWING_BEHAVIOR == int(dna::kLayerTwistSwing) &&
               "dna_view.h and mien.h number the same layers");
 static_assert(sizeof(MienError::message) == sizeof(Error::message), "messages are copied whole");
 
-MienDna* mien::capi::new_dna(const Allocator& allocator) {
-  void* memory = allocator.get(sizeof(MienDna), alignof(MienDna));
-  if (!memory) return nullptr;
-  return new (memory) MienDna{kDnaTag, allocator, {}, Arena(allocator), {}};
-}
-
 namespace {
 
 struct OpenArguments {
@@ -97,21 +91,6 @@ MienStatus read_open_arguments(const MienDnaDesc* desc, OpenArguments& out, Mien
   return read_system(out.desc.system, out.system, error);
 }
 
-/// Passes `dna` to the caller if its view could be read; else closes it.
-MienStatus finish_open(MienDna* dna, Status status, const Error& detail, MienDna** out_dna,
-                       MienError* error) {
-  if (status != Status::kOk) {
-    mien_dna_close(dna);
-    return give_error(detail, error);
-  }
-  *out_dna = dna;
-  return succeed(error);
-}
-
-MienStatus no_memory(MienError* error) {
-  return give_error(error, MIEN_ERROR_MEMORY, "no memory for a DNA handle");
-}
-
 }  // namespace
 
 MienStatus mien_dna_open_file(const char* path, const MienDnaDesc* desc, MienDna** out_dna,
@@ -120,18 +99,12 @@ MienStatus mien_dna_open_file(const char* path, const MienDnaDesc* desc, MienDna
   if (!path) return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "path is NULL");
   OpenArguments arguments;
   if (MienStatus status = read_open_arguments(desc, arguments, error)) return status;
-  MienDna* dna = new_dna(arguments.allocator);
-  if (!dna) return no_memory(error);
+  dna::DnaFile* dna = nullptr;
   Error detail;
-  const Status status = open_file(path, static_cast<FileAccess>(arguments.desc.file_access),
-                                  {"DNA", 3}, arguments.allocator, dna->file, detail);
-  if (status != Status::kOk) {
-    mien_dna_close(dna);
-    return give_error(detail, error);
-  }
-  const Status read = dna::read_dna(dna->file.bytes, dna->file.size, arguments.options, dna->arena,
-                                    dna->view, detail);
-  return finish_open(dna, read, detail, out_dna, error);
+  const Status status =
+      dna::open_dna_file(path, static_cast<FileAccess>(arguments.desc.file_access),
+                         arguments.options, arguments.allocator, dna, detail);
+  return give_object(status, dna, detail, out_dna, error);
 }
 
 MienStatus mien_dna_open_memory(const void* bytes, size_t size, const MienDnaDesc* desc,
@@ -140,12 +113,11 @@ MienStatus mien_dna_open_memory(const void* bytes, size_t size, const MienDnaDes
   if (!bytes && size != 0) return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "bytes is NULL");
   OpenArguments arguments;
   if (MienStatus status = read_open_arguments(desc, arguments, error)) return status;
-  MienDna* dna = new_dna(arguments.allocator);
-  if (!dna) return no_memory(error);
+  dna::DnaFile* dna = nullptr;
   Error detail;
-  const Status read = dna::read_dna(static_cast<const uint8_t*>(bytes), size, arguments.options,
-                                    dna->arena, dna->view, detail);
-  return finish_open(dna, read, detail, out_dna, error);
+  const Status status = dna::open_dna_memory({static_cast<const uint8_t*>(bytes), size},
+                                             arguments.options, arguments.allocator, dna, detail);
+  return give_object(status, dna, detail, out_dna, error);
 }
 
 MienStatus mien_dna_open_stream(const MienStream* stream, const MienDnaDesc* desc,
@@ -156,37 +128,30 @@ MienStatus mien_dna_open_stream(const MienStream* stream, const MienDnaDesc* des
   }
   OpenArguments arguments;
   if (MienStatus status = read_open_arguments(desc, arguments, error)) return status;
-  MienDna* dna = new_dna(arguments.allocator);
-  if (!dna) return no_memory(error);
+  dna::DnaFile* dna = nullptr;
   Error detail;
-  const Status read = dna::read_dna(Stream{stream->user, stream->size, stream->read},
-                                    arguments.options, dna->arena, dna->view, detail);
-  return finish_open(dna, read, detail, out_dna, error);
+  const Status status = dna::open_dna_stream({stream->user, stream->size, stream->read},
+                                             arguments.options, arguments.allocator, dna, detail);
+  return give_object(status, dna, detail, out_dna, error);
 }
 
-void mien_dna_close(MienDna* dna) {
-  if (check(dna) != MIEN_OK) return;
-  const Allocator allocator = dna->allocator;
-  close_file(dna->file);
-  dna->tag = 0;
-  dna->~MienDna();
-  allocator.put(dna, sizeof(MienDna), alignof(MienDna));
-}
+void mien_dna_close(MienDna* dna) { destroy(dna); }
 
 // Looking into it ---------------------------------------------------------------------------------
 
 MienStatus mien_dna_info(const MienDna* dna, MienDnaInfo* out_info) {
   if (MienStatus status = clear_struct(out_info)) return status;
   if (MienStatus status = check(dna)) return status;
-  const DnaView& view = dna->view;
+  const dna::DnaFile& of = *object(dna);
+  const DnaView& view = of.view;
   MienDnaInfo info = {};
   info.generation = view.generation;
   info.version = view.version;
   info.layers = view.loaded;
   info.file_bytes = view.file_size;
-  info.memory_bytes = sizeof(MienDna) + dna->arena.reserved() + dna->file.capacity;
+  info.memory_bytes = of.block_size + of.arena.reserved() + of.file.capacity;
   info.has_blend_shape_targets = view.has(dna::kLayerGeometry) && !view.lacks_blend_shape_targets;
-  info.is_mapped = dna->file.mapped;
+  info.is_mapped = of.file.mapped;
   info.layer_count = view.index.count;
   info.translation_unit = view.desc.translation_unit;
   info.rotation_unit = view.desc.rotation_unit;
@@ -223,7 +188,7 @@ MienStatus mien_dna_info(const MienDna* dna, MienDnaInfo* out_info) {
 MienStatus mien_dna_layer(const MienDna* dna, uint32_t index, MienDnaLayer* out_layer) {
   if (MienStatus status = clear_struct(out_layer)) return status;
   if (MienStatus status = check(dna)) return status;
-  const DnaView& view = dna->view;
+  const DnaView& view = object(dna)->view;
   if (index >= view.index.count) return MIEN_ERROR_INDEX;
   const dna::IndexEntry& entry = view.index[index];
   const dna::LayerKind* kind = dna::find_layer_kind(entry.code, entry.layer_version);
@@ -248,7 +213,7 @@ MienStatus mien_dna_field_n(const MienDna* dna, const char* path, size_t path_co
                             MienDnaField* out_field, MienError* error) {
   if (MienStatus status = clear_field(out_field, error)) return status;
   if (MienStatus status = check(dna, "dna", error)) return status;
-  return describe_field(dna->view, path, path_count, out_field, error);
+  return describe_field(object(dna)->view, path, path_count, out_field, error);
 }
 
 MienStatus mien_dna_child_name(const MienDna* dna, const char* path, uint32_t index,
@@ -260,7 +225,7 @@ MienStatus mien_dna_child_name_n(const MienDna* dna, const char* path, size_t pa
                                  uint32_t index, MienStringView* out_name, MienError* error) {
   if (MienStatus status = clear_output(out_name, error)) return status;
   if (MienStatus status = check(dna, "dna", error)) return status;
-  return name_field(dna->view, path, path_count, index, out_name, error);
+  return name_field(object(dna)->view, path, path_count, index, out_name, error);
 }
 
 MienStatus mien_dna_read_floats(const MienDna* dna, const char* path, uint64_t first,
@@ -272,7 +237,7 @@ MienStatus mien_dna_read_floats_n(const MienDna* dna, const char* path, size_t p
                                   uint64_t first, uint64_t count, float* out, MienError* error) {
   if (check_error(error) != MIEN_OK) return MIEN_ERROR_STRUCT_SIZE;
   if (MienStatus status = check(dna, "dna", error)) return status;
-  return read_field({dna->view, "mien_dna"}, path, path_count, first, count, out, error);
+  return read_field({object(dna)->view, "mien_dna"}, path, path_count, first, count, out, error);
 }
 
 MienStatus mien_dna_read_integers(const MienDna* dna, const char* path, uint64_t first,
@@ -285,7 +250,7 @@ MienStatus mien_dna_read_integers_n(const MienDna* dna, const char* path, size_t
                                     MienError* error) {
   if (check_error(error) != MIEN_OK) return MIEN_ERROR_STRUCT_SIZE;
   if (MienStatus status = check(dna, "dna", error)) return status;
-  return read_field({dna->view, "mien_dna"}, path, path_count, first, count, out, error);
+  return read_field({object(dna)->view, "mien_dna"}, path, path_count, first, count, out, error);
 }
 
 MienStatus mien_dna_read_string(const MienDna* dna, const char* path, MienStringView* out_string,
@@ -297,7 +262,7 @@ MienStatus mien_dna_read_string_n(const MienDna* dna, const char* path, size_t p
                                   MienStringView* out_string, MienError* error) {
   if (MienStatus status = clear_output(out_string, error)) return status;
   if (MienStatus status = check(dna, "dna", error)) return status;
-  return read_field({dna->view, "mien_dna"}, path, path_count, out_string, error);
+  return read_field({object(dna)->view, "mien_dna"}, path, path_count, out_string, error);
 }
 
 // Writing -----------------------------------------------------------------------------------------
@@ -307,14 +272,6 @@ namespace {
 MienStatus plan_write(const MienDna* dna, const MienWriteDesc* desc, dna::WriteOptions& options,
                       size_t& size, MienError* error) {
   if (MienStatus status = check(dna, "dna", error)) return status;
-  const DnaView& view = dna->view;
-  if (view.has(dna::kLayerRbf) && !view.has(dna::kLayerMachineLearned) &&
-      view.ml_control_count != 0) {
-    return give_error(error, MIEN_ERROR_DNA_LAYER,
-                      "RBF behavior was opened without the machine-learned behavior of the file, "
-                      "whose controls are "
-                      "numbered before its own: open both to write the file");
-  }
   MienWriteDesc known;
   if (MienStatus status = read_desc(desc, known, "MienWriteDesc", error)) return status;
   const MienStatus in_range = check_fields(
@@ -322,21 +279,15 @@ MienStatus plan_write(const MienDna* dna, const MienWriteDesc* desc, dna::WriteO
        {"MienWriteDesc.unknown_layers", known.unknown_layers, MIEN_UNKNOWN_LAYERS_DROP}},
       error);
   if (in_range != MIEN_OK) return in_range;
-  options.version = known.version ? static_cast<uint16_t>(known.version) : dna->view.version;
+  options.version =
+      known.version ? static_cast<uint16_t>(known.version) : object(dna)->view.version;
   options.keep_unknown = known.unknown_layers == MIEN_UNKNOWN_LAYERS_KEEP;
-  Arena arena(dna->allocator);
+  Arena arena(object(dna)->allocator);
   Error detail;
-  if (dna::check_written(view, options, arena, detail) != Status::kOk) {
+  if (dna::check_written(object(dna)->view, options, arena, detail) != Status::kOk) {
     return give_error(detail, error);
   }
-  const uint64_t bytes = dna::encoded_size(dna->view, options);
-  if (bytes > UINT32_MAX) {
-    return give_error(error, MIEN_ERROR_DNA_LIMIT,
-                      "the file would have %llu bytes, DNA files hold less than 4 GiB: write fewer "
-                      "LODs or layers",
-                      static_cast<unsigned long long>(bytes));
-  }
-  size = static_cast<size_t>(bytes);
+  size = static_cast<size_t>(dna::encoded_size(object(dna)->view, options));
   return MIEN_OK;
 }
 
@@ -349,15 +300,15 @@ MienStatus mien_dna_write_file(const MienDna* dna, const char* path, const MienW
   dna::WriteOptions options;
   size_t size = 0;
   if (MienStatus status = plan_write(dna, desc, options, size, error)) return status;
-  uint8_t* bytes = static_cast<uint8_t*>(dna->allocator.get(size, kBlockAlignment));
+  uint8_t* bytes = static_cast<uint8_t*>(object(dna)->allocator.get(size, kBlockAlignment));
   if (!bytes) {
     return give_error(error, MIEN_ERROR_MEMORY, "no memory for a file of %zu bytes", size);
   }
-  dna::encode(dna->view, options, bytes);
+  dna::encode(object(dna)->view, options, bytes);
   Error detail;
-  const Status status = write_file(path, bytes, size, dna->allocator, detail);
-  dna->allocator.put(bytes, size, kBlockAlignment);
-  return status == Status::kOk ? succeed(error) : give_error(detail, error);
+  const Status status = write_file(path, bytes, size, object(dna)->allocator, detail);
+  object(dna)->allocator.put(bytes, size, kBlockAlignment);
+  return give_status(status, detail, error);
 }
 
 MienStatus mien_dna_write_memory(const MienDna* dna, const MienWriteDesc* desc, void* buffer,
@@ -377,6 +328,6 @@ MienStatus mien_dna_write_memory(const MienDna* dna, const MienWriteDesc* desc, 
         "the file has %zu bytes, the buffer %zu: call again with a buffer of this size", size,
         capacity);
   }
-  dna::encode(dna->view, options, static_cast<uint8_t*>(buffer));
+  dna::encode(object(dna)->view, options, static_cast<uint8_t*>(buffer));
   return succeed(error);
 }

@@ -1,22 +1,16 @@
 // SPDX-License-Identifier: MIT
-// The handle of a DNA file, for the part of the library that MIEN_BUILD_COMPILER=OFF leaves out.
+// The handles of the part of the library that MIEN_BUILD_COMPILER=OFF leaves out.
 #pragma once
 
 #include "capi/handles.h"
-#include "runtime/base/mapped_file.h"
-#include "runtime/load/dna/format/dna_view.h"
-
-struct MienDna {
-  uint32_t tag;
-  mien::Allocator allocator;
-  mien::MappedFile file;  // empty if opened from memory or a stream
-  mien::Arena arena;
-  mien::dna::DnaView view;
-};
+#include "runtime/load/dna/dna_file.h"
+#include "runtime/load/validate/report.h"
 
 namespace mien::capi {
 
-/// An empty MienDna in the allocator's memory; null if memory ran out.
-MienDna* new_dna(const Allocator& allocator);
+template <>
+struct ObjectOf<MienDna> : TypeOf<dna::DnaFile> {};
+template <>
+struct ObjectOf<MienReport> : TypeOf<Report> {};
 
 }  // namespace mien::capi

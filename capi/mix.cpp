@@ -178,36 +178,24 @@ Landmark landmark_of(const MienLandmark& from) {
   return {from.mesh, {from.points, from.points ? from.point_count : 0}};
 }
 
-/// Measures the requested standard guards whose landmarks are found, and the caller's guards.
-Status measure_guards(const Deformer& deformer, const MienMixDesc& desc, const Allocator& allocator,
-                      Arena& arena, Guard (&guards)[kMaxGuards], uint32_t& count, Error& error) {
-  StandardGuards found = {};
-  if (desc.guards != 0) {
-    const Status status = find_standard_guards(deformer, allocator, arena, found, error);
-    if (status != Status::kOk) return status;
+GuardDesc guard_of(const MienMixGuard& from) {
+  GuardDesc to;
+  to.upper = landmark_of(from.upper);
+  to.lower = landmark_of(from.lower);
+  to.closed_by = from.closed_by < kNoControl ? static_cast<uint16_t>(from.closed_by) : kNoControl;
+  to.tolerance = from.tolerance;
+  to.f_on = from.f_on;
+  to.needs_speech = from.needs_speech != 0;
+  return to;
+}
+
+/// The standard guards of MIEN_GUARD_... bits.
+GuardKinds kinds_of(uint32_t guards) {
+  GuardKinds kinds = 0;
+  for (uint32_t k = 0; k < kStandardGuardCount; ++k) {
+    if ((guards & guard_bit(static_cast<StandardGuard>(k))) != 0) kinds |= 1u << k;
   }
-  GuardDesc descs[kMaxGuards];
-  count = 0;
-  for (uint32_t i = 0; i < found.count; ++i) {
-    if ((desc.guards & guard_bit(found.kinds[i])) != 0) descs[count++] = found.descs[i];
-  }
-  if (desc.custom_guard_count > kMaxGuards - count) {
-    return fail(error, Status::kInvalidArgument, kNoOffset,
-                "%u guards of the rig and %zu of the caller; a mix has at most %u", count,
-                desc.custom_guard_count, kMaxGuards);
-  }
-  for (size_t i = 0; i < desc.custom_guard_count; ++i) {
-    const MienMixGuard& from = desc.custom_guards[i];
-    GuardDesc& to = descs[count++];
-    to.upper = landmark_of(from.upper);
-    to.lower = landmark_of(from.lower);
-    to.closed_by = from.closed_by < kNoControl ? static_cast<uint16_t>(from.closed_by) : kNoControl;
-    to.tolerance = from.tolerance;
-    to.f_on = from.f_on;
-    to.needs_speech = from.needs_speech != 0;
-  }
-  if (count == 0) return Status::kOk;
-  return probe_guards(deformer, {descs, count}, allocator, {guards, count}, error);
+  return kinds;
 }
 
 const char* guard_name(StandardGuard kind) {
@@ -255,7 +243,7 @@ MienStatus mien_mix_create(const MienRig* rig, const MienMixDesc* desc, MienMix*
     if (MienStatus status = check(known.gaze)) {
       return give_error(error, status, "MienMixDesc.gaze is not a gaze");
     }
-    if (known.gaze->raw_count != object(rig)->raw_count) {
+    if (object(known.gaze)->raw_count != object(rig)->raw_count) {
       return give_error(error, MIEN_ERROR_MISMATCH, "MienMixDesc.gaze is of another rig");
     }
   }
@@ -293,46 +281,45 @@ MienStatus mien_mix_create(const MienRig* rig, const MienMixDesc* desc, MienMix*
   Guard guards[kMaxGuards];
   uint32_t guard_count = 0;
   if (known.guards != 0 || known.custom_guard_count != 0) {
-    const Status status = measure_guards(*object(known.deformer), known, allocator, arena, guards,
-                                         guard_count, detail);
-    if (status != Status::kOk) return give_error(detail, error);
+    GuardDesc own[kMaxGuards];
+    for (size_t g = 0; g < known.custom_guard_count; ++g) own[g] = guard_of(known.custom_guards[g]);
+    const Status planned =
+        plan_guards(*object(known.deformer), kinds_of(known.guards),
+                    {own, known.custom_guard_count}, allocator, guards, guard_count, detail);
+    if (planned != Status::kOk) return give_error(detail, error);
   }
   mix.guards = {guards, guard_count};
-  if (known.gaze) mix.gaze = &known.gaze->table;
+  if (known.gaze) mix.gaze = &object(known.gaze)->table;
   Mix* made = nullptr;
-  if (create_mix(mix, allocator, made, detail) != Status::kOk) return give_error(detail, error);
-  made->tag = kMixTag;
-  *out_mix = reinterpret_cast<MienMix*>(made);
-  return succeed(error);
+  const Status status = create_mix(mix, allocator, made, detail);
+  return give_object(status, made, detail, out_mix, error);
 }
 
-void mien_mix_destroy(MienMix* mix) {
-  if (check(mix) == MIEN_OK) release_mix(object(mix));
-}
+void mien_mix_destroy(MienMix* mix) { destroy(mix); }
 
-MienStatus mien_mix_info(const MienMix* handle, MienMixInfo* out_info) {
+MienStatus mien_mix_info(const MienMix* mix, MienMixInfo* out_info) {
   if (MienStatus status = clear_struct(out_info)) return status;
-  if (MienStatus status = check(handle)) return status;
-  const Mix& mix = *object(handle);
+  if (MienStatus status = check(mix)) return status;
+  const Mix& of = *object(mix);
   MienMixInfo info = {};
-  info.raw_control_count = mix.raw_count;
-  info.variable_count = mix.variable_count;
-  info.curve_count = mix.used_curves();
-  info.layer_count = static_cast<uint32_t>(mix.layers.count);
-  info.stage_count = stage_count(mix);
-  info.guard_count = static_cast<uint32_t>(mix.guards.count);
-  info.mixer_bytes = mixer_size(mix, false);
-  info.snapshot_bytes = snapshot_size(mix);
+  info.raw_control_count = of.raw_count;
+  info.variable_count = of.variable_count;
+  info.curve_count = of.used_curves();
+  info.layer_count = static_cast<uint32_t>(of.layers.count);
+  info.stage_count = stage_count(of);
+  info.guard_count = static_cast<uint32_t>(of.guards.count);
+  info.mixer_bytes = mixer_size(of, false);
+  info.snapshot_bytes = snapshot_size(of);
   write_struct(out_info, info);
   return MIEN_OK;
 }
 
-MienStatus mien_mix_guard(const MienMix* handle, uint32_t guard, MienMixGuardInfo* out_guard) {
+MienStatus mien_mix_guard(const MienMix* mix, uint32_t guard_index, MienMixGuardInfo* out_guard) {
   if (MienStatus status = clear_struct(out_guard)) return status;
-  if (MienStatus status = check(handle)) return status;
-  const Mix& mix = *object(handle);
-  if (guard >= mix.guards.count) return MIEN_ERROR_INDEX;
-  const Guard& of = mix.guards[guard];
+  if (MienStatus status = check(mix)) return status;
+  const Span<const Guard> guards = object(mix)->guards;
+  if (guard_index >= guards.count) return MIEN_ERROR_INDEX;
+  const Guard& of = guards[guard_index];
   MienMixGuardInfo info = {};
   info.curves = {of.curves, of.count};
   info.gains = {of.gains, of.count};
@@ -418,16 +405,11 @@ MienStatus mien_mixer_create(const MienMix* mix, const MienMixerDesc* desc, Mien
   }
   Mixer* made = create_mixer(*object(mix), known.seed, known.stages != 0, allocator);
   if (!made) return give_error(error, MIEN_ERROR_MEMORY, "no memory for a mixer");
-  made->tag = kMixerTag;
   *out_mixer = reinterpret_cast<MienMixer*>(made);
   return succeed(error);
 }
 
-void mien_mixer_destroy(MienMixer* mixer) {
-  if (check(mixer) != MIEN_OK) return;
-  object(mixer)->tag = 0;
-  destroy_mixer(object(mixer));
-}
+void mien_mixer_destroy(MienMixer* mixer) { destroy(mixer); }
 
 MienStatus mien_mixer_play(MienMixer* mixer, uint32_t layer, const MienClip* clip,
                            const MienClipBinding* clip_binding, const MienPlayDesc* desc,
@@ -459,9 +441,10 @@ MienStatus mien_mixer_play(MienMixer* mixer, uint32_t layer, const MienClip* cli
   play.play.looping = kLoopings[known.looping];
   play.play.interpolation = static_cast<Interpolation>(known.interpolation);
   Error detail;
-  const Status status = play_clip(
-      *object(mixer), layer, {known.clip_id, &clip->view, clip_binding->binding}, play, detail);
-  return status == Status::kOk ? succeed(error) : give_error(detail, error);
+  const Status status =
+      play_clip(*object(mixer), layer, {known.clip_id, &object(clip)->view, object(clip_binding)},
+                play, detail);
+  return give_status(status, detail, error);
 }
 
 MienStatus mien_mixer_stop(MienMixer* mixer, uint32_t layer, int64_t fade_ticks) {
@@ -490,25 +473,26 @@ MienStatus mien_mixer_set_variable(MienMixer* mixer, uint32_t variable, float va
   return status_of(set_variable(*object(mixer), variable, value, detail));
 }
 
-MienStatus mien_mixer_set_guard(MienMixer* mixer, uint32_t guard, float activation) {
+MienStatus mien_mixer_set_guard(MienMixer* mixer, uint32_t guard_index, float activation) {
   if (MienStatus status = check(mixer)) return status;
   Error detail;
-  return status_of(set_guard(*object(mixer), guard, activation, detail));
+  return status_of(set_guard(*object(mixer), guard_index, activation, detail));
 }
 
-MienStatus mien_mixer_guard(const MienMixer* handle, uint32_t guard, MienGuardState* out_state) {
+MienStatus mien_mixer_guard(const MienMixer* mixer, uint32_t guard_index,
+                            MienGuardState* out_state) {
   if (MienStatus status = clear_struct(out_state)) return status;
-  if (MienStatus status = check(handle)) return status;
-  const Mixer& mixer = *object(handle);
+  if (MienStatus status = check(mixer)) return status;
+  const Mixer& of = *object(mixer);
   GuardState found = {};
   Error detail;
-  if (guard_state(mixer, guard, found, detail) != Status::kOk) return MIEN_ERROR_INDEX;
-  const auto kind = static_cast<StandardGuard>(mixer.mix->guards[guard].kind);
+  if (guard_state(of, guard_index, found, detail) != Status::kOk) return MIEN_ERROR_INDEX;
+  const auto kind = static_cast<StandardGuard>(of.mix->guards[guard_index].kind);
   const char* name = guard_name(kind);
   MienGuardState state = {};
   state.name = {name, strlen(name)};
   state.controls = {found.curves.data, found.curves.count};
-  state.kind = mixer.mix->guards[guard].kind < kStandardGuardCount ? guard_bit(kind) : 0;
+  state.kind = of.mix->guards[guard_index].kind < kStandardGuardCount ? guard_bit(kind) : 0;
   state.activation = found.activation;
   state.protected_distance = found.protected_distance;
   state.wanted = found.wanted;
@@ -585,38 +569,38 @@ MienStatus mien_mixer_row(const MienMixer* mixer, MienFloatView* out_row) {
   return MIEN_OK;
 }
 
-MienStatus mien_mixer_stage(const MienMixer* handle, uint32_t stage, MienFloatView* out_row) {
+MienStatus mien_mixer_stage(const MienMixer* mixer, uint32_t stage, MienFloatView* out_row) {
   if (!out_row) return MIEN_ERROR_NULL_ARGUMENT;
   *out_row = {};
-  if (MienStatus status = check(handle)) return status;
-  const Mixer& mixer = *object(handle);
-  if (!mixer.stages) return MIEN_ERROR_INVALID_ARGUMENT;
-  if (stage >= stage_count(*mixer.mix)) return MIEN_ERROR_INDEX;
-  *out_row = {mixer.stages + size_t{stage} * mixer.mix->curve_count, mixer.mix->used_curves()};
+  if (MienStatus status = check(mixer)) return status;
+  const Mixer& of = *object(mixer);
+  if (!of.stages) return MIEN_ERROR_INVALID_ARGUMENT;
+  if (stage >= stage_count(*of.mix)) return MIEN_ERROR_INDEX;
+  *out_row = {of.stages + size_t{stage} * of.mix->curve_count, of.mix->used_curves()};
   return MIEN_OK;
 }
 
-MienStatus mien_mixer_info(const MienMixer* handle, MienMixerInfo* out_info) {
+MienStatus mien_mixer_info(const MienMixer* mixer, MienMixerInfo* out_info) {
   if (MienStatus status = clear_struct(out_info)) return status;
-  if (MienStatus status = check(handle)) return status;
-  const Mixer& mixer = *object(handle);
+  if (MienStatus status = check(mixer)) return status;
+  const Mixer& of = *object(mixer);
   MienMixerInfo info = {};
-  info.tick = mixer.header->now;
-  info.event_count = mixer.event_count;
-  info.lost_events = mixer.lost_events;
+  info.tick = of.header->now;
+  info.event_count = of.event_count;
+  info.lost_events = of.lost_events;
   write_struct(out_info, info);
   return MIEN_OK;
 }
 
-MienStatus mien_mixer_event(const MienMixer* handle, uint32_t index, MienClipEvent* out_event,
+MienStatus mien_mixer_event(const MienMixer* mixer, uint32_t index, MienClipEvent* out_event,
                             uint32_t* out_layer) {
   if (out_event) *out_event = {};
   if (out_layer) *out_layer = 0;
   if (!out_event || !out_layer) return MIEN_ERROR_NULL_ARGUMENT;
-  if (MienStatus status = check(handle)) return status;
-  const Mixer& mixer = *object(handle);
-  if (index >= mixer.event_count) return MIEN_ERROR_INDEX;
-  const MixEvent& event = mixer.events[index];
+  if (MienStatus status = check(mixer)) return status;
+  const Mixer& of = *object(mixer);
+  if (index >= of.event_count) return MIEN_ERROR_INDEX;
+  const MixEvent& event = of.events[index];
   *out_event = {
       event.event.tick, {event.event.name.data, event.event.name.count}, event.event.value, 0};
   *out_layer = event.layer;
@@ -635,7 +619,7 @@ MienStatus mien_mixer_snapshot(MienMixer* mixer, void* buffer, size_t capacity, 
   Error detail;
   const Status status =
       take_snapshot(*object(mixer), {static_cast<uint8_t*>(buffer), capacity}, detail);
-  return status == Status::kOk ? succeed(error) : give_error(detail, error);
+  return give_status(status, detail, error);
 }
 
 MienStatus mien_mixer_restore(MienMixer* mixer, const void* bytes, size_t size,
@@ -653,7 +637,7 @@ MienStatus mien_mixer_restore(MienMixer* mixer, const void* bytes, size_t size,
           check(clip.clip_binding) != MIEN_OK) {
         continue;
       }
-      source = {id, &clip.clip->view, clip.clip_binding->binding};
+      source = {id, &object(clip.clip)->view, object(clip.clip_binding)};
       return true;
     }
     return false;
@@ -662,5 +646,5 @@ MienStatus mien_mixer_restore(MienMixer* mixer, const void* bytes, size_t size,
   Error detail;
   const Status status = restore_snapshot(*object(mixer), {static_cast<const uint8_t*>(bytes), size},
                                          {&list, find}, detail);
-  return status == Status::kOk ? succeed(error) : give_error(detail, error);
+  return give_status(status, detail, error);
 }

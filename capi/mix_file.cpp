@@ -29,12 +29,8 @@ MienStatus open_bytes(Span<const uint8_t> bytes, const MienRig* rig, const Alloc
                       MienMix** out_mix, MienError* error) {
   Mix* made = nullptr;
   Error detail;
-  if (open_mix(bytes, object(rig), allocator, made, detail) != Status::kOk) {
-    return give_error(detail, error);
-  }
-  made->tag = kMixTag;
-  *out_mix = reinterpret_cast<MienMix*>(made);
-  return succeed(error);
+  const Status status = open_mix(bytes, object(rig), allocator, made, detail);
+  return give_object(status, made, detail, out_mix, error);
 }
 
 }  // namespace
@@ -89,7 +85,7 @@ MienStatus write_to(Status (*write)(const Mix&, Span<Char>, size_t&, Error&), co
   }
   const Status status =
       write(*object(mix), {static_cast<Char*>(buffer), capacity}, *out_size, detail);
-  return status == Status::kOk ? succeed(error) : give_error(detail, error);
+  return give_status(status, detail, error);
 }
 
 }  // namespace
@@ -117,5 +113,5 @@ MienStatus mien_mix_write_file(const MienMix* mix, const char* path, MienError* 
   if (bytes.empty()) return give_error(error, MIEN_ERROR_MEMORY, "no memory to write a mix");
   Status status = write_mix(of, bytes, size, detail);
   if (status == Status::kOk) status = write_file(path, bytes.data, size, of.allocator, detail);
-  return status == Status::kOk ? succeed(error) : give_error(detail, error);
+  return give_status(status, detail, error);
 }

@@ -77,7 +77,7 @@ MienStatus mien_clip_binding_snaps(const MienClipBinding* clip_binding,
   }
   if (MienStatus status = check(clip_binding, "clip_binding", error)) return status;
   if (MienStatus status = check(deformer, "deformer", error)) return status;
-  const Binding& binding = *clip_binding->binding;
+  const Binding& binding = *object(clip_binding);
   const Deformer& of = *object(deformer);
   if (channel_count != binding.channel_count || binding.raw_count != of.rig->raw_count) {
     return give_error(error, MIEN_ERROR_MISMATCH,
@@ -96,7 +96,7 @@ MienStatus mien_clip_binding_snaps(const MienClipBinding* clip_binding,
     return give_error(detail, error);
   }
   for (size_t c = 0; c < channel_count; ++c) {
-    out_snaps[c] = snaps[c] == kNoSnap ? 0 : 1.0f / static_cast<float>(1u << snaps[c]);
+    out_snaps[c] = snap_step(snaps[c]);
   }
   return succeed(error);
 }
@@ -120,23 +120,13 @@ MienStatus mien_gaze_create(const MienDeformer* deformer, const MienGazeDesc* de
     if (eye != kNoJoint) continue;
     return give_error(error, MIEN_ERROR_NAME, "the rig has no joints for both eyes: name them");
   }
+  Gaze* gaze = nullptr;
   Error detail;
-  GazeTable table;
-  if (probe_gaze(of, eyes, allocator, table, detail) != Status::kOk) {
-    return give_error(detail, error);
-  }
-  void* block = allocator.get(sizeof(MienGaze), alignof(MienGaze));
-  if (!block) return give_error(error, MIEN_ERROR_MEMORY, "no memory for a gaze");
-  *out_gaze = new (block) MienGaze{kGazeTag, allocator, of.rig->raw_count, table};
-  return succeed(error);
+  const Status status = create_gaze(of, eyes, allocator, gaze, detail);
+  return give_object(status, gaze, detail, out_gaze, error);
 }
 
-void mien_gaze_destroy(MienGaze* gaze) {
-  if (check(gaze) != MIEN_OK) return;
-  const Allocator allocator = gaze->allocator;
-  gaze->tag = 0;
-  allocator.put(gaze, sizeof(MienGaze), alignof(MienGaze));
-}
+void mien_gaze_destroy(MienGaze* gaze) { destroy(gaze); }
 
 MienStatus mien_gaze_info(const MienGaze* gaze, MienGazeInfo* out_info) {
   if (MienStatus status = clear_struct(out_info)) return status;
@@ -144,7 +134,7 @@ MienStatus mien_gaze_info(const MienGaze* gaze, MienGazeInfo* out_info) {
   const auto middle = [](const GazeEye& eye) {
     return MienGazeTarget{eye.center[0], eye.center[1], eye.center[2]};
   };
-  const GazeTable& table = gaze->table;
+  const GazeTable& table = object(gaze)->table;
   write_struct(out_info, MienGazeInfo{sizeof(MienGazeInfo), middle(table.eyes[0]),
                                       middle(table.eyes[1]), table.fit_error, 0});
   return MIEN_OK;
@@ -155,13 +145,13 @@ MienStatus mien_gaze_look_at(const MienGaze* gaze, const MienGazeTarget* target,
   if (out_rest) *out_rest = {0, 0};
   if (!target || !row) return MIEN_ERROR_NULL_ARGUMENT;
   if (MienStatus status = check(gaze)) return status;
-  if (row_count < gaze->raw_count) return MIEN_ERROR_MISMATCH;
+  if (row_count < object(gaze)->raw_count) return MIEN_ERROR_MISMATCH;
   const float place[3] = {target->left, target->up, target->front};
   for (float value : place) {
     if (!std::isfinite(value)) return MIEN_ERROR_INVALID_ARGUMENT;
   }
   float rest[2];
-  look_at(gaze->table, place, row, rest);
+  look_at(object(gaze)->table, place, row, rest);
   if (out_rest) *out_rest = {rest[0], rest[1]};
   return MIEN_OK;
 }

@@ -18,32 +18,28 @@ static_assert(MIEN_STAGE_ALL == int(kStagesAll) &&
 
 // Rig ---------------------------------------------------------------------------------------------
 
-void mien_rig_destroy(MienRig* rig) {
-  if (check(rig) != MIEN_OK) return;
-  object(rig)->tag = 0;
-  release_rig(object(rig));
-}
+void mien_rig_destroy(MienRig* rig) { destroy(rig); }
 
-MienStatus mien_rig_info(const MienRig* handle, MienRigInfo* out_info) {
+MienStatus mien_rig_info(const MienRig* rig, MienRigInfo* out_info) {
   if (MienStatus status = clear_struct(out_info)) return status;
-  if (MienStatus status = check(handle)) return status;
-  const Rig& rig = *object(handle);
+  if (MienStatus status = check(rig)) return status;
+  const Rig& of = *object(rig);
   MienRigInfo info = {};
-  info.isa = static_cast<uint32_t>(rig.kernels->isa);
-  info.lod_count = rig.lod_count;
-  info.translation_unit = rig.units.translation;
-  info.rotation_unit = rig.units.rotation;
-  std::copy(rig.units.axes, rig.units.axes + 3, info.axes);
-  info.rotation_sequence = rig.units.rotation_sequence;
-  std::copy(rig.units.rotation_signs, rig.units.rotation_signs + 3, info.rotation_signs);
-  info.control_count = rig.control_count;
-  info.joint_value_count = rig.joint_value_count();
+  info.isa = static_cast<uint32_t>(of.kernels->isa);
+  info.lod_count = of.lod_count;
+  info.translation_unit = of.units.translation;
+  info.rotation_unit = of.units.rotation;
+  std::copy(of.units.axes, of.units.axes + 3, info.axes);
+  info.rotation_sequence = of.units.rotation_sequence;
+  std::copy(of.units.rotation_signs, of.units.rotation_signs + 3, info.rotation_signs);
+  info.control_count = of.control_count;
+  info.joint_value_count = of.joint_value_count();
   info.rotation_output =
-      rig.quaternion_outputs ? MIEN_ROTATION_OUTPUT_QUATERNION : MIEN_ROTATION_OUTPUT_EULER;
-  info.storage = rig.half_storage ? MIEN_STORAGE_16_BIT : MIEN_STORAGE_32_BIT;
-  info.arithmetic = rig.portable ? MIEN_ARITHMETIC_PORTABLE : MIEN_ARITHMETIC_FAST;
-  info.rig_bytes = rig.block_size + rig.baked_size;
-  info.instance_bytes = rig.instance_size;
+      of.quaternion_outputs ? MIEN_ROTATION_OUTPUT_QUATERNION : MIEN_ROTATION_OUTPUT_EULER;
+  info.storage = of.half_storage ? MIEN_STORAGE_16_BIT : MIEN_STORAGE_32_BIT;
+  info.arithmetic = of.portable ? MIEN_ARITHMETIC_PORTABLE : MIEN_ARITHMETIC_FAST;
+  info.rig_bytes = of.block_size + of.baked_size;
+  info.instance_bytes = instance_size(of);
   write_struct(out_info, info);
   return MIEN_OK;
 }
@@ -124,22 +120,22 @@ MienStatus mien_rig_find_n(const MienRig* rig, uint32_t kind, const char* name, 
   return MIEN_OK;
 }
 
-MienStatus mien_rig_lod_indices(const MienRig* handle, uint32_t kind, uint32_t lod,
+MienStatus mien_rig_lod_indices(const MienRig* rig, uint32_t kind, uint32_t lod,
                                 MienIndex16View* out_indices) {
   if (!out_indices) return MIEN_ERROR_NULL_ARGUMENT;
   *out_indices = {nullptr, 0};
-  if (MienStatus status = check(handle)) return status;
-  const Rig& rig = *object(handle);
+  if (MienStatus status = check(rig)) return status;
+  const Rig& of = *object(rig);
   const LodLists* lists = nullptr;
   switch (kind) {
-    case MIEN_KIND_JOINT: lists = &rig.lod_joints; break;
-    case MIEN_KIND_BLEND_SHAPE_CHANNEL: lists = &rig.lod_channels; break;
-    case MIEN_KIND_ANIMATED_MAP: lists = &rig.lod_maps; break;
-    case MIEN_KIND_MESH: lists = &rig.lod_meshes; break;
-    case MIEN_KIND_RBF_SOLVER: lists = &rig.rbf.lod_solvers; break;
+    case MIEN_KIND_JOINT: lists = &of.lod_joints; break;
+    case MIEN_KIND_BLEND_SHAPE_CHANNEL: lists = &of.lod_channels; break;
+    case MIEN_KIND_ANIMATED_MAP: lists = &of.lod_maps; break;
+    case MIEN_KIND_MESH: lists = &of.lod_meshes; break;
+    case MIEN_KIND_RBF_SOLVER: lists = &of.rbf.lod_solvers; break;
     default: return MIEN_ERROR_INVALID_ARGUMENT;
   }
-  if (lod >= rig.lod_count) return MIEN_ERROR_LOD;
+  if (lod >= of.lod_count) return MIEN_ERROR_LOD;
   *out_indices = view_of(lists->at(lod));
   return MIEN_OK;
 }
@@ -190,29 +186,29 @@ MienStatus mien_rig_initial_raw_controls(const MienRig* rig, MienFloatView* out_
   return MIEN_OK;
 }
 
-MienStatus mien_rig_statistics(const MienRig* handle, uint32_t lod,
+MienStatus mien_rig_statistics(const MienRig* rig, uint32_t lod,
                                MienRigStatistics* out_statistics) {
   if (MienStatus status = clear_struct(out_statistics)) return status;
-  if (MienStatus status = check(handle)) return status;
-  const Rig& rig = *object(handle);
-  if (lod >= rig.lod_count) return MIEN_ERROR_LOD;
+  if (MienStatus status = check(rig)) return status;
+  const Rig& of = *object(rig);
+  if (lod >= of.lod_count) return MIEN_ERROR_LOD;
   MienRigStatistics statistics = {};
-  if (rig.psd_count) statistics.psd_count = rig.psds.count_at_lod[lod];
+  if (of.psd_count) statistics.psd_count = of.psds.count_at_lod[lod];
   statistics.lod = lod;
-  statistics.joint_count = static_cast<uint32_t>(rig.lod_joints.at(lod).count);
-  statistics.blend_shape_count = rig.channels.count_at_lod[lod];
-  statistics.animated_map_row_count = rig.map_rows_at_lod[lod];
-  statistics.rbf_solver_count = static_cast<uint32_t>(rig.rbf.lod_solvers.at(lod).count);
-  const JointMatrix& joints = rig.joints;
+  statistics.joint_count = static_cast<uint32_t>(of.lod_joints.at(lod).count);
+  statistics.blend_shape_count = of.channels.count_at_lod[lod];
+  statistics.animated_map_row_count = of.map_rows_at_lod[lod];
+  statistics.rbf_solver_count = static_cast<uint32_t>(of.rbf.lod_solvers.at(lod).count);
+  const JointMatrix& joints = of.joints;
   const uint32_t panels = joints.panels_at_lod[lod];
   for (size_t k = 0; k < joints.columns.count; ++k) {
     statistics.joint_entry_count += uint64_t{joints.blocks_before(k, panels)} * kJointBlockRows;
     statistics.joint_byte_count += joints.bytes_before(k, panels);
   }
   for (size_t g = 0; g < joints.group_count; ++g) {
-    statistics.joint_row_count += joints.group_rows_at_lod[g * rig.lod_count + lod];
+    statistics.joint_row_count += joints.group_rows_at_lod[g * of.lod_count + lod];
   }
-  for (const RotationOutput& turn : rig.rotations.turns) {
+  for (const RotationOutput& turn : of.rotations.turns) {
     statistics.quaternion_joint_count += turn.lods >> lod & 1;
   }
   write_struct(out_statistics, statistics);
@@ -232,16 +228,13 @@ MienStatus mien_instance_create(const MienRig* rig, const MienInstanceDesc* desc
   Instance* instance = create_instance(*object(rig), allocator);
   if (!instance) {
     return give_error(error, MIEN_ERROR_MEMORY, "no memory for an instance of %zu bytes",
-                      object(rig)->instance_size);
+                      instance_size(*object(rig)));
   }
-  instance->tag = kInstanceTag;
   *out_instance = reinterpret_cast<MienInstance*>(instance);
   return succeed(error);
 }
 
-void mien_instance_destroy(MienInstance* instance) {
-  if (check(instance) == MIEN_OK) destroy_instance(object(instance));
-}
+void mien_instance_destroy(MienInstance* instance) { destroy(instance); }
 
 MienStatus mien_instance_reset(MienInstance* instance) {
   if (MienStatus status = check(instance)) return status;
@@ -312,19 +305,19 @@ MienStatus mien_instance_animated_maps(const MienInstance* instance, MienFloatVi
   return give_view(instance, out_view, [](const Instance& i) { return i.maps; });
 }
 
-MienStatus mien_instance_statistics(const MienInstance* handle,
+MienStatus mien_instance_statistics(const MienInstance* instance,
                                     MienInstanceStatistics* out_statistics) {
   if (MienStatus status = clear_struct(out_statistics)) return status;
-  if (MienStatus status = check(handle)) return status;
-  const Instance& instance = *object(handle);
-  const JointMatrix& joints = instance.rig->joints;
+  if (MienStatus status = check(instance)) return status;
+  const Instance& of = *object(instance);
+  const JointMatrix& joints = of.rig->joints;
   MienInstanceStatistics statistics = {};
-  statistics.lod = instance.lod;
-  statistics.control_count = static_cast<uint32_t>(instance.controls.count);
-  for (float control : instance.controls) statistics.active_control_count += control != 0.0f;
-  const uint32_t panels = instance.rig->lod_count ? joints.panels_at_lod[instance.lod] : 0;
+  statistics.lod = of.lod;
+  statistics.control_count = static_cast<uint32_t>(of.controls.count);
+  for (float control : of.controls) statistics.active_control_count += control != 0.0f;
+  const uint32_t panels = of.rig->lod_count ? joints.panels_at_lod[of.lod] : 0;
   for (size_t k = 0; k < joints.columns.count; ++k) {
-    if (instance.controls[joints.columns[k]] == 0.0f) continue;
+    if (of.controls[joints.columns[k]] == 0.0f) continue;
     const uint32_t blocks = joints.blocks_before(k, panels);
     statistics.joint_column_count += blocks != 0;
     statistics.joint_entry_count += uint64_t{blocks} * kJointBlockRows;

@@ -15,32 +15,10 @@ static_assert(MIEN_NO_JOINT == kNoSolverJoint && sizeof(MienSolverPose) == sizeo
                   offsetof(MienSolverPose, is_reset) == offsetof(SolverPose, reset),
               "both have one layout");
 
-// The stack of the runtime is a separate block, because the runtime's stack knows no deformers.
-struct MienSolverStack {
-  uint32_t tag;
-  Allocator allocator;
-  mutable std::atomic<uint32_t> owners{1};  // the creator and every state
-  const Deformer* deformer;                 // shared ownership
-  Stack* stack;
-  uint32_t curve_count;
-};
-
-struct MienSolverState {
-  uint32_t tag;
-  Allocator allocator;
-  const MienSolverStack* stack;  // shared ownership
-  StackState* state;
-  bool in_batch;
-};
-
 namespace {
 
 constexpr size_t kMaxSolvers = 256;
 constexpr uint32_t kMaxStateBytes = 1 << 20, kMaxOutputs = 4096;
-
-using mien::capi::check;
-MienStatus check(const MienSolverStack* stack) { return check_tag(stack, kSolverStackTag); }
-MienStatus check(const MienSolverState* state) { return check_tag(state, kSolverStateTag); }
 
 /// Context of a call of a MienUserSolver.
 struct UserCall {
@@ -262,24 +240,13 @@ class Describer {
   size_t index_ = 0;
 };
 
-void release_stack_handle(const MienSolverStack* stack) {
-  if (stack->owners.fetch_sub(1, std::memory_order_acq_rel) != 1) return;
-  MienSolverStack* last = const_cast<MienSolverStack*>(stack);
-  const Allocator allocator = last->allocator;
-  release_stack(last->stack);
-  release_deformer(last->deformer);
-  last->tag = 0;
-  last->~MienSolverStack();
-  allocator.put(last, sizeof(MienSolverStack), alignof(MienSolverStack));
-}
-
 }  // namespace
 
 // Stack -------------------------------------------------------------------------------------------
 
 MienStatus mien_solver_stack_create(const MienDeformer* deformer, const MienSolverStackDesc* desc,
-                                    MienSolverStack** out_stack, MienError* error) {
-  if (MienStatus status = clear_output(out_stack, error)) return status;
+                                    MienSolverStack** out_solver_stack, MienError* error) {
+  if (MienStatus status = clear_output(out_solver_stack, error)) return status;
   if (MienStatus status = check(deformer, "deformer", error)) return status;
   if (!desc) return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "desc is NULL");
   MienSolverStackDesc known;
@@ -296,93 +263,64 @@ MienStatus mien_solver_stack_create(const MienDeformer* deformer, const MienSolv
   const Skeleton& skeleton = object(deformer)->skeleton;
   Arena arena(allocator);
   const Span<SolverDesc> solvers = arena.array<SolverDesc>(known.solver_count);
-  void* block = solvers.count == known.solver_count
-                    ? allocator.get(sizeof(MienSolverStack), alignof(MienSolverStack))
-                    : nullptr;
-  if (!block) return give_error(error, MIEN_ERROR_MEMORY, "no memory for a solver stack");
-  Stack* stack = nullptr;
+  if (solvers.count != known.solver_count) {
+    return give_error(error, MIEN_ERROR_MEMORY, "no memory for a solver stack");
+  }
   Describer describer(skeleton, known.curve_count, arena, error);
-  MienStatus status = MIEN_OK;
-  for (size_t i = 0; i < solvers.count && status == MIEN_OK; ++i) {
-    status = describer.describe_solver(i, known.solvers[i], solvers[i]);
+  for (size_t i = 0; i < solvers.count; ++i) {
+    const MienStatus status = describer.describe_solver(i, known.solvers[i], solvers[i]);
+    if (status != MIEN_OK) return status;
   }
-  if (status == MIEN_OK) {
-    Error detail;
-    const StackDesc stack_desc = {{solvers.data, solvers.count}, known.check_writes != 0};
-    if (create_stack(skeleton, stack_desc, allocator, stack, detail) != Status::kOk) {
-      status = give_error(detail, error);
-    }
-  }
-  if (status != MIEN_OK) {
-    allocator.put(block, sizeof(MienSolverStack), alignof(MienSolverStack));
-    return status;
-  }
-  object(deformer)->owners.fetch_add(1, std::memory_order_relaxed);
-  auto* made = new (block) MienSolverStack;
-  made->tag = kSolverStackTag;
-  made->allocator = allocator;
-  made->deformer = object(deformer);
-  made->stack = stack;
-  made->curve_count = known.curve_count;
-  *out_stack = made;
-  return succeed(error);
+  Stack* stack = nullptr;
+  Error detail;
+  const StackDesc stack_desc = {solvers, known.curve_count, known.check_writes != 0};
+  const Status status = create_stack(*object(deformer), stack_desc, allocator, stack, detail);
+  return give_object(status, stack, detail, out_solver_stack, error);
 }
 
-void mien_solver_stack_destroy(MienSolverStack* stack) {
-  if (check(stack) == MIEN_OK) release_stack_handle(stack);
-}
+void mien_solver_stack_destroy(MienSolverStack* solver_stack) { destroy(solver_stack); }
 
-MienStatus mien_solver_stack_info(const MienSolverStack* handle, MienSolverStackInfo* out_info) {
+MienStatus mien_solver_stack_info(const MienSolverStack* solver_stack,
+                                  MienSolverStackInfo* out_info) {
   if (MienStatus status = clear_struct(out_info)) return status;
-  if (MienStatus status = check(handle)) return status;
-  const Stack& stack = *handle->stack;
+  if (MienStatus status = check(solver_stack)) return status;
+  const Stack& stack = *object(solver_stack);
   MienSolverStackInfo info = {};
   info.solver_count = static_cast<uint32_t>(stack.solvers.count);
-  info.curve_count = handle->curve_count;
+  info.curve_count = stack.curve_count;
   info.output_count = stack.output_count;
   info.joint_count = stack.skeleton->joint_count;
-  info.state_bytes = sizeof(MienSolverState) + stack_state_size(stack);
+  info.state_bytes = stack_state_size(stack);
   write_struct(out_info, info);
   return MIEN_OK;
 }
 
 // State -------------------------------------------------------------------------------------------
 
-MienStatus mien_solver_state_create(const MienSolverStack* stack, const MienSolverStateDesc* desc,
-                                    MienSolverState** out_state, MienError* error) {
-  if (MienStatus status = clear_output(out_state, error)) return status;
-  if (MienStatus status = check(stack)) return give_error(error, status, "not a solver stack");
+MienStatus mien_solver_state_create(const MienSolverStack* solver_stack,
+                                    const MienSolverStateDesc* desc,
+                                    MienSolverState** out_solver_state, MienError* error) {
+  if (MienStatus status = clear_output(out_solver_state, error)) return status;
+  if (MienStatus status = check(solver_stack))
+    return give_error(error, status, "not a solver stack");
   MienSolverStateDesc known;
   if (MienStatus status = read_desc(desc, known, "MienSolverStateDesc", error)) return status;
   Allocator allocator;
   if (MienStatus status = read_allocator(known.allocator, allocator, error)) return status;
-  void* block = allocator.get(sizeof(MienSolverState), alignof(MienSolverState));
-  StackState* state = block ? create_stack_state(*stack->stack, allocator) : nullptr;
-  if (!state) {
-    if (block) allocator.put(block, sizeof(MienSolverState), alignof(MienSolverState));
-    return give_error(error, MIEN_ERROR_MEMORY, "no memory for a solver state");
-  }
-  stack->owners.fetch_add(1, std::memory_order_relaxed);
-  *out_state = new (block) MienSolverState{kSolverStateTag, allocator, stack, state, false};
+  StackState* state = create_stack_state(*object(solver_stack), allocator);
+  if (!state) return give_error(error, MIEN_ERROR_MEMORY, "no memory for a solver state");
+  *out_solver_state = reinterpret_cast<MienSolverState*>(state);
   return succeed(error);
 }
 
-void mien_solver_state_destroy(MienSolverState* state) {
-  if (check(state) != MIEN_OK) return;
-  const MienSolverStack* const stack = state->stack;
-  const Allocator allocator = state->allocator;
-  destroy_stack_state(state->state);
-  state->tag = 0;
-  allocator.put(state, sizeof(MienSolverState), alignof(MienSolverState));
-  release_stack_handle(stack);
-}
+void mien_solver_state_destroy(MienSolverState* solver_state) { destroy(solver_state); }
 
 namespace {
 
-MienStatus check_input(const MienSolverState& state, const MienDeformerInstance* instance,
+MienStatus check_input(const StackState& state, const MienDeformerInstance* instance,
                        const MienSolverInput* input) {
   if (MienStatus status = check(instance)) return status;
-  const MienSolverStack& stack = *state.stack;
+  const Stack& stack = *state.stack;
   if (object(instance)->deformer != stack.deformer) return MIEN_ERROR_MISMATCH;
   if (input && !input->row && input->row_count != 0) return MIEN_ERROR_NULL_ARGUMENT;
   if (stack.curve_count > (input ? input->row_count : 0)) return MIEN_ERROR_MISMATCH;
@@ -391,82 +329,86 @@ MienStatus check_input(const MienSolverState& state, const MienDeformerInstance*
 
 }  // namespace
 
-MienStatus mien_solver_state_step(MienSolverState* state, MienDeformerInstance* instance,
+MienStatus mien_solver_state_step(MienSolverState* solver_state,
+                                  MienDeformerInstance* deformer_instance,
                                   const MienSolverInput* input, int64_t ticks) {
-  return mien_solver_state_step_batch(&state, &instance, input, 1, ticks);
+  return mien_solver_state_step_batch(&solver_state, &deformer_instance, input, 1, ticks);
 }
 
-MienStatus mien_solver_state_step_batch(MienSolverState* const* states,
-                                        MienDeformerInstance* const* instances,
+MienStatus mien_solver_state_step_batch(MienSolverState* const* solver_states,
+                                        MienDeformerInstance* const* deformer_instances,
                                         const MienSolverInput* inputs, size_t count,
                                         int64_t ticks) {
   if (count == 0) return MIEN_OK;
-  if (!states || !instances) return MIEN_ERROR_NULL_ARGUMENT;
+  if (!solver_states || !deformer_instances) return MIEN_ERROR_NULL_ARGUMENT;
   if (ticks < 0 || ticks > kMaxStepTicks) return MIEN_ERROR_INVALID_ARGUMENT;
   for (size_t i = 0; i < count; ++i) {
-    if (MienStatus status = check(states[i])) return status;
-    if (states[i]->stack != states[0]->stack) return MIEN_ERROR_MISMATCH;
+    if (MienStatus status = check(solver_states[i])) return status;
+    if (object(solver_states[i])->stack != object(solver_states[0])->stack)
+      return MIEN_ERROR_MISMATCH;
     const MienSolverInput* const input = inputs ? inputs + i : nullptr;
-    if (MienStatus status = check_input(*states[i], instances[i], input)) return status;
+    if (MienStatus status = check_input(*object(solver_states[i]), deformer_instances[i], input))
+      return status;
   }
   MienStatus status = MIEN_OK;
   size_t marked = 0;
   for (; marked < count && status == MIEN_OK; ++marked) {
-    DeformerInstance& instance = *object(instances[marked]);
-    if (states[marked]->in_batch || instance.in_batch) {
+    DeformerInstance& instance = *object(deformer_instances[marked]);
+    if (object(solver_states[marked])->in_batch || instance.in_batch) {
       status = MIEN_ERROR_INVALID_ARGUMENT;
       break;
     }
-    states[marked]->in_batch = instance.in_batch = true;
+    object(solver_states[marked])->in_batch = instance.in_batch = true;
   }
   for (size_t i = 0; i < marked; ++i) {
-    states[i]->in_batch = object(instances[i])->in_batch = false;
+    object(solver_states[i])->in_batch = object(deformer_instances[i])->in_batch = false;
   }
   if (status != MIEN_OK) return status;
 
-  const MienSolverStack& stack = *states[0]->stack;
+  const Stack& stack = *object(solver_states[0])->stack;
   StackPose poses[kMaxStackPoses];
   for (size_t first = 0; first < count; first += kMaxStackPoses) {
     const size_t some = count - first < kMaxStackPoses ? count - first : kMaxStackPoses;
     for (size_t i = 0; i < some; ++i) {
       const MienSolverInput input = inputs ? inputs[first + i] : MienSolverInput{};
-      poses[i] = {states[first + i]->state, &object(instances[first + i])->joints,
+      poses[i] = {object(solver_states[first + i]), &object(deformer_instances[first + i])->joints,
                   stack.curve_count != 0 ? input.row : nullptr, input.lod, input.is_reset != 0};
     }
-    step_stack(*stack.stack, {poses, some}, ticks);
+    step_stack(stack, {poses, some}, ticks);
   }
   return MIEN_OK;
 }
 
-MienStatus mien_solver_state_outputs(const MienSolverState* state, uint32_t solver,
+MienStatus mien_solver_state_outputs(const MienSolverState* solver_state, uint32_t solver,
                                      MienFloatView* out_values) {
   if (!out_values) return MIEN_ERROR_NULL_ARGUMENT;
   *out_values = {};
-  if (MienStatus status = check(state)) return status;
-  const Stack& stack = *state->stack->stack;
+  if (MienStatus status = check(solver_state)) return status;
+  const Stack& stack = *object(solver_state)->stack;
   if (solver >= stack.solvers.count) return MIEN_ERROR_INDEX;
   const uint32_t first = stack.solvers[solver].first_output;
   const uint32_t end = solver + 1 < stack.solvers.count ? stack.solvers[solver + 1].first_output
                                                         : stack.output_count;
-  *out_values = {state->state->outputs.data + first, end - first};
+  *out_values = {object(solver_state)->outputs.data + first, end - first};
   return MIEN_OK;
 }
 
-MienStatus mien_solver_state_transforms(const MienSolverState* state,
+MienStatus mien_solver_state_transforms(const MienSolverState* solver_state,
                                         MienFloatView* out_transforms) {
   if (!out_transforms) return MIEN_ERROR_NULL_ARGUMENT;
   *out_transforms = {};
-  if (MienStatus status = check(state)) return status;
-  *out_transforms = {state->state->locals.data, state->state->locals.count};
+  if (MienStatus status = check(solver_state)) return status;
+  *out_transforms = {object(solver_state)->locals.data, object(solver_state)->locals.count};
   return MIEN_OK;
 }
 
-MienStatus mien_solver_state_undeclared(const MienSolverState* state, MienStringView* out_name) {
+MienStatus mien_solver_state_undeclared(const MienSolverState* solver_state,
+                                        MienStringView* out_name) {
   if (!out_name) return MIEN_ERROR_NULL_ARGUMENT;
   *out_name = {};
-  if (MienStatus status = check(state)) return status;
-  if (!state->stack->stack->check_writes) return MIEN_ERROR_INVALID_ARGUMENT;
-  const char* const name = state->state->undeclared;
+  if (MienStatus status = check(solver_state)) return status;
+  if (!object(solver_state)->stack->check_writes) return MIEN_ERROR_INVALID_ARGUMENT;
+  const char* const name = object(solver_state)->undeclared;
   if (name) *out_name = {name, strlen(name)};
   return MIEN_OK;
 }

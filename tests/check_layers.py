@@ -22,7 +22,7 @@ GRAPH = {
     "runtime/deform": ["runtime/base", "simd", "runtime/pose"],
     "runtime/anim": ["runtime/base", "simd", "runtime/rig"],
     "runtime/mix": ["runtime/base", "simd", "runtime/rig", "runtime/anim"],
-    "runtime/solve": ["runtime/base", "runtime/anim", "runtime/pose"],
+    "runtime/solve": ["runtime/base", "runtime/anim", "runtime/pose", "runtime/deform"],
     "runtime/probe": ["runtime/base", "runtime/eval", "runtime/anim", "runtime/mix", "runtime/deform"],
     "runtime/baked": ["runtime/base", "simd", "runtime/rig", "runtime/deform"],
     # What the full library adds. DNA files: what a file is; what is wrong with it; what becomes of it; all
@@ -34,6 +34,7 @@ GRAPH = {
                          "runtime/load/dna/convert"],
     "runtime/load/compile": ["runtime/base", "simd", "runtime/load/dna/format", "runtime/rig",
                              "runtime/deform"],
+    "runtime/load/validate": ["runtime/base", "runtime/load/dna", "runtime/load/compile"],
     # libmien-author makes DNA files: generated ones, and from a mesh to a rig. What its stages hand to
     # each other; bones; weights; motion; the file.
     "author/base": ["runtime/base", "runtime/load/dna/format"],
@@ -58,7 +59,7 @@ GRAPH = {
                     "author/generate/head", "author/generate/synthetic", "author/document"],
     "capi": ["capi/arguments", "runtime/base", "simd", "runtime/eval", "runtime/anim", "runtime/mix",
              "runtime/solve", "runtime/deform", "runtime/probe", "runtime/baked", "runtime/load/dna/format",
-             "runtime/load/dna/check", "runtime/load/dna", "runtime/load/compile"],
+             "runtime/load/dna/check", "runtime/load/dna", "runtime/load/compile", "runtime/load/validate"],
 }
 PUBLIC_HEADERS = ("capi/include/mien.h", "capi/include/mien_author.h")
 

@@ -20,7 +20,7 @@ DEFINITION = re.compile(r"^[\w:<>*&\[\] ]+?\b(\w+)\((?:[^;{}()]|\([^()]*\))*\) (
                         re.MULTILINE)
 LITERAL = re.compile(r"\bMIEN_ERROR_[A-Z_]+\b")
 # How an error of the runtime is passed on.
-PASSED_ON = re.compile(r"\bgive_error\(detail\b|\bfinish_open\(")
+PASSED_ON = re.compile(r"\bgive_(?:error\(detail|object\(|status\()")
 
 # What a function cannot return, though a function that it calls can.
 NEVER = {

@@ -217,21 +217,25 @@ Status bind_clip(const Clip& clip, const Rig& rig, Span<const MatrixEntry> matri
   auto* const scratch = create_block<Scratch>(allocator, [&](Placer& placer, Scratch& lists) {
     lists.place(placer, clip, rig, matrix.count);
   });
-  out = create_block<Binding>(allocator, [&](Placer& placer, Binding& binding) {
+  out = create_object<Binding>(allocator, [&](Placer& placer, Binding& binding) {
     place_binding(placer, clip, rig, matrix.count, binding);
   });
   if (!scratch || !out) {
     release_block(scratch);
-    release_block(out);
+    release(out);
     out = nullptr;
     return fail(error, Status::kMemory, kNoOffset, "no memory to bind a clip");
   }
   fill_binding(clip, rig, matrix, *scratch, *out);
   release_block(scratch);
-  return Status::kOk;
+  if (out->gui_count <= kMaxBoundGuiControls) return Status::kOk;
+  fail(error, Status::kClipLimit, kNoOffset,
+       "the channels drive %u GUI controls, %u is the limit; bind raw controls", out->gui_count - 1,
+       kMaxBoundGuiControls - 1);
+  release(out);
+  out = nullptr;
+  return Status::kClipLimit;
 }
-
-void release_binding(Binding* binding) { release_block(binding); }
 
 void apply_binding(const Binding& binding, Span<const float> values, Span<float> gui,
                    Span<float> raw_controls, bool constants) {

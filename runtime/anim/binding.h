@@ -51,9 +51,9 @@ struct BoundRow {
 
 /// Immutable, in one block of memory; refers to neither rig nor clip. GUI controls have numbers of
 /// their own here: those that the clip drives, then one that is always 0 and stands for all others.
-struct Binding {
-  Allocator allocator;
-  size_t block_size = 0;
+struct Binding : Object {
+  static constexpr uint32_t kTag = 0x6D43'424E;
+
   uint32_t raw_count = 0;      // of the rig
   uint32_t channel_count = 0;  // of the clip
   uint32_t gui_count = 0;      // 0 if the clip drives none
@@ -71,11 +71,12 @@ struct Binding {
   uint32_t missing_entries = 0;     // of the matrix: no such channel or no such control
 };
 
-/// On success, release `out` with release_binding(). kInvalidArgument for weights that are not finite,
+constexpr uint32_t kMaxBoundGuiControls = 4096;  // including the one that is always 0
+
+/// On success, give back `out` with release(). kClipLimit for more GUI controls; kInvalidArgument for weights that are not finite,
 /// kMemory.
 Status bind_clip(const Clip& clip, const Rig& rig, Span<const MatrixEntry> matrix,
                  const Allocator& allocator, Binding*& out, Error& error);
-void release_binding(Binding* binding);
 
 /// Writes the raw controls in `binding.controls` and leaves the others alone; without `constants`, it also
 /// leaves alone those that are constant from the beginning of the clip on. `values` comes from sample_clip();

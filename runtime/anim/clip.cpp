@@ -168,6 +168,29 @@ int64_t count_events(const Clip& clip, int64_t tick, bool at_too) {
   return begin;
 }
 
+float snap_step(uint32_t n) { return n == kNoSnap ? 0 : 1.0f / static_cast<float>(1u << n); }
+
+uint8_t snap_of_step(float step) {
+  if (step == 0) return kNoSnap;
+  for (uint32_t n = kMinSnap; n <= kMaxSnap; ++n) {
+    if (step == snap_step(n)) return static_cast<uint8_t>(n);
+  }
+  return kInvalidSnap;
+}
+
+bool is_changing(const Clip& clip, uint32_t channel) {
+  uint32_t begin = 0, end = clip.changing_count;
+  while (begin < end) {
+    const uint32_t middle = (begin + end) / 2;
+    if (clip.changing(middle) < channel) {
+      begin = middle + 1;
+    } else {
+      end = middle;
+    }
+  }
+  return begin < clip.changing_count && clip.changing(begin) == channel;
+}
+
 uint32_t find_channel(const Clip& clip, Span<const char> name) {
   for (uint32_t c = 0; c < clip.channel_count; ++c) {
     if (compare_names(clip.name(c), name) == 0) return c;

@@ -142,12 +142,19 @@ constexpr uint32_t kNoSnap = 0;
 constexpr uint32_t kMinSnap = 9, kMaxSnap = 16;
 constexpr uint32_t kDefaultSnap = 11;
 
+/// The step of n, 0 for kNoSnap; and n of a step, kInvalidSnap if it is none of these.
+float snap_step(uint32_t n);
+uint8_t snap_of_step(float step);
+constexpr uint8_t kInvalidSnap = 1;
+
 constexpr uint32_t kNoChannel = ~uint32_t{0};
 
 /// Makes `out` a view of bytes at any address. Checks everything before the blocks, in time that depends on
 /// the channels and events but not on the frames, without allocating. Blocks are checked when they are
 /// decoded. kClipSignature, kClipVersion, kClipTruncated or kClipStructure.
 Status open_clip(const uint8_t* bytes, size_t size, Clip& out, Error& error);
+
+bool is_changing(const Clip& clip, uint32_t channel);
 
 /// The first channel of a name, exactly as written; kNoChannel if there is none.
 uint32_t find_channel(const Clip& clip, Span<const char> name);

@@ -62,23 +62,16 @@ Status open_baked_deformer(const Baked& baked, const Rig& rig, const KernelTable
                 "the deformer has fewer meshes than its rig: the baked file is damaged; bake it "
                 "again");
   }
-  Placer measure(nullptr);
-  measure.array<Deformer>(1);
-  measure.array<DeformMesh>(rig.mesh_count);
-  void* block = allocator.get(measure.size(), kBlockAlignment);
-  if (!block) {
+  const auto place = [&rig](Placer& placer, Deformer& made) {
+    made.meshes = placer.array<DeformMesh>(rig.mesh_count);
+  };
+  Deformer* deformer = create_object<Deformer>(allocator, place);
+  if (!deformer) {
     return fail(error, Status::kMemory, kNoOffset, "no memory for a deformer of %zu bytes",
-                measure.size());
+                block_bytes<Deformer>(place));
   }
-  Placer placer(block);
-  placer.array<Deformer>(1);
-  Deformer* deformer = new (block) Deformer;
-  deformer->meshes = placer.array<DeformMesh>(rig.mesh_count);
   for (DeformMesh& mesh : deformer->meshes) new (&mesh) DeformMesh;
-  deformer->allocator = allocator;
-  deformer->block_size = measure.size();
-  deformer->rig = &rig;
-  rig.owners.fetch_add(1, std::memory_order_relaxed);
+  deformer->rig = share(rig);
 
   Skeleton& skeleton = deformer->skeleton;
   skeleton.joint_count = rig.joint_count;
@@ -92,7 +85,7 @@ Status open_baked_deformer(const Baked& baked, const Rig& rig, const KernelTable
     status = check_deformer(*deformer, baked.check == BakedCheck::kFull, error);
   }
   if (status != Status::kOk) {
-    release_deformer(deformer);
+    release(deformer);
     return status;
   }
   mark_mesh_lods(rig, deformer->meshes);

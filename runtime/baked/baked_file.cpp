@@ -76,10 +76,14 @@ uint64_t baked_checksum(const uint8_t* bytes, size_t size) {
   return sum;
 }
 
+namespace {
+
+constexpr char kWhat[] = "a baked file";
+
 Status read_baked(Baked& baked, Error& error) {
-  const uint8_t* bytes = baked.bytes.data;
-  const size_t size = baked.bytes.size;
-  const Status status = check_header(baked.bytes, error);
+  const uint8_t* bytes = baked.data;
+  const size_t size = baked.size;
+  const Status status = check_header(baked, error);
   if (status != Status::kOk) return status;
   const BakedHeader* header = header_of(bytes);
   if (baked.check == BakedCheck::kFull && baked_checksum(bytes, size) != header->checksum) {
@@ -105,6 +109,45 @@ Status read_baked(Baked& baked, Error& error) {
   }
   if (at != size) return damaged(error, at, "end of the file");
   return Status::kOk;
+}
+
+/// Checks the bytes of a file that was created; `created` tells whether it was. Drops it on failure.
+Status finish(Status created, BakedCheck check, Baked*& baked, Error& error) {
+  if (created != Status::kOk) return created;
+  baked->check = check;
+  const Status status = read_baked(*baked, error);
+  if (status == Status::kOk) return status;
+  release(baked);
+  baked = nullptr;
+  return status;
+}
+
+}  // namespace
+
+Status open_baked_file(const char* path, FileAccess access, BakedCheck check,
+                       const Allocator& allocator, Baked*& out, Error& error) {
+  return finish(create_from_file(path, access, {kBakedMagic, sizeof(kBakedMagic)}, kWhat, allocator,
+                                 out, error),
+                check, out, error);
+}
+
+Status open_baked_memory(Span<const uint8_t> bytes, FileAccess access, BakedCheck check,
+                         const Allocator& allocator, Baked*& out, Error& error) {
+  const bool aligned = reinterpret_cast<uintptr_t>(bytes.data) % kBlockAlignment == 0;
+  const size_t copied = aligned && access == FileAccess::kMap ? 0 : bytes.count;
+  const Status created = create_with_bytes(copied, kWhat, allocator, out, error);
+  if (created == Status::kOk && copied != 0) {
+    memcpy(const_cast<uint8_t*>(out->data), bytes.data, copied);
+  } else if (created == Status::kOk) {
+    out->data = bytes.data;
+    out->size = bytes.count;
+  }
+  return finish(created, check, out, error);
+}
+
+Status open_baked_stream(const Stream& stream, BakedCheck check, const Allocator& allocator,
+                         Baked*& out, Error& error) {
+  return finish(create_from_stream(stream, kWhat, allocator, out, error), check, out, error);
 }
 
 }  // namespace mien

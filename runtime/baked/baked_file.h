@@ -66,8 +66,9 @@ enum class BakedCheck : uint32_t {
 };
 
 /// A file whose header and table are in order. Parts are checked when objects are made of them.
-struct Baked {
-  SharedBytes bytes;
+struct Baked : SharedBytes {
+  static constexpr uint32_t kTag = 0x6D42'414B;
+
   BakedCheck check = BakedCheck::kSafe;
   const BakedPart* rig = nullptr;       // in the file; null if it has none
   const BakedPart* deformer = nullptr;  // the same
@@ -76,8 +77,19 @@ struct Baked {
 /// The checksum that belongs into the header.
 uint64_t baked_checksum(const uint8_t* bytes, size_t size);
 
-/// Checks the header, the table and, for kFull, the checksum of `baked.bytes`, which are at a
-/// multiple of 64, and finds the parts.
-Status read_baked(Baked& baked, Error& error);
+// Opening checks the header, the table and, for kFull, the checksum, and finds the parts. On success, give
+// back `out` with release(). kBakedSignature, kBakedVersion, kBakedTruncated, kBakedStructure,
+// kBakedChecksum, kMemory.
+
+/// Errors of open_file(), too.
+Status open_baked_file(const char* path, FileAccess access, BakedCheck check,
+                       const Allocator& allocator, Baked*& out, Error& error);
+/// The bytes are used in place and have to outlive all that is made of them, unless `access` is kRead or
+/// they are not at a multiple of 64: then they are copied.
+Status open_baked_memory(Span<const uint8_t> bytes, FileAccess access, BakedCheck check,
+                         const Allocator& allocator, Baked*& out, Error& error);
+/// kFileRead, too.
+Status open_baked_stream(const Stream& stream, BakedCheck check, const Allocator& allocator,
+                         Baked*& out, Error& error);
 
 }  // namespace mien

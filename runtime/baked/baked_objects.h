@@ -14,7 +14,7 @@ size_t baked_size(const Rig& rig, const Deformer* deformer);
 void bake(const Rig& rig, const Deformer* deformer, uint8_t* bytes);
 
 /// One block of `allocator` for what is not in the file; an owner of its bytes. `baked` has a rig.
-/// To be given back by release_rig().
+/// To be given back by release().
 Status open_baked_rig(const Baked& baked, const KernelTable* kernels, const Allocator& allocator,
                       Rig*& out, Error& error);
 

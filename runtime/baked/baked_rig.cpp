@@ -138,14 +138,10 @@ BakedPart write_part(const Rig& rig, uint8_t* bytes) {
 Status open_baked_rig(const Baked& baked, const KernelTable* kernels, const Allocator& allocator,
                       Rig*& out, Error& error) {
   out = nullptr;
-  const size_t block_size = align_up(sizeof(Rig), kBlockAlignment);
-  void* block = allocator.get(block_size, kBlockAlignment);
-  if (!block) {
-    return fail(error, Status::kMemory, kNoOffset, "no memory for a rig of %zu bytes", block_size);
+  Rig* rig = create_object<Rig>(allocator, [](Placer&, Rig&) {});
+  if (!rig) {
+    return fail(error, Status::kMemory, kNoOffset, "no memory for a rig of %zu bytes", sizeof(Rig));
   }
-  Rig* rig = new (block) Rig;
-  rig->allocator = allocator;
-  rig->block_size = block_size;
   PartReader reader(baked, *baked.rig, kRigPartVersion, measure_part(*rig), error);
   visit(*rig, reader);
   Status status = reader.finish();
@@ -153,11 +149,10 @@ Status open_baked_rig(const Baked& baked, const KernelTable* kernels, const Allo
     status = check_rig(*rig, baked.rig->size, baked.check == BakedCheck::kFull, error);
   }
   if (status != Status::kOk) {
-    release_rig(rig);
+    release(rig);
     return status;
   }
-  baked.bytes.owners.fetch_add(1, std::memory_order_relaxed);
-  rig->bytes = &baked.bytes;
+  rig->bytes = share<SharedBytes>(baked);
   rig->baked_size = static_cast<size_t>(baked.rig->size);
   rig->kernels = kernels;
   out = rig;

@@ -14,11 +14,10 @@ void PartWriter::put_array(const void* data, size_t count, uint32_t element_size
 
 PartReader::PartReader(const Baked& baked, const BakedPart& part, uint32_t version,
                        const PartMeasure& expected, Error& error)
-    : part_(baked.bytes.data + part.offset), offset_(part.offset), size_(part.size), number_(part_),
+    : part_(baked.data + part.offset), offset_(part.offset), size_(part.size), number_(part_),
       entry_(part_ + expected.number_count() * sizeof(uint64_t)), at_(expected.table_size()),
       error_(error) {
-  const auto entry =
-      static_cast<uint64_t>(reinterpret_cast<const uint8_t*>(&part) - baked.bytes.data);
+  const auto entry = static_cast<uint64_t>(reinterpret_cast<const uint8_t*>(&part) - baked.data);
   if (part.version != version) {
     status_ = fail(error_, Status::kBakedVersion, entry + offsetof(BakedPart, version),
                    "a part of the file is of version %u, this library reads %u; bake it again",

@@ -124,10 +124,16 @@ class Placer {
     return items;
   }
 
+  /// The object that the block begins with.
+  template <class T>
+  void object() {
+    used_ = sizeof(T);
+  }
+
   /// Not initialized: for large arrays of which every element will be written.
   template <class T>
   Span<T> unwritten_array(size_t count, size_t alignment = alignof(T)) {
-    static_assert(std::is_trivially_destructible<T>::value, "a block destroys nothing");
+    static_assert(std::is_trivially_destructible<T>::value, "a block destroys no arrays");
     used_ = align_up(used_, alignment);
     void* at = base_ ? base_ + used_ : nullptr;
     used_ += count * sizeof(T);
@@ -159,7 +165,7 @@ template <class T, class Place>
 size_t block_bytes(Place place) {
   T measured;
   Placer measure(nullptr);
-  measure.unwritten_array<T>(1);
+  measure.object<T>();
   place(measure, measured);
   return measure.size();
 }
@@ -173,7 +179,7 @@ T* create_block(const Allocator& allocator, Place place) {
   if (!block) return nullptr;
   T* object = new (block) T;
   Placer placer(block);
-  placer.unwritten_array<T>(1);
+  placer.object<T>();
   place(placer, *object);
   object->allocator = allocator;
   object->block_size = size;

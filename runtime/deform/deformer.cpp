@@ -40,16 +40,4 @@ void write_target(const DeformMesh& mesh, uint32_t target, float* out) {
   }
 }
 
-void release_deformer(const Deformer* deformer) {
-  if (deformer->owners.fetch_sub(1, std::memory_order_acq_rel) != 1) return;
-  Deformer* last = const_cast<Deformer*>(deformer);
-  const Allocator allocator = last->allocator;
-  const size_t size = last->block_size;
-  const Rig* rig = last->rig;
-  last->tag = 0;
-  last->~Deformer();
-  allocator.put(last, size, kBlockAlignment);
-  release_rig(rig);
-}
-
 }  // namespace mien

@@ -85,15 +85,14 @@ struct DeformMesh {
   size_t array_alignment() const { return is_empty() ? alignof(float) : kBlockAlignment; }
 };
 
-struct Deformer {
-  uint32_t tag = 0;  // first, so that the C API recognizes its handles
-  Allocator allocator;
-  size_t block_size = 0;
-  size_t baked_size = 0;                    // of its part of a baked file, if its arrays are in one
-  mutable std::atomic<uint32_t> owners{1};  // the creator and every deformer instance
+struct Deformer : Object {
+  static constexpr uint32_t kTag = 0x6D44'4652;
 
+  size_t baked_size = 0;  // of its part of a baked file, if its arrays are in one
   const KernelTable* kernels = nullptr;
-  const Rig* rig = nullptr;                // shared
+  const Rig* rig = nullptr;
+  ~Deformer() { release(rig); }
+
   Normals normals = Normals::kRecomputed;  // what Normals::kDefault means
   bool fix_weights = false;
   bool has_tangents = false;
@@ -109,8 +108,5 @@ const SkinRun* skin_run_of(const DeformMesh& mesh, uint32_t sorted_index);
 
 /// Writes x y z per position: the delta of a target at weight 1, in file order.
 void write_target(const DeformMesh& mesh, uint32_t target, float* out);
-
-/// Drops one owner; the last one releases the block.
-void release_deformer(const Deformer* deformer);
 
 }  // namespace mien

@@ -10,7 +10,6 @@ bool is_shown(const DeformMesh& mesh, uint64_t lods) { return lods == 0 || (mesh
 
 void place_deformer_instance(const Deformer& deformer, uint64_t lods, Placer& placer,
                              DeformerInstance& instance) {
-  placer.array<DeformerInstance>(1);
   place_joint_pose(deformer.skeleton, placer, instance.joints);
   instance.channels = placer.array<float>(deformer.rig->channel_count, kBlockAlignment);
   instance.meshes = placer.array<DeformedMesh>(deformer.meshes.count);
@@ -35,25 +34,19 @@ void place_deformer_instance(const Deformer& deformer, uint64_t lods, Placer& pl
 }  // namespace
 
 size_t deformer_instance_size(const Deformer& deformer, uint64_t lods) {
-  DeformerInstance measured;
-  Placer placer(nullptr);
-  place_deformer_instance(deformer, lods, placer, measured);
-  return placer.size();
+  return block_bytes<DeformerInstance>([&](Placer& placer, DeformerInstance& instance) {
+    place_deformer_instance(deformer, lods, placer, instance);
+  });
 }
 
 DeformerInstance* create_deformer_instance(const Deformer& deformer, uint64_t lods,
                                            const Allocator& allocator) {
-  const size_t size = deformer_instance_size(deformer, lods);
-  void* block = allocator.get(size, kBlockAlignment);
-  if (!block) return nullptr;
-  DeformerInstance placed;
-  Placer placer(block);
-  place_deformer_instance(deformer, lods, placer, placed);
-  DeformerInstance* instance = new (block) DeformerInstance(placed);
-  instance->allocator = allocator;
-  instance->block_size = size;
-  instance->deformer = &deformer;
-  deformer.owners.fetch_add(1, std::memory_order_relaxed);
+  auto* const instance =
+      create_object<DeformerInstance>(allocator, [&](Placer& placer, DeformerInstance& placed) {
+        place_deformer_instance(deformer, lods, placer, placed);
+      });
+  if (!instance) return nullptr;
+  instance->deformer = share(deformer);
   update_deformer_instance(*instance, nullptr, nullptr);
   for (size_t m = 0; m < instance->meshes.count; ++m) {
     DeformedMesh& deformed = instance->meshes[m];
@@ -63,15 +56,6 @@ DeformerInstance* create_deformer_instance(const Deformer& deformer, uint64_t lo
     std::copy(mesh.normals.begin(), mesh.normals.end(), deformed.normals.begin());
   }
   return instance;
-}
-
-void destroy_deformer_instance(DeformerInstance* instance) {
-  const Deformer* deformer = instance->deformer;
-  const Allocator allocator = instance->allocator;
-  const size_t size = instance->block_size;
-  instance->tag = 0;
-  allocator.put(instance, size, kBlockAlignment);
-  release_deformer(deformer);
 }
 
 void update_deformer_instance(DeformerInstance& instance, const float* joint_values,

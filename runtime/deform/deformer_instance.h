@@ -19,12 +19,12 @@ struct DeformedMesh {
   Span<float> normals;    // [vertex] x y z, + 1
 };
 
-struct DeformerInstance {
-  uint32_t tag = 0;  // first, so that the C API recognizes its handles
-  bool in_batch = false;
-  Allocator allocator;
-  size_t block_size = 0;
+struct DeformerInstance : Object {
+  static constexpr uint32_t kTag = 0x6D50'4F53;
+
+  bool in_batch = false;  // while the arguments of a batch are checked
   const Deformer* deformer = nullptr;
+  ~DeformerInstance() { release(deformer); }
 
   JointPose joints;
   Span<float> channels;  // [channel] weight
@@ -40,7 +40,6 @@ size_t deformer_instance_size(const Deformer& deformer, uint64_t lods);
 /// Creates an instance in the neutral pose. It becomes an owner of the deformer. Null if memory ran out.
 DeformerInstance* create_deformer_instance(const Deformer& deformer, uint64_t lods,
                                            const Allocator& allocator);
-void destroy_deformer_instance(DeformerInstance* instance);
 
 /// Computes the joint matrices from joint values, and copies the channel weights; both are in the form that
 /// evaluation returns. Null joint values: no deltas. Null channel weights: all 0.

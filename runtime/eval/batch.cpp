@@ -49,7 +49,6 @@ void place_batch(const Rig& rig, uint32_t capacity, uint32_t tasks, Placer& plac
   for (size_t k = 0; k < joints.columns.count; ++k) {
     block_count += joints.blocks_before(k, joints.panel_count());
   }
-  placer.array<Batch>(1);
   batch.tables.block_list.starts = placer.array<uint32_t>(size_t{block_row_count(joints)} + 1);
   batch.tables.block_list.raw_ends = placer.array<uint32_t>(block_row_count(joints));
   batch.tables.block_list.blocks = placer.array<InputBlock>(block_count);
@@ -135,25 +134,17 @@ void order_lanes(const Span<RotationOutput>& outputs, Span<uint32_t>& order) {
 }  // namespace
 
 size_t batch_size(const Rig& rig, uint32_t capacity, uint32_t tasks) {
-  Batch batch;
-  Placer placer(nullptr);
-  place_batch(rig, capacity, tasks, placer, batch);
-  return placer.size();
+  return block_bytes<Batch>(
+      [&](Placer& placer, Batch& batch) { place_batch(rig, capacity, tasks, placer, batch); });
 }
 
 Batch* create_batch(const Rig& rig, uint32_t capacity, uint32_t tasks, const Allocator& allocator) {
-  const size_t size = batch_size(rig, capacity, tasks);
-  void* block = allocator.get(size, kBlockAlignment);
-  if (!block) return nullptr;
-  Batch placed;
-  Placer placer(block);
-  place_batch(rig, capacity, tasks, placer, placed);
-  Batch* batch = new (block) Batch(placed);
+  auto* const batch = create_object<Batch>(allocator, [&](Placer& placer, Batch& placed) {
+    place_batch(rig, capacity, tasks, placer, placed);
+  });
+  if (!batch) return nullptr;
   batch->capacity = capacity;
-  batch->rig = &rig;
-  batch->allocator = allocator;
-  batch->block_size = size;
-  rig.owners.fetch_add(1, std::memory_order_relaxed);
+  batch->rig = share(rig);
 
   BatchTables& tables = batch->tables;
   fill_block_list(rig, tables.block_list);
@@ -167,15 +158,6 @@ Batch* create_batch(const Rig& rig, uint32_t capacity, uint32_t tasks, const All
   order_lanes(rig.rotations.turns, tables.lane_order.turns);
   order_lanes(rig.twist_swing.outputs, tables.lane_order.twists);
   return batch;
-}
-
-void destroy_batch(Batch* batch) {
-  const Rig* rig = batch->rig;
-  const Allocator allocator = batch->allocator;
-  const size_t size = batch->block_size;
-  batch->tag = 0;
-  allocator.put(batch, size, kBlockAlignment);
-  release_rig(rig);
 }
 
 void evaluate_batch(Batch& batch, Instance* const* instances, const uint32_t* lods, uint32_t count,

@@ -9,12 +9,12 @@
 
 namespace mien {
 
-struct Batch {
-  uint32_t tag = 0;  // first, for the C API to recognize its handles
+struct Batch : Object {
+  static constexpr uint32_t kTag = 0x6D42'4154;
+
   uint32_t capacity = 0;
   const Rig* rig = nullptr;
-  Allocator allocator;
-  size_t block_size = 0;
+  ~Batch() { release(rig); }
 
   BatchTables tables;
   Span<PacketScratch> tasks;
@@ -30,7 +30,6 @@ size_t batch_size(const Rig& rig, uint32_t capacity, uint32_t tasks);
 
 /// The batch becomes an owner of the rig. Null if memory ran out.
 Batch* create_batch(const Rig& rig, uint32_t capacity, uint32_t tasks, const Allocator& allocator);
-void destroy_batch(Batch* batch);
 
 /// Evaluates stages of all instances; each gets the bits that evaluate() gives. They must be distinct
 /// instances of the batch's rig, and at most its capacity.

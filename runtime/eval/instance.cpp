@@ -9,7 +9,6 @@ namespace mien {
 namespace {
 
 void place_instance(const Rig& rig, Placer& placer, Instance& instance) {
-  placer.array<Instance>(1);
   instance.controls = placer.array<float>(rig.control_count, kBlockAlignment);
   instance.gui = placer.array<float>(rig.gui_count, kBlockAlignment);
   instance.masks = placer.array<float>(rig.mask_count, kBlockAlignment);
@@ -43,34 +42,17 @@ void fill(const Span<float>& values, float value) {
 }  // namespace
 
 size_t instance_size(const Rig& rig) {
-  Instance instance;
-  Placer placer(nullptr);
-  place_instance(rig, placer, instance);
-  return placer.size();
+  return block_bytes<Instance>(
+      [&](Placer& placer, Instance& instance) { place_instance(rig, placer, instance); });
 }
 
 Instance* create_instance(const Rig& rig, const Allocator& allocator) {
-  void* block = allocator.get(rig.instance_size, kBlockAlignment);
-  if (!block) return nullptr;
-  Instance placed;
-  Placer placer(block);
-  place_instance(rig, placer, placed);
-  Instance* instance = new (block) Instance(placed);
-  instance->rig = &rig;
-  instance->allocator = allocator;
-  instance->block_size = rig.instance_size;
-  rig.owners.fetch_add(1, std::memory_order_relaxed);
+  auto* const instance = create_object<Instance>(
+      allocator, [&](Placer& placer, Instance& placed) { place_instance(rig, placer, placed); });
+  if (!instance) return nullptr;
+  instance->rig = share(rig);
   reset_instance(*instance);
   return instance;
-}
-
-void destroy_instance(Instance* instance) {
-  const Rig* rig = instance->rig;
-  const Allocator allocator = instance->allocator;
-  const size_t size = instance->block_size;
-  instance->tag = 0;
-  allocator.put(instance, size, kBlockAlignment);
-  release_rig(rig);
 }
 
 void clear_results(Instance& instance) {

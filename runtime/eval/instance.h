@@ -9,13 +9,13 @@
 
 namespace mien {
 
-struct Instance {
-  uint32_t tag = 0;       // first, for the C API to recognize its handles
+struct Instance : Object {
+  static constexpr uint32_t kTag = 0x6D49'4E53;
+
   uint32_t lod = 0;       // of the last evaluation; outputs that this LOD does not have are 0
   bool in_batch = false;  // while the arguments of a batch are checked
   const Rig* rig = nullptr;
-  Allocator allocator;
-  size_t block_size = 0;
+  ~Instance() { release(rig); }
 
   Span<float> controls;
   Span<float> gui;
@@ -45,7 +45,6 @@ size_t instance_size(const Rig& rig);
 /// Creates an instance in its initial state, at LOD 0. It becomes an owner of the rig. Null if memory ran
 /// out.
 Instance* create_instance(const Rig& rig, const Allocator& allocator);
-void destroy_instance(Instance* instance);
 
 /// Resets outputs and intermediate results, but not controls, to their initial values. Everything becomes
 /// stale.

@@ -2,7 +2,7 @@
 // From a target to the controls that turn the eyes to it. runtime/probe/probe_gaze.h measures the table.
 #pragma once
 
-#include <cstdint>
+#include "runtime/base/object.h"
 
 namespace mien {
 
@@ -22,6 +22,14 @@ struct GazeTable {
       yaw_first;    // 1: left and right turn about the axis of the eye, up and down about that of
                     // the head; 0: the opposite
   float fit_error;  // degrees, the largest found when the eye turns sideways and up at once
+};
+
+/// The table of a rig.
+struct Gaze : Object {
+  static constexpr uint32_t kTag = 0x6D47'415A;
+
+  uint32_t raw_count = 0;  // of the rig
+  GazeTable table = {};
 };
 
 /// Sets the curves of both eyes so that they look at a target, which has the form of GazeEye::center. Eyes

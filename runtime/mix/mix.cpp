@@ -490,20 +490,13 @@ Status create_mix(const MixDesc& desc, const Allocator& allocator, Mix*& out, Er
   if (status != Status::kOk) return status;
 
   const auto place = [&](Placer& placer, Mix& mix) { place_mix(placer, desc, mix); };
-  out = create_block<Mix>(allocator, place);
+  out = create_object<Mix>(allocator, place);
   if (!out) {
     return fail(error, Status::kMemory, kNoOffset, "no memory for a mix: %zu bytes",
                 block_bytes<Mix>(place));
   }
   out->fingerprint = fingerprint(*out);
   return Status::kOk;
-}
-
-void release_mix(const Mix* mix) {
-  if (!mix || mix->owners.fetch_sub(1, std::memory_order_acq_rel) != 1) return;
-  Mix* last = const_cast<Mix*>(mix);
-  last->tag = 0;
-  release_block(last);
 }
 
 }  // namespace mien

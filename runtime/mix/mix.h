@@ -16,10 +16,8 @@
 //     limits
 #pragma once
 
-#include <atomic>
-
-#include "runtime/base/allocator.h"
-#include "runtime/base/span.h"
+#include "runtime/anim/binding.h"
+#include "runtime/base/object.h"
 #include "runtime/base/status.h"
 #include "runtime/mix/gaze.h"
 #include "runtime/mix/guard.h"
@@ -133,8 +131,6 @@ struct AntagonistPair {
 // The mix
 // ------------------------------------------------------------------------------------------------
 
-constexpr uint32_t kMaxBoundGuiControls = 4096;  // including the one that is always 0
-
 /// For MixDesc::max_bound_gui.
 inline uint32_t bound_gui_limit(uint32_t gui_count) {
   return gui_count < kMaxBoundGuiControls ? gui_count + 1 : kMaxBoundGuiControls;
@@ -168,23 +164,17 @@ struct MixDesc {
   const KernelTable* kernels = nullptr;
 };
 
-/// What the C API recognizes its handles by.
-struct MixTag {
-  uint32_t tag = 0;
-};
-
 /// Immutable, in one block of memory: a copy of the desc, and what steps need besides. Masks of the copy
 /// are 0 for curves that the layer cannot change; there is no gaze if no layer generates it.
-struct Mix : MixTag, MixDesc {
+struct Mix : Object, MixDesc {
+  static constexpr uint32_t kTag = 0x6D4D'4958;
+
   uint32_t curve_count = 0;            // with padding
   uint32_t fade_count = 0;             // weights of poses in all layers
   uint32_t stroke_count = 0;           // of all reactions
   uint32_t first_unprotected = 0;      // layer after the last one of base or speech
   uint32_t first_after_reactions = 0;  // layer after the last one that precedes reactions
   uint64_t fingerprint = 0;            // of everything that a snapshot depends on
-  Allocator allocator;
-  size_t block_size = 0;
-  mutable std::atomic<uint32_t> owners{1};  // the creator and every mixer
 
   Span<Span<float>> mask_rows;   // [layer][curve] the mask, 0 in the padding
   Span<uint32_t> first_fades;    // [layer] of the weights of its poses, in Mixer::pose_weights
@@ -198,9 +188,8 @@ struct Mix : MixTag, MixDesc {
   uint32_t used_curves() const { return raw_count + variable_count; }
 };
 
-/// On success, release `out` with release_mix(). kInvalidArgument, kIndex or kMemory; the message names
+/// On success, give back `out` with release(). kInvalidArgument, kIndex or kMemory; the message names
 /// the element that is wrong.
 Status create_mix(const MixDesc& desc, const Allocator& allocator, Mix*& out, Error& error);
-void release_mix(const Mix* mix);
 
 }  // namespace mien

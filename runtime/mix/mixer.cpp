@@ -116,11 +116,11 @@ size_t mixer_size(const Mix& mix, bool stages) {
 }
 
 Mixer* create_mixer(const Mix& mix, uint64_t seed, bool stages, const Allocator& allocator) {
-  Mixer* const created = create_block<Mixer>(
+  Mixer* const created = create_object<Mixer>(
       allocator, [&](Placer& placer, Mixer& mixer) { place_mixer(placer, mix, stages, mixer); });
   if (!created) return nullptr;
   Mixer& mixer = *created;
-  mixer.mix = &mix;
+  mixer.mix = share(mix);
   mixer.header->seed = seed;
   for (uint32_t i = 0; i < mix.layers.count; ++i) {
     LayerState& layer = mixer.layers[i];
@@ -135,7 +135,6 @@ Mixer* create_mixer(const Mix& mix, uint64_t seed, bool stages, const Allocator&
   }
   for (float& activation : mixer.guard_overrides) activation = -1.0f;
   for (GazeState& gaze : mixer.gazes) gaze.large_shift = kNoShift;
-  mix.owners.fetch_add(1, std::memory_order_relaxed);
   return created;
 }
 
@@ -144,13 +143,6 @@ size_t state_size(const Mix& mix) {
   Placer measure(nullptr);
   place_state(measure, mix, mixer);
   return measure.size();
-}
-
-void destroy_mixer(Mixer* mixer) {
-  if (!mixer) return;
-  const Mix* const mix = mixer->mix;
-  release_block(mixer);
-  release_mix(mix);
 }
 
 // Playing

@@ -105,11 +105,11 @@ struct MixEvent {
   ClipEvent event;
 };
 
-struct Mixer {
-  uint32_t tag = 0;  // first, for the C API to recognize its handles
+struct Mixer : Object {
+  static constexpr uint32_t kTag = 0x6D4D'5852;
+
   const Mix* mix = nullptr;
-  Allocator allocator;
-  size_t block_size = 0;
+  ~Mixer() { release(mix); }
 
   Span<float> row;           // [curve] the result of the last step
   Span<float> guarded_rows;  // [GuardedRow][place in GuardTable::curves], zeros up to kGuardStep
@@ -154,7 +154,6 @@ size_t mixer_size(const Mix& mix, bool stages);
 /// of their desc. `stages`: it keeps the row after each stage. The mixer becomes an owner of the mix. Null
 /// if memory ran out.
 Mixer* create_mixer(const Mix& mix, uint64_t seed, bool stages, const Allocator& allocator);
-void destroy_mixer(Mixer* mixer);
 
 /// Plays a clip in a layer, from the next step on. kIndex if the layer does not exist or is not a clip
 /// layer, kMismatch if the binding is for another clip or for a rig with another number of raw controls,

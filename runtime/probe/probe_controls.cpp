@@ -284,7 +284,7 @@ Status mask_of_groups(const Rig& rig, Span<const uint32_t> groups, float otherwi
     }
     out[c] = all > 1e-6 ? static_cast<float>(inside / all) : otherwise;
   }
-  destroy_instance(instance);
+  release(instance);
   return Status::kOk;
 }
 

@@ -127,6 +127,19 @@ Status probe_gaze(const Deformer& deformer, const uint32_t (&eyes)[2], const All
   return Status::kOk;
 }
 
+Status create_gaze(const Deformer& deformer, const uint32_t (&eyes)[2], const Allocator& allocator,
+                   Gaze*& out, Error& error) {
+  out = nullptr;
+  GazeTable table;
+  const Status status = probe_gaze(deformer, eyes, allocator, table, error);
+  if (status != Status::kOk) return status;
+  out = create_object<Gaze>(allocator, [](Placer&, Gaze&) {});
+  if (!out) return fail(error, Status::kMemory, kNoOffset, "no memory for a gaze");
+  out->raw_count = deformer.rig->raw_count;
+  out->table = table;
+  return status;
+}
+
 bool find_eyes(const Rig& rig, uint32_t (&eyes)[2]) {
   eyes[0] = find_joint(rig, {"L_Eye", "FACIAL_L_Eye"});
   eyes[1] = find_joint(rig, {"R_Eye", "FACIAL_R_Eye"});

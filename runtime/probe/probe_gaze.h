@@ -15,6 +15,10 @@ namespace mien {
 Status probe_gaze(const Deformer& deformer, const uint32_t (&eyes)[2], const Allocator& allocator,
                   GazeTable& out, Error& error);
 
+/// The same as an object, to be given back with release().
+Status create_gaze(const Deformer& deformer, const uint32_t (&eyes)[2], const Allocator& allocator,
+                   Gaze*& out, Error& error);
+
 /// Finds the left and right eye: joints L_Eye and R_Eye, with or without the prefix FACIAL_. False if there
 /// are none.
 bool find_eyes(const Rig& rig, uint32_t (&eyes)[2]);

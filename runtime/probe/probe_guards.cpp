@@ -267,4 +267,35 @@ Status probe_guards(const Deformer& deformer, Span<const GuardDesc> descs,
   return Status::kOk;
 }
 
+Status plan_guards(const Deformer& deformer, GuardKinds kinds, Span<const GuardDesc> own,
+                   const Allocator& allocator, Guard (&out)[kMaxGuards], uint32_t& count,
+                   Error& error) {
+  count = 0;
+  Arena arena(allocator);
+  StandardGuards found = {};
+  if (kinds != 0) {
+    const Status status = find_standard_guards(deformer, allocator, arena, found, error);
+    if (status != Status::kOk) return status;
+  }
+  GuardDesc descs[kMaxGuards];
+  uint32_t planned = 0;
+  for (uint32_t i = 0; i < found.count; ++i) {
+    if ((kinds >> static_cast<uint32_t>(found.kinds[i]) & 1) != 0)
+      descs[planned++] = found.descs[i];
+  }
+  if (own.count > kMaxGuards - planned) {
+    return fail(error, Status::kInvalidArgument, kNoOffset,
+                "%u guards of the rig and %zu of the caller; a mix has at most %u", planned,
+                own.count, kMaxGuards);
+  }
+  for (const GuardDesc& desc : own) descs[planned++] = desc;
+  if (planned != 0) {
+    const Status status =
+        probe_guards(deformer, {descs, planned}, allocator, {out, planned}, error);
+    if (status != Status::kOk) return status;
+  }
+  count = planned;
+  return Status::kOk;
+}
+
 }  // namespace mien

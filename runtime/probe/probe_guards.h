@@ -37,4 +37,13 @@ struct StandardGuards {
 Status find_standard_guards(const Deformer& deformer, const Allocator& allocator, Arena& arena,
                             StandardGuards& out, Error& error);
 
+/// A set of standard guards: bit k is the StandardGuard k.
+using GuardKinds = uint32_t;
+
+/// Measures the guards of a mix: those of `kinds` whose landmarks are found, then `own`. kInvalidArgument for
+/// more than kMaxGuards; errors of find_standard_guards() and probe_guards().
+Status plan_guards(const Deformer& deformer, GuardKinds kinds, Span<const GuardDesc> own,
+                   const Allocator& allocator, Guard (&out)[kMaxGuards], uint32_t& count,
+                   Error& error);
+
 }  // namespace mien

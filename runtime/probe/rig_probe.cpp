@@ -31,8 +31,8 @@ RigProbe::RigProbe(const Deformer& deformer, const Allocator& allocator)
 }
 
 RigProbe::~RigProbe() {
-  if (deformed_) destroy_deformer_instance(deformed_);
-  if (instance_) destroy_instance(instance_);
+  release(deformed_);
+  release(instance_);
 }
 
 void RigProbe::clear() {

@@ -11,12 +11,8 @@
 // that each LOD uses a prefix of what the LOD before it uses.
 #pragma once
 
-#include <atomic>
-
-#include "runtime/base/allocator.h"
 #include "runtime/base/coordinate_system.h"
 #include "runtime/base/shared_bytes.h"
-#include "runtime/base/span.h"
 #include "runtime/base/transform.h"
 #include "runtime/rig/joint_matrix.h"
 #include "runtime/rig/stage_access.h"
@@ -289,14 +285,12 @@ struct Units {
   int32_t rotation_signs[3] = {1, 1, 1};
 };
 
-struct Rig {
-  uint32_t tag = 0;  // first, for the C API to recognize its handles
-  Allocator allocator;
-  size_t block_size = 0;
+struct Rig : Object {
+  static constexpr uint32_t kTag = 0x6D52'4947;
+
   const SharedBytes* bytes = nullptr;  // of a baked rig: where its arrays are; owned with others
   size_t baked_size = 0;               // of its part of these bytes
-  size_t instance_size = 0;
-  mutable std::atomic<uint32_t> owners{1};  // the creator and every instance
+  ~Rig() { release(bytes); }
 
   const KernelTable* kernels = nullptr;
   uint32_t lod_count = 0;
@@ -338,8 +332,5 @@ struct Rig {
   LodLists variable_joint_values;
   NameList names[kKindsWithNames];
 };
-
-/// Drops one owner; the last one releases the block.
-void release_rig(const Rig* rig);
 
 }  // namespace mien

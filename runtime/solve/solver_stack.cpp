@@ -98,7 +98,7 @@ Status check_order(Span<const SolverDesc> solvers, const DepthFirst& tree, Error
   return Status::kOk;
 }
 
-Solver planned_solver(const SolverDesc& from, Stack& plan) {
+Solver planned_solver(const SolverDesc& from, StackPlan& plan) {
   Solver solver = {};
   solver.name = {from.name, strlen(from.name) + 1};
   solver.solve = from.solve;
@@ -116,7 +116,7 @@ Solver planned_solver(const SolverDesc& from, Stack& plan) {
 }
 
 /// Of lists in scratch memory; the stack gets copies. False if memory ran out.
-bool plan_stack(const StackDesc& desc, const DepthFirst& tree, Arena& scratch, Stack& plan) {
+bool plan_stack(const StackDesc& desc, const DepthFirst& tree, Arena& scratch, StackPlan& plan) {
   const size_t joints = tree.order.count;
   size_t writes = 0;
   for (const SolverDesc& solver : desc.solvers) writes += solver.writes.count;
@@ -190,23 +190,28 @@ Status create_stack(const Skeleton& skeleton, const StackDesc& desc, const Alloc
   if (!sort_depth_first(skeleton, scratch, tree)) return no_memory(error);
   const Status status = check_order(desc.solvers, tree, error);
   if (status != Status::kOk) return status;
-  Stack plan;
+  StackPlan plan;
   plan.skeleton = &skeleton;
+  plan.curve_count = desc.curve_count;
   plan.check_writes = desc.check_writes;
   if (!plan_stack(desc, tree, scratch, plan)) return no_memory(error);
-  out = create_block<Stack>(allocator, [&](Placer& placer, Stack& stack) {
-    stack = plan;
+  out = create_object<Stack>(allocator, [&](Placer& placer, Stack& stack) {
+    static_cast<StackPlan&>(stack) = plan;
     place_stack(placer, stack);
   });
   return out ? Status::kOk : no_memory(error);
 }
 
-void release_stack(Stack* stack) { release_block(stack); }
+Status create_stack(const Deformer& deformer, const StackDesc& desc, const Allocator& allocator,
+                    Stack*& out, Error& error) {
+  const Status status = create_stack(deformer.skeleton, desc, allocator, out, error);
+  if (status == Status::kOk) out->deformer = share(deformer);
+  return status;
+}
 
 namespace {
 
 void place_state(Placer& placer, const Stack& stack, StackState& state) {
-  state.stack = &stack;
   const size_t floats = size_t{stack.skeleton->joint_count} * kLocalTransformFloats;
   state.locals = placer.array<float>(floats, kBlockAlignment);
   state.previous = placer.array<float>(size_t{stack.previous_count} * kMatrixFloats);
@@ -223,11 +228,11 @@ size_t stack_state_size(const Stack& stack) {
 }
 
 StackState* create_stack_state(const Stack& stack, const Allocator& allocator) {
-  return create_block<StackState>(
-      allocator, [&](Placer& placer, StackState& state) { place_state(placer, stack, state); });
+  auto* const state = create_object<StackState>(
+      allocator, [&](Placer& placer, StackState& made) { place_state(placer, stack, made); });
+  if (state) state->stack = share(stack);
+  return state;
 }
-
-void destroy_stack_state(StackState* state) { release_block(state); }
 
 // Stepping
 // ------------------------------------------------------------------------------------------------

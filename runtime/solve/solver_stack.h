@@ -14,6 +14,7 @@
 #pragma once
 
 #include "runtime/base/status.h"
+#include "runtime/deform/deformer.h"
 #include "runtime/pose/joint_pose.h"
 
 namespace mien {
@@ -70,10 +71,8 @@ struct Solver {
   size_t state_at;
 };
 
-/// In one block of memory. The skeleton has to outlive it.
-struct Stack {
-  Allocator allocator;
-  size_t block_size = 0;
+/// What a stack is made of.
+struct StackPlan {
   const Skeleton* skeleton = nullptr;
   Span<uint16_t> order;  // [place] joint, depth first
   Span<Solver> solvers;
@@ -82,19 +81,31 @@ struct Stack {
       changed;  // all that any solver moves: their skin matrices are computed at the end
   uint32_t first_last_update = 0;
   uint32_t previous_count = 0, output_count = 0;
-  size_t state_size = 0;  // bytes of all solvers
+  size_t state_size = 0;     // bytes of all solvers
+  uint32_t curve_count = 0;  // of the rows that its solvers read
   bool check_writes = false;
 };
 
+/// In one block of memory.
+struct Stack : Object, StackPlan {
+  static constexpr uint32_t kTag = 0x6D53'4F4C;
+
+  const Deformer* deformer = nullptr;  // whose skeleton it is, or null
+  ~Stack() { release(deformer); }
+};
+
 /// One character in a stack, in one block of memory.
-struct StackState {
-  Allocator allocator;
-  size_t block_size = 0;
+struct StackState : Object {
+  static constexpr uint32_t kTag = 0x6D53'5354;
+
   const Stack* stack = nullptr;
-  bool fresh = true;     // no step was made yet
-  Span<float> locals;    // [joint] kLocalTransformFloats
-  Span<float> previous;  // [joint of all `previous` lists] kMatrixFloats
-  Span<float> outputs;   // of all solvers
+  ~StackState() { release(stack); }
+
+  bool in_batch = false;  // while the arguments of a batch are checked
+  bool fresh = true;      // no step was made yet
+  Span<float> locals;     // [joint] kLocalTransformFloats
+  Span<float> previous;   // [joint of all `previous` lists] kMatrixFloats
+  Span<float> outputs;    // of all solvers
   Span<uint8_t> solver_states;
   Span<float> checked;  // with check_writes: locals before a solver
   const char* undeclared =
@@ -104,23 +115,27 @@ struct StackState {
 
 struct StackDesc {
   Span<const SolverDesc> solvers;  // in the order in which they run
+  uint32_t curve_count = 0;        // of the rows that they read
   /// Compares all joints before and after each solver: for debugging.
   bool check_writes = false;
 };
 
 /// kIndex for joints that the skeleton does not have; kInvalidArgument for a solver without a function
 /// or with a list of writes that is empty, and for one that reads a joint which it does not write
-/// itself and which a later solver moves, or moves a parent of: the message names both. kMemory.
+/// itself and which a later solver moves, or moves a parent of: the message names both. kMemory. The skeleton
+/// has to outlive the stack.
 Status create_stack(const Skeleton& skeleton, const StackDesc& desc, const Allocator& allocator,
                     Stack*& out, Error& error);
-void release_stack(Stack* stack);
+
+/// The same for the skeleton of a deformer, of which the stack becomes an owner.
+Status create_stack(const Deformer& deformer, const StackDesc& desc, const Allocator& allocator,
+                    Stack*& out, Error& error);
 
 /// Bytes of a state.
 size_t stack_state_size(const Stack& stack);
 
-/// The stack has to outlive it. Null if memory ran out.
+/// The state becomes an owner of the stack. Null if memory ran out.
 StackState* create_stack_state(const Stack& stack, const Allocator& allocator);
-void destroy_stack_state(StackState* state);
 
 /// A character to step.
 struct StackPose {

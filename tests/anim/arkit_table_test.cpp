@@ -61,7 +61,7 @@ std::map<std::string, Shares> driven() {
       if (raw[c] != 0) found[input.names[e]][names[c]] = raw[c];
     }
   }
-  release_binding(binding);
+  release(binding);
   return found;
 }
 

@@ -80,7 +80,7 @@ class Bound {
               Status::kOk)
         << error.message;
   }
-  ~Bound() { release_binding(binding_); }
+  ~Bound() { release(binding_); }
   Bound(const Bound&) = delete;
   Bound& operator=(const Bound&) = delete;
 
@@ -326,10 +326,10 @@ TEST(Binding, SurvivesEveryFailureOfTheAllocator) {
     EXPECT_EQ(status, k == 0 ? Status::kOk : Status::kMemory);
     EXPECT_EQ(binding != nullptr, k == 0);
     EXPECT_EQ(counter.live, k == 0 ? 1u : 0u) << "a binding is one block";
-    release_binding(binding);
+    release(binding);
     EXPECT_TRUE(counter.clean()) << counter.first_wrong;
   }
-  release_binding(nullptr);
+  release<Binding>(nullptr);
 }
 
 TEST(Binding, BindsToARigThatWasOpenedFromDna) {

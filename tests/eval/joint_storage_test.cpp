@@ -62,7 +62,7 @@ Errors compare(const MienDna* dna, uint32_t isa) {
     a.evaluate(0);
     b.evaluate(0);
     EXPECT_EQ(a.psd.count, b.psd.count);
-    const std::vector<double> tolerance = tolerances(dna->view, a.controls);
+    const std::vector<double> tolerance = tolerances(capi::object(dna)->view, a.controls);
     for (size_t i = 0; i < tolerance.size(); ++i) {
       const double error = std::fabs(double{a.joints[i]} - b.joints[i]);
       EXPECT_LE(error, tolerance[i]) << "joint value " << i << ", " << percent << " %";

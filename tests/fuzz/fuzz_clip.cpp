@@ -129,7 +129,7 @@ void bind(const uint8_t* data, size_t size) {
   std::vector<float> gui(binding->gui_count), raw(binding->raw_count);
   apply_binding(*binding, {values.data(), values.size()}, {gui.data(), gui.size()},
                 {raw.data(), raw.size()});
-  release_binding(binding);
+  release(binding);
 }
 
 MienClipBinding* bind_by_handle(const MienClip* clip) {

@@ -53,7 +53,7 @@ void use(const Mix& mix) {
   scene_requires(
       open_mix({bytes.data(), bytes.size()}, nullptr, default_allocator(), again, error));
   if (written(*again) != bytes) abort();
-  release_mix(again);
+  release(again);
   size_t size = 0;
   scene_requires(write_mix_text(mix, {}, size, error));
   std::vector<char> text(size);
@@ -76,7 +76,7 @@ void use(const Mix& mix) {
       if (!std::isfinite(value)) abort();
     }
   }
-  destroy_mixer(mixer);
+  release(mixer);
 }
 
 }  // namespace
@@ -108,7 +108,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
       continue;
     }
     use(*mix);
-    release_mix(mix);
+    release(mix);
   }
   return 0;
 }

@@ -234,7 +234,7 @@ TEST(Gazes, AreRefusedIfTheyAreWrong) {
     Mix* mix = nullptr;
     Error error;
     const Status status = create_mix(input.finish(), default_allocator(), mix, error);
-    release_mix(mix);
+    release(mix);
     return status;
   };
   EXPECT_EQ(created([](MixInput&, GazeTable&) {}), Status::kOk);

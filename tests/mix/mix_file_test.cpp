@@ -124,7 +124,7 @@ TEST(MixFile, GivesBackItsBytes) {
 TEST(MixFile, MixesLikeTheOriginal) {
   const MixScene scene(24);
   MixScene other(24);
-  release_mix(other.mix);
+  release(other.mix);
   const NamedRig same(numbered(24));
   other.mix = opened(written(*scene.mix), &same.rig).release();
   EXPECT_EQ(other.mix->fingerprint, scene.mix->fingerprint);

@@ -495,7 +495,7 @@ Status created(MixInput& input) {
   Mix* mix = nullptr;
   Error error;
   const Status status = create_mix(input.finish(), default_allocator(), mix, error);
-  release_mix(mix);
+  release(mix);
   EXPECT_EQ(status == Status::kOk, error.message[0] == 0);
   return status;
 }
@@ -647,8 +647,8 @@ TEST(Memory, EveryFailedRequestIsReported) {
   Mixer* mixer = create_mixer(*mix, 1, false, allocator);
   ASSERT_NE(mixer, nullptr);
   EXPECT_EQ(create_mixer(*mix, 1, false, allocator), nullptr);
-  destroy_mixer(mixer);
-  release_mix(mix);
+  release(mixer);
+  release(mix);
   EXPECT_TRUE(counting.clean());
 }
 

@@ -87,7 +87,7 @@ int continue_there(const std::string& folder) {
   const Bytes snapshots = read(folder + "/new_process.snapshots");
   const Bytes hashes = read(folder + "/new_process.hashes");
   MixScene scene(24);  // for its clips
-  release_mix(scene.mix);
+  release(scene.mix);
   Error error;
   // Its raw controls come in the order of their names without a rig, so this is one with the
   // names of the scene.

@@ -417,7 +417,7 @@ TEST(Reactions, RefuseWhatDoesNotExist) {
     change(desc);
     Mix* mix = nullptr;
     const Status status = create_mix(input.finish(), default_allocator(), mix, error);
-    release_mix(mix);
+    release(mix);
     return status;
   };
   EXPECT_EQ(created([](ReactionDesc&) {}), Status::kOk);

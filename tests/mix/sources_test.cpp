@@ -333,7 +333,7 @@ TEST(Generators, RefuseWhatIsOutOfRange) {
     Mix* mix = nullptr;
     Error error;
     const Status status = create_mix(input.finish(), default_allocator(), mix, error);
-    release_mix(mix);
+    release(mix);
     return status;
   };
   static const uint16_t beyond[2] = {2, kCurves};

@@ -253,6 +253,51 @@ TEST(FindGuards, FindsNothingOnARigWithoutAFace) {
   EXPECT_EQ(found.count, 0u);
 }
 
+// Planning ----------------------------------------------------------------------------------------
+
+TEST(PlanGuards, TakesTheStandardGuardsThatAreAskedForThenTheCallers) {
+  const GuardedHead& h = head(0);
+  const uint32_t lips = static_cast<uint32_t>(h.index(Kind::kLipsCenter));
+  GuardDesc own = h.standard.descs[lips];
+  own.kind = kStandardGuardCount;
+  own.tolerance = 2;
+  Guard guards[kMaxGuards];
+  uint32_t count = 0;
+  Error error;
+  const GuardKinds kinds =
+      1u << static_cast<uint32_t>(Kind::kLipsCenter) | 1u << static_cast<uint32_t>(Kind::kLidsLeft);
+  ASSERT_EQ(plan_guards(h.deformer, kinds, {&own, 1}, default_allocator(), guards, count, error),
+            Status::kOk)
+      << error.message;
+  ASSERT_EQ(count, 3u);
+  EXPECT_EQ(guards[0].kind, static_cast<uint32_t>(Kind::kLipsCenter));
+  EXPECT_EQ(guards[1].kind, static_cast<uint32_t>(Kind::kLidsLeft));
+  EXPECT_EQ(guards[2].kind, kStandardGuardCount);
+  EXPECT_EQ(guards[2].tolerance, 2);
+  EXPECT_EQ(guards[2].rest, guards[0].rest);  // the same landmarks
+  ASSERT_EQ(plan_guards(h.deformer, 0, {&own, 1}, default_allocator(), guards, count, error),
+            Status::kOk);
+  EXPECT_EQ(count, 1u);
+  ASSERT_EQ(plan_guards(h.deformer, 0, {}, default_allocator(), guards, count, error), Status::kOk);
+  EXPECT_EQ(count, 0u);
+}
+
+TEST(PlanGuards, RefusesMoreThanAMixHas) {
+  const GuardedHead& h = head(0);
+  const std::vector<GuardDesc> own(kMaxGuards, h.standard.descs[0]);
+  Guard guards[kMaxGuards];
+  uint32_t count = 7;
+  Error error;
+  const GuardKinds kinds = 1u << static_cast<uint32_t>(Kind::kLipsCenter);
+  EXPECT_EQ(plan_guards(h.deformer, kinds, {own.data(), own.size()}, default_allocator(), guards,
+                        count, error),
+            Status::kInvalidArgument);
+  EXPECT_EQ(count, 0u);
+  EXPECT_EQ(std::string(error.message),
+            "1 guards of the rig and 8 of the caller; a mix has at "
+            "most 8");
+}
+
 // Probing -----------------------------------------------------------------------------------------
 
 TEST(ProbeGuards, FitsTheHeadToATenthOfAMillimeter) {

@@ -73,8 +73,8 @@ struct SolvedRig : Deformed {
 };
 
 struct CloseStack {
-  void operator()(Stack* stack) const { release_stack(stack); }
-  void operator()(StackState* state) const { destroy_stack_state(state); }
+  void operator()(Stack* stack) const { release(stack); }
+  void operator()(StackState* state) const { release(state); }
 };
 using StackHandle = std::unique_ptr<Stack, CloseStack>;
 using StateHandle = std::unique_ptr<StackState, CloseStack>;
@@ -83,7 +83,7 @@ inline StackHandle make_stack(const Skeleton& skeleton, const std::vector<Solver
                               bool check_writes = false) {
   Stack* stack = nullptr;
   Error error;
-  const StackDesc desc = {{solvers.data(), solvers.size()}, check_writes};
+  const StackDesc desc = {{solvers.data(), solvers.size()}, 0, check_writes};
   EXPECT_EQ(create_stack(skeleton, desc, default_allocator(), stack, error), Status::kOk)
       << error.message;
   return StackHandle(stack);
@@ -97,10 +97,10 @@ inline std::pair<Status, std::string> stack_error(const Skeleton& skeleton,
                                                   const std::vector<SolverDesc>& solvers) {
   Stack* stack = nullptr;
   Error error;
-  const Status status = create_stack(skeleton, {{solvers.data(), solvers.size()}, false},
-                                     default_allocator(), stack, error);
+  const Status status =
+      create_stack(skeleton, {{solvers.data(), solvers.size()}}, default_allocator(), stack, error);
   EXPECT_EQ(stack != nullptr, status == Status::kOk);
-  release_stack(stack);
+  release(stack);
   return {status, error.message};
 }
 

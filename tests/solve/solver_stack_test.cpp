@@ -346,8 +346,8 @@ TEST(SolverStack, FailsWithoutALeakWhereverMemoryRunsOut) {
     StackState* state = stack ? create_stack_state(*stack, allocator) : nullptr;
     EXPECT_EQ(status, stack ? Status::kOk : Status::kMemory);
     const bool all = state != nullptr;
-    destroy_stack_state(state);
-    release_stack(stack);
+    release(state);
+    release(stack);
     EXPECT_TRUE(memory.clean()) << memory.first_wrong;
     EXPECT_EQ(all, memory.failed == 0);
     if (all) break;

@@ -253,7 +253,7 @@ struct MixScene {
     Error error;
     scene_requires(create_mix(desc, default_allocator(), mix, error));
   }
-  ~MixScene() { release_mix(mix); }
+  ~MixScene() { release(mix); }
   MixScene(const MixScene&) = delete;
 
   ClipFinder finder() const {
@@ -269,7 +269,7 @@ struct MixScene {
 /// Plays the scene at random; what it does depends on the random numbers alone.
 struct SceneActor {
   struct Destroy {
-    void operator()(Mixer* made) const { destroy_mixer(made); }
+    void operator()(Mixer* made) const { release(made); }
   };
   const MixScene& scene;
   std::unique_ptr<Mixer, Destroy> mixer;

@@ -95,8 +95,8 @@ struct MixInput {
 };
 
 struct CloseMix {
-  void operator()(Mix* mix) const { release_mix(mix); }
-  void operator()(Mixer* mixer) const { destroy_mixer(mixer); }
+  void operator()(Mix* mix) const { release(mix); }
+  void operator()(Mixer* mixer) const { release(mixer); }
 };
 using MixHandle = std::unique_ptr<Mix, CloseMix>;
 using MixerHandle = std::unique_ptr<Mixer, CloseMix>;

@@ -22,7 +22,11 @@ struct CloseHandle {
   void operator()(MienBatch* batch) const { mien_batch_destroy(batch); }
 };
 using BatchHandle = std::unique_ptr<MienBatch, CloseHandle>;
-using DnaHandle = std::unique_ptr<MienDna, CloseHandle>;
+/// Shows what is behind the handle: dna->view.
+struct DnaHandle : std::unique_ptr<MienDna, CloseHandle> {
+  using std::unique_ptr<MienDna, CloseHandle>::unique_ptr;
+  dna::DnaFile* operator->() const { return capi::object(get()); }
+};
 using RigHandle = std::unique_ptr<MienRig, CloseHandle>;
 using InstanceHandle = std::unique_ptr<MienInstance, CloseHandle>;
 
@@ -61,7 +65,7 @@ inline std::vector<uint8_t> write_dna(const MienDna* dna) {
 
 /// File bytes of a view that was made by hand: opening them checks it like any other file.
 inline std::vector<uint8_t> write_view(const dna::DnaView& view) {
-  const DnaHandle dna(capi::new_dna(default_allocator()));
+  const DnaHandle dna(reinterpret_cast<MienDna*>(create_object<dna::DnaFile>(default_allocator())));
   dna->view = view;
   return write_dna(dna.get());
 }

@@ -65,7 +65,7 @@ Status fill_mesh(const MeshSource& source, const MeshPlan& plan, DeformMesh& mes
 
 void place_all(const DnaView& view, const Rig& rig, Span<const MeshPlan> plans, bool tangents,
                Placer& placer, Deformer& deformer) {
-  placer.array<Deformer>(1);
+  placer.object<Deformer>();
   place_skeleton(rig, placer, deformer.skeleton);
   deformer.meshes = placer.unwritten_array<DeformMesh>(rig.mesh_count);
   for (uint32_t m = 0; m < rig.mesh_count; ++m) {
@@ -73,6 +73,37 @@ void place_all(const DnaView& view, const Rig& rig, Span<const MeshPlan> plans, 
     DeformMesh& mesh = placer.measuring() ? measured : *new (&deformer.meshes[m]) DeformMesh;
     place_mesh(mesh_at(view, m), m < plans.count ? plans[m] : kNoPlan, tangents, placer, mesh);
   }
+}
+
+/// A rig and a DNA file must have the same joints, channels and meshes.
+Status compare_names(const DnaView& view, const Rig& rig, Error& error) {
+  const struct {
+    Kind kind;
+    const dna::List<dna::String>& names;
+    const char* noun;
+  } lists[] = {{Kind::kJoint, view.defn.joint_names, "joint"},
+               {Kind::kBlendShapeChannel, view.defn.channel_names, "blend shape channel"},
+               {Kind::kMesh, view.defn.mesh_names, "mesh"}};
+  for (const auto& list : lists) {
+    const NameList& own = rig.names[size_t(list.kind)];
+    if (own.count() != list.names.count) {
+      return fail(error, Status::kMismatch, kNoOffset,
+                  "the rig was made of another file, or with other LODs: it has %u %s names, "
+                  "the DNA has %u",
+                  own.count(), list.noun, list.names.count);
+    }
+    for (uint32_t i = 0; i < own.count(); ++i) {
+      const Span<char> a = own[i];
+      const dna::String& b = list.names[i];
+      if (a.count == b.count && (a.count == 0 || memcmp(a.data, b.data, a.count) == 0)) continue;
+      return fail(error, Status::kMismatch, kNoOffset,
+                  "the rig was made of another file, or with other LODs: %s %u is %.*s, "
+                  "in the DNA it is %.*s",
+                  list.noun, i, static_cast<int>(std::min<size_t>(a.count, 40)), a.data,
+                  static_cast<int>(std::min<size_t>(b.count, 40)), b.chars());
+    }
+  }
+  return Status::kOk;
 }
 
 }  // namespace
@@ -84,6 +115,8 @@ Status MeshSource::no_memory() const {
 Status compile_deformer(const DnaView& view, const Rig& rig, const DeformOptions& options,
                         const Allocator& allocator, Deformer*& out, Error& error) {
   out = nullptr;
+  Status status = compare_names(view, rig, error);
+  if (status != Status::kOk) return status;
   Arena scratch(allocator);
   // Meshes that the geometry lacks, which are the last, have nothing to plan and to fill.
   const uint32_t present = std::min(rig.mesh_count, view.geom.meshes.count);
@@ -94,7 +127,6 @@ Status compile_deformer(const DnaView& view, const Rig& rig, const DeformOptions
   const auto source = [&](uint32_t m) {
     return MeshSource{view, mesh_at(view, m), m, options, scratch, error};
   };
-  Status status = Status::kOk;
   for (uint32_t m = 0; m < present; ++m) {
     status = plan_mesh(source(m), plans[m]);
     if (status != Status::kOk) return status;
@@ -111,17 +143,14 @@ Status compile_deformer(const DnaView& view, const Rig& rig, const DeformOptions
   Placer placer(block);
   Deformer placed;
   place_all(view, rig, plans, options.tangents, placer, placed);
-  Deformer* deformer = new (block) Deformer;
-  deformer->allocator = allocator;
-  deformer->block_size = measure.size();
+  Deformer* deformer = start_object<Deformer>(block, measure.size(), allocator);
   deformer->kernels = options.kernels;
-  deformer->rig = &rig;
+  deformer->rig = share(rig);
   deformer->normals = options.normals;
   deformer->fix_weights = options.fix_weights;
   deformer->has_tangents = options.tangents;
   deformer->skeleton = placed.skeleton;
   deformer->meshes = placed.meshes;
-  rig.owners.fetch_add(1, std::memory_order_relaxed);
   mark_mesh_lods(rig, deformer->meshes);
 
   status = fill_skeleton(rig, options.kernels, options.compose, scratch, deformer->skeleton, error);
@@ -129,7 +158,7 @@ Status compile_deformer(const DnaView& view, const Rig& rig, const DeformOptions
     status = fill_mesh(source(m), plans[m], deformer->meshes[m]);
   }
   if (status != Status::kOk) {
-    release_deformer(deformer);
+    release(deformer);
     return status;
   }
   out = deformer;

@@ -17,8 +17,8 @@ struct DeformOptions {
   bool tangents = false;
 };
 
-/// Compiles the geometry of a checked view that has the same joints, channels and meshes as `rig`.
-/// On success `out` is one block of `allocator`, which release_deformer() frees, and shares the
+/// Compiles the geometry of a checked view. kMismatch if it has not the joints, channels and meshes of `rig`.
+/// On success `out` is one block of `allocator`, which release() frees, and shares the
 /// rig. kDnaValue: a joint is its own ancestor, or a position, delta or weight is not finite.
 /// kDnaLimit: a position has more than 65535 influences. kMemory.
 Status compile_deformer(const dna::DnaView& view, const Rig& rig, const DeformOptions& options,

@@ -365,7 +365,7 @@ Status compile_rig(const DnaView& view, const CompileOptions& options, const All
   status = plan_rotations(view, joints, measured, scratch, rotations, error);
   if (status != Status::kOk) return status;
   Placer measure(nullptr);
-  measure.array<Rig>(1);
+  measure.object<Rig>();
   status = place_all(view, joints, rotations, measure, measured, error);
   if (status != Status::kOk) return status;
 
@@ -380,17 +380,15 @@ Status compile_rig(const DnaView& view, const CompileOptions& options, const All
   }
 
   Placer placer(block);
-  placer.array<Rig>(1);
-  Rig* rig = new (block) Rig;
-  rig->allocator = allocator;
-  rig->block_size = measure.size();
+  placer.object<Rig>();
+  Rig* rig = start_object<Rig>(block, measure.size(), allocator);
   rig->ml.blend_masks = options.blend_masks;
   count_things(view, options, *rig);
   status = place_all(view, joints, rotations, placer, *rig, error);
   if (status == Status::kOk)
     status = fill_all(view, joints, rotations, reach, scratch, *rig, error);
   if (status != Status::kOk) {
-    release_rig(rig);
+    release(rig);
     return status;
   }
   out = rig;

@@ -22,7 +22,7 @@ struct CompileOptions {
 };
 
 /// Packs a checked view (definition and behavior loaded). On success `out` is one block of
-/// `allocator`, to be given back by release_rig(); the view is no longer needed.
+/// `allocator`, to be given back by release(); the view is no longer needed.
 Status compile_rig(const dna::DnaView& view, const CompileOptions& options,
                    const Allocator& allocator, Rig*& out, Error& error);
 

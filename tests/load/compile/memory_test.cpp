@@ -21,9 +21,9 @@ size_t fail_compiling(const MienDna* dna, bool other_form) {
   options.quaternion_outputs = options.half_storage = options.blend_masks = other_form;
   return fail_every_array([&](const Allocator& allocator, Error& error) {
     Rig* rig = nullptr;
-    const Status status = compile_rig(dna->view, options, allocator, rig, error);
+    const Status status = compile_rig(capi::object(dna)->view, options, allocator, rig, error);
     EXPECT_EQ(rig == nullptr, status != Status::kOk);
-    if (rig) release_rig(rig);
+    if (rig) release(rig);
     return status;
   });
 }
@@ -51,7 +51,7 @@ TEST(CompileMemory, EachArrayOfADeformer) {
                 const Status status = compile_deformer(dna->view, *capi::object(rig.get()), options,
                                                        allocator, deformer, error);
                 EXPECT_EQ(deformer == nullptr, status != Status::kOk);
-                if (deformer) release_deformer(deformer);
+                if (deformer) release(deformer);
                 return status;
               }),
               10u);

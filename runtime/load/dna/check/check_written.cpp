@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/load/dna/check/check_written.h"
 
+#include <cinttypes>
+
 #include "runtime/load/dna/check/dna_check.h"
 #include "runtime/load/dna/format/pose_controls.h"
 
@@ -36,6 +38,18 @@ bool leave_out_layers(DnaView& view, const WriteOptions& options) {
 }  // namespace
 
 Status check_written(const DnaView& view, const WriteOptions& options, Arena& arena, Error& error) {
+  if (view.has(kLayerRbf) && !view.has(kLayerMachineLearned) && view.ml_control_count != 0) {
+    return fail(error, Status::kDnaLayer, kNoOffset,
+                "RBF behavior was opened without the machine-learned behavior of the file, "
+                "whose controls are numbered before its own: open both to write the file");
+  }
+  const uint64_t size = encoded_size(view, options);
+  if (size > UINT32_MAX) {
+    return fail(error, Status::kDnaLimit, kNoOffset,
+                "the file would have %" PRIu64
+                " bytes, DNA files hold less than 4 GiB: write fewer LODs or layers",
+                size);
+  }
   DnaView left = view;
   if (!leave_out_layers(left, options)) return Status::kOk;
   if (!synthesize_pose_controls(left, arena)) {

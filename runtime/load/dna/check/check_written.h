@@ -9,7 +9,8 @@
 namespace mien::dna {
 
 /// Checks what remains of a view that passed the checks when it is written with `options`. Looks at
-/// nothing if all of it remains. `arena` is for temporary memory.
+/// nothing if all of it remains. `arena` is for temporary memory. kDnaLayer for RBF behavior without the
+/// machine-learned behavior of its file, kDnaLimit for a file of 4 GiB, kMemory.
 Status check_written(const DnaView& view, const WriteOptions& options, Arena& arena, Error& error);
 
 }  // namespace mien::dna

@@ -137,7 +137,7 @@ std::vector<bool> moved_values(const RigHandle& rig, const MienDna* dna, uint32_
   std::vector<bool> moved;
   for (uint32_t frame = 0; frame < frames; ++frame) {
     Character character(rig);
-    const bool quaternions = dna->view.rbfb.solvers.count != 0;
+    const bool quaternions = capi::object(dna)->view.rbfb.solvers.count != 0;
     for (size_t i = 0; i < character.raw.count; i += quaternions ? 4 : 1) {
       if (!quaternions) {
         character.raw[i] = static_cast<float>(random.real());

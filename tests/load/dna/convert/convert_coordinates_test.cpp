@@ -64,9 +64,10 @@ class Pair {
  public:
   Pair(const MienDna* original, const MienDna* converted, uint32_t rotation)
       : change_(original, converted),
-        view_(original->view), rigs_{create_rig(original, MIEN_ISA_ENVIRONMENT, MIEN_OK, rotation),
-                                     create_rig(converted, MIEN_ISA_ENVIRONMENT, MIEN_OK,
-                                                rotation)},
+        view_(capi::object(original)->view), rigs_{create_rig(original, MIEN_ISA_ENVIRONMENT,
+                                                              MIEN_OK, rotation),
+                                                   create_rig(converted, MIEN_ISA_ENVIRONMENT,
+                                                              MIEN_OK, rotation)},
         quaternions_(rotation == MIEN_ROTATION_OUTPUT_QUATERNION),
         inputs_(quaternion_inputs(view_)) {}
 
@@ -186,7 +187,7 @@ void expect_same_movements(const MienDna* original, const MienDna* converted, Ra
     for (uint32_t frame = 0; frame < frames; ++frame) {
       SCOPED_TRACE("frame " + std::to_string(frame));
       pair.set_random(random);
-      for (uint32_t lod = 0; lod < original->view.desc.lod_count; ++lod) {
+      for (uint32_t lod = 0; lod < capi::object(original)->view.desc.lod_count; ++lod) {
         SCOPED_TRACE("LOD " + std::to_string(lod));
         pair.compare(lod, tolerance, sums_follow);
       }

@@ -33,9 +33,9 @@ std::map<std::string, std::vector<float>> by_name(const RigHandle& rig, uint32_t
 /// present, so their angles agree within 1e-4 degrees only.
 std::set<std::string> quaternion_joints(const MienDna& dna) {
   std::set<std::string> names;
-  const auto& joints = dna.view.jbmd.joints;
+  const auto& joints = capi::object(&dna)->view.jbmd.joints;
   for (uint32_t j = 0; j < joints.count; ++j) {
-    const dna::String& name = dna.view.defn.joint_names[j];
+    const dna::String& name = capi::object(&dna)->view.defn.joint_names[j];
     if (joints[j].rotation == 1) names.emplace(name.chars(), name.count);
   }
   return names;
@@ -111,7 +111,7 @@ void expect_round_trip(const MienDna& cut) {
   const DnaHandle again = open_dna(bytes);
   ASSERT_TRUE(again);
   EXPECT_EQ(write_dna(again.get()), bytes);
-  std::vector<uint32_t> lods(cut.view.desc.lod_count);
+  std::vector<uint32_t> lods(capi::object(&cut)->view.desc.lod_count);
   for (uint32_t l = 0; l < lods.size(); ++l) lods[l] = l;
   expect_same_results(cut, lods, *again);
 }

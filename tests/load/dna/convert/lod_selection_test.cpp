@@ -245,12 +245,13 @@ void expect_learned(const DnaView& whole, uint64_t mask, const DnaView& cut) {
 }
 
 void expect_numbers(const MienDna& whole, uint64_t mask, const MienDna& cut) {
-  expect_survivors(whole.view, mask, cut.view);
-  expect_lists(whole.view, mask, cut.view);
-  EXPECT_EQ(mesh_channels(cut.view, cut.view), mesh_channels(whole.view, cut.view));
-  expect_skeleton(whole.view, cut.view);
-  expect_geometry(whole.view, cut.view);
-  expect_learned(whole.view, mask, cut.view);
+  expect_survivors(capi::object(&whole)->view, mask, capi::object(&cut)->view);
+  expect_lists(capi::object(&whole)->view, mask, capi::object(&cut)->view);
+  EXPECT_EQ(mesh_channels(capi::object(&cut)->view, capi::object(&cut)->view),
+            mesh_channels(capi::object(&whole)->view, capi::object(&cut)->view));
+  expect_skeleton(capi::object(&whole)->view, capi::object(&cut)->view);
+  expect_geometry(capi::object(&whole)->view, capi::object(&cut)->view);
+  expect_learned(capi::object(&whole)->view, mask, capi::object(&cut)->view);
 }
 
 TEST(LodSelection, GeneratedRigsKeepTheirNumbers) {
