@@ -10,7 +10,7 @@ namespace mien::cli {
 namespace {
 
 constexpr double kFrameActivity = 0.25;
-constexpr const char* kCannot = "cannot measure frames";
+constexpr const char* kCannotMeasure = "cannot measure frames";
 
 /// A rig for one instruction set, its deformer, and the characters of both.
 struct FramePacket {
@@ -26,7 +26,7 @@ struct FramePacket {
 
 void draw_controls(MienInstance* instance, std::mt19937& random) {
   MienMutableFloatView raw{};
-  check(mien_instance_raw_controls(instance, &raw), nullptr, kCannot, "");
+  check(mien_instance_raw_controls(instance, &raw), nullptr, kCannotMeasure, "");
   for (size_t i = 0; i < raw.count; ++i) {
     const bool active = random() % 1000 < 1000 * kFrameActivity;
     raw.data[i] = active ? static_cast<float>((random() >> 8) + 1) / 16777216.0f : 0.0f;
@@ -45,7 +45,7 @@ FramePacket make_packet(const RigFile& file, MienRigDesc desc) {
   MienBatchDesc batch_desc = mien_batch_desc_default();
   batch_desc.capacity = kInstances;
   MienBatch* batch = nullptr;
-  check(mien_batch_create(packet.rig.get(), &batch_desc, &batch, &error), &error, kCannot,
+  check(mien_batch_create(packet.rig.get(), &batch_desc, &batch, &error), &error, kCannotMeasure,
         file.shown);
   packet.batch.reset(batch);
   auto pose_desc = sized<MienDeformerInstanceDesc>();
@@ -53,20 +53,20 @@ FramePacket make_packet(const RigFile& file, MienRigDesc desc) {
   std::mt19937 random(20240229);
   for (uint32_t i = 0; i < kInstances; ++i) {
     MienInstance* instance = nullptr;
-    check(mien_instance_create(packet.rig.get(), nullptr, &instance, &error), &error, kCannot,
-          file.shown);
+    check(mien_instance_create(packet.rig.get(), nullptr, &instance, &error), &error,
+          kCannotMeasure, file.shown);
     packet.instances.emplace_back(instance);
     packet.instance_handles.push_back(instance);
     draw_controls(instance, random);
     MienDeformerInstance* pose = nullptr;
     check(mien_deformer_instance_create(packet.deformer.get(), &pose_desc, &pose, &error), &error,
-          kCannot, file.shown);
+          kCannotMeasure, file.shown);
     packet.poses.emplace_back(pose);
     packet.pose_handles.push_back(pose);
   }
   packet.lods.assign(kInstances, 0);
   MienIndex16View meshes{};
-  check(mien_rig_lod_indices(packet.rig.get(), MIEN_KIND_MESH, 0, &meshes), nullptr, kCannot,
+  check(mien_rig_lod_indices(packet.rig.get(), MIEN_KIND_MESH, 0, &meshes), nullptr, kCannotMeasure,
         file.shown);
   packet.meshes.assign(meshes.data, meshes.data + meshes.count);
   return packet;
@@ -105,7 +105,7 @@ void sample_frame(const FramePacket& packet, uint32_t characters, FrameSamples& 
   samples.evaluate.push_back(time(evaluate));
   samples.pose.push_back(time(update));
   samples.deform.push_back(time(deform));
-  if (failed != MIEN_OK) check(failed, nullptr, kCannot, "");
+  if (failed != MIEN_OK) check(failed, nullptr, kCannotMeasure, "");
 }
 
 }  // namespace

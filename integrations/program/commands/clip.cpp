@@ -498,10 +498,6 @@ void export_json(const ClipFile& file, Output& output) {
   json.finish();
 }
 
-bool ends_with(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
 void run_export(const ClipOptions& options, const Session& session) {
   const std::string& path = options.output.path;
   const bool as_json = ends_with(path, ".json");

@@ -33,7 +33,7 @@ struct ExportOptions {
 
 enum class Format { kGlb, kObj };
 
-constexpr const char* kCannot = "cannot export";
+constexpr const char* kCannotExport = "cannot export";
 constexpr double kDefaultRate = 30;
 constexpr double kNotableClose = 0.005;  // of the size: a millimeter or two of a head
 
@@ -51,7 +51,7 @@ Format parse_format(const ExportOptions& options) {
              "let it end in .glb or .obj, or add --format");
 }
 
-double parse_rate(const ExportOptions& options) {
+double frames_per_second(const ExportOptions& options) {
   if (options.rate.empty()) return kDefaultRate;
   if (options.animation.empty()) {
     fail_usage("--fps " + options.rate, "there is no animation", "add --animation FRAMES");
@@ -184,7 +184,7 @@ gltf::ExpressionSet parse_sets(const ExportOptions& options) {
          is_file ? gltf::read_expression_set(word) : gltf::expression_set(word, mouth_close)) {
       for (const gltf::Expression& other : all) {
         if (other.name != expression.name) continue;
-        fail(kInvalid, kCannot, "--bake " + options.bake,
+        fail(kInvalid, kCannotExport, "--bake " + options.bake,
              "two expressions are named \"" + one_line(other.name) + "\"", "leave one of them out");
       }
       all.push_back(std::move(expression));
@@ -208,7 +208,8 @@ void note_lost_controls(ExportedRig& face, const gltf::RigExpressions& set,
   std::vector<bool> is_known(rig_count(face.rig.get(), MIEN_KIND_RAW_CONTROL));
   for (const gltf::RigExpression& expression : set.expressions) is_known[expression.control] = true;
   MienFloatView initial{};
-  check(mien_rig_initial_raw_controls(face.rig.get(), &initial), nullptr, kCannot, face.file.shown);
+  check(mien_rig_initial_raw_controls(face.rig.get(), &initial), nullptr, kCannotExport,
+        face.file.shown);
   std::vector<bool> is_lost(is_known.size());
   for (const Frame* frame : frames) {
     face.apply(*frame);
@@ -229,7 +230,7 @@ std::string baked_glb(ExportedRig& face, const Frame& still, const std::vector<F
   const gltf::RigExpressions set = gltf::find_expressions(*face.source, parse_sets(options));
   const bool is_posed = !options.settings.empty() || !frames.empty();
   if (is_posed && !set.by_name()) {
-    fail(kInvalid, kCannot, face.file.shown,
+    fail(kInvalid, kCannotExport, face.file.shown,
          "not all baked expressions are controls of the rig, so controls cannot be their weights",
          "leave out --bake, or --set and --animation");
   }
@@ -273,7 +274,7 @@ std::string baked_glb(ExportedRig& face, const Frame& still, const std::vector<F
 
 void run(const ExportOptions& options, const Session& session) {
   const Format format = parse_format(options);
-  const double rate = parse_rate(options);
+  const double rate = frames_per_second(options);
   check_combination(options, format);
   check_glb_options(options.glb);
   if (format == Format::kGlb && options.output.path == "-" && session.terminal.out_is_terminal) {

@@ -11,7 +11,7 @@ namespace mien::cli {
 
 namespace {
 
-constexpr const char* kCannot = "cannot export";
+constexpr const char* kCannotOpenExport = "cannot export";
 
 std::string percent(double share) {
   char text[32];
@@ -92,10 +92,11 @@ ExportedRig::ExportedRig(const std::string& path, const std::string& lod, const 
 }
 
 void ExportedRig::apply(const Frame& frame) {
-  check(mien_instance_reset(instance.get()), nullptr, kCannot, file.shown);
+  check(mien_instance_reset(instance.get()), nullptr, kCannotOpenExport, file.shown);
   apply_frame(frame, rig.get(), instance.get());
-  check(mien_rig_evaluate(rig.get(), instance.get(), 0), nullptr, kCannot, file.shown);
-  check(mien_deformer_instance_update(pose.get(), instance.get()), nullptr, kCannot, file.shown);
+  check(mien_rig_evaluate(rig.get(), instance.get(), 0), nullptr, kCannotOpenExport, file.shown);
+  check(mien_deformer_instance_update(pose.get(), instance.get()), nullptr, kCannotOpenExport,
+        file.shown);
   head_turned = frame.head.turned();
   if (!head_turned) return;
   if (!head) head = std::make_unique<HeadTurn>(rig.get(), deformer.get(), file.shown);
@@ -109,19 +110,19 @@ std::vector<float> ExportedRig::local_transforms() const {
   }
   std::vector<float> values(size_t{10} * rig_count(rig.get(), MIEN_KIND_JOINT));
   check(mien_deformer_instance_local_transforms(pose.get(), values.data(), values.size()), nullptr,
-        kCannot, file.shown);
+        kCannotOpenExport, file.shown);
   return values;
 }
 
 MienFloatView ExportedRig::channel_weights() const {
   MienFloatView view{};
-  check(mien_instance_blend_shapes(instance.get(), &view), nullptr, kCannot, file.shown);
+  check(mien_instance_blend_shapes(instance.get(), &view), nullptr, kCannotOpenExport, file.shown);
   return view;
 }
 
 MienFloatView ExportedRig::raw_controls() const {
   MienFloatView view{};
-  check(mien_instance_controls(instance.get(), &view), nullptr, kCannot, file.shown);
+  check(mien_instance_controls(instance.get(), &view), nullptr, kCannotOpenExport, file.shown);
   return view;
 }
 
@@ -213,7 +214,7 @@ std::string glb_bytes(gltf::Scene& scene, const GlbOptions& options) {
 
 void fail_export(const gltf::ExportError& error, const std::string& rig) {
   const std::string where = error.where.empty() ? "" : ", " + one_line(error.where);
-  fail(exit_code_of(error.status), kCannot, shown_name(rig) + where, error.what(),
+  fail(exit_code_of(error.status), kCannotOpenExport, shown_name(rig) + where, error.what(),
        error.what_to_do);
 }
 

@@ -10,7 +10,7 @@ namespace mien::cli {
 
 namespace {
 
-constexpr char kCannot[] = "cannot extract";
+constexpr char kCannotExtract[] = "cannot extract";
 
 struct ExtractOptions {
   std::string input, index;
@@ -71,11 +71,11 @@ const DnaStream& chosen(const FoundStreams& found, const ExtractOptions& options
   const size_t count = found.streams.size();
   if (options.index.empty()) {
     if (count == 1) return found.streams[0];
-    fail(kInvalid, kCannot, shown, list_of_streams(found), "choose one with --index");
+    fail(kInvalid, kCannotExtract, shown, list_of_streams(found), "choose one with --index");
   }
   const uint64_t index = parse_number("--index", options.index, 1000000);
   if (index >= count) {
-    fail(kInvalid, kCannot, shown,
+    fail(kInvalid, kCannotExtract, shown,
          "there is no stream " + options.index + "; " + list_of_streams(found),
          "choose another --index");
   }
@@ -85,7 +85,7 @@ const DnaStream& chosen(const FoundStreams& found, const ExtractOptions& options
 void run(const ExtractOptions& options, const Session& session) {
   const bool listing = options.list || options.json;
   if (!listing && options.output.path.empty()) {
-    fail(kInvalid, kCannot, shown_name(options.input), "nothing to do",
+    fail(kInvalid, kCannotExtract, shown_name(options.input), "nothing to do",
          "give -o FILE, or --list to see what is in it");
   }
   if (!options.output.path.empty()) {
@@ -95,7 +95,7 @@ void run(const ExtractOptions& options, const Session& session) {
   FileBytes file(options.input);
   const FoundStreams found = find_dna_streams(file);
   if (found.streams.empty()) {
-    fail(kInvalid, kCannot, file.shown(), why_no_stream(found),
+    fail(kInvalid, kCannotExtract, file.shown(), why_no_stream(found),
          "give a file that holds a DNA stream uncompressed");
   }
   if (listing) {
@@ -110,8 +110,9 @@ void run(const ExtractOptions& options, const Session& session) {
   if (options.output.path.empty()) return;
   const DnaStream& stream = chosen(found, options, file.shown());
   if (stream.truncated) {
-    fail(kInvalid, kCannot, file.shown() + ", DNA stream at byte " + std::to_string(stream.offset),
-         stream.problem, "export the file again");
+    fail(kInvalid, kCannotExtract,
+         file.shown() + ", DNA stream at byte " + std::to_string(stream.offset), stream.problem,
+         "export the file again");
   }
   if (!stream.problem.empty()) {
     note(session,

@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "integrations/program/io/nearest_name.h"
+#include "integrations/program/io/text.h"
 
 namespace mien::cli {
 
@@ -70,17 +71,6 @@ constexpr uint32_t kLayerBits[] = {
     MIEN_LAYER_ALL,
 };
 
-Words split(const std::string& list) {
-  Words words;
-  size_t begin = 0;
-  while (true) {
-    const size_t comma = list.find(',', begin);
-    words.push_back(list.substr(begin, comma - begin));
-    if (comma == std::string::npos) return words;
-    begin = comma + 1;
-  }
-}
-
 /// Sets the fields of `desc` that --layers is about.
 void parse_layers(const std::string& list, MienDnaDesc& desc) {
   for (const size_t word : parse_words("--layers", list)) desc.layers |= kLayerBits[word];
@@ -109,7 +99,7 @@ uint64_t lod_range(uint64_t first, uint64_t last) {
 /// "0,2-4": bits 0, 2, 3 and 4.
 uint64_t parse_lod_list(const std::string& list) {
   uint64_t mask = 0;
-  for (const std::string& word : split(list)) {
+  for (const std::string& word : split_at_commas(list)) {
     const size_t dash = word.find('-', 1);
     const uint64_t first = parse_number("--lods", word.substr(0, dash), 65535);
     if (first >= kMaxLods) fail_lod("--lods " + list);
@@ -288,7 +278,7 @@ size_t parse_word(const std::string& option, const std::string& word) {
 
 std::vector<size_t> parse_words(const std::string& option, const std::string& list) {
   std::vector<size_t> indices;
-  for (const std::string& word : split(list)) indices.push_back(parse_word(option, word));
+  for (const std::string& word : split_at_commas(list)) indices.push_back(parse_word(option, word));
   return indices;
 }
 

@@ -32,10 +32,6 @@ struct PlayOptions {
 constexpr double kMaxFrames = 1e7;
 const Words kEndings = {".json", ".csv", ".clip", ".svg", ".glb", ".png"};
 
-bool ends_with(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
 bool any_ends_with(const std::vector<std::string>& outputs, const std::string& end) {
   return std::any_of(outputs.begin(), outputs.end(),
                      [&](const std::string& output) { return ends_with(output, end); });
@@ -50,19 +46,11 @@ double parse_seconds(const std::string& option, const std::string& word) {
              "give one in decimal digits");
 }
 
-std::vector<std::string> split(const std::string& list) {
-  std::vector<std::string> words;
-  for (size_t begin = 0; begin <= list.size() && !list.empty();) {
-    const size_t comma = std::min(list.find(',', begin), list.size());
-    words.push_back(list.substr(begin, comma - begin));
-    begin = comma + 1;
-  }
-  return words;
-}
-
 std::vector<uint16_t> watched_curves(const std::string& names, RigCurves curves) {
   std::vector<uint16_t> watched;
-  for (const std::string& name : split(names)) watched.push_back(curves.curve(name, "--stages"));
+  if (names.empty()) return watched;
+  for (const std::string& name : split_at_commas(names))
+    watched.push_back(curves.curve(name, "--stages"));
   return watched;
 }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace mien::cli {
 
@@ -17,6 +18,11 @@ std::string one_line(std::string_view text);
 
 /// A field of a CSV file, in quotes where it needs them (RFC 4180).
 std::string csv_field(const std::string& text);
+
+bool ends_with(std::string_view text, std::string_view end);
+
+/// "a,b" -> "a", "b"; an empty list is one empty word.
+std::vector<std::string> split_at_commas(const std::string& list);
 
 /// "1,234,567"
 std::string grouped(uint64_t number);
