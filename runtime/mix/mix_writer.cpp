@@ -11,7 +11,6 @@ namespace mien {
 namespace {
 
 /// Shared by bytes and text: elements are copied before they are walked, because a walk may write them.
-/// may write them.
 template <class To>
 struct MixOutput {
   To& to() { return static_cast<To&>(*this); }

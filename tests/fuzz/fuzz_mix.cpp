@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Any bytes as a mix: opened, with and without a rig, mixed, written again as bytes and as text. Those
-// to start from are made here; mutations keep size and checksum right most of the time.
+// to start from are made here; mutations change fields and lists (mix_mutator.h), and keep size and checksum
+// right most of the time.
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <random>
 
 #include "runtime/mix/mix_file.h"
+#include "tests/fuzz/mix_mutator.h"
 #include "tests/support/mix_scene.h"
 
 extern "C" size_t LLVMFuzzerMutate(uint8_t* data, size_t size, size_t max_size);
@@ -86,17 +89,45 @@ extern "C" size_t LLVMFuzzerCustomMutator(uint8_t* data, size_t size, size_t max
   std::minstd_rand random(seed);
   for (int i = 0; i < 3; ++i) random();  // the first numbers of near seeds are near
   if (max_size < good().size()) return LLVMFuzzerMutate(data, size, max_size);
-  if (size < 24 || random() % 64 == 0) memcpy(data, good().data(), size = good().size());
+  if (size < kMixHeaderSize || random() % 64 == 0)
+    memcpy(data, good().data(), size = good().size());
+  if (random() % 4 != 0) {
+    Bytes mix(data, data + size);
+    MixMutator mutator(mix, seed);
+    for (uint32_t changes = 1 + random() % 3; changes != 0; --changes) mutator.change();
+    mutator.seal();
+    if (mix.size() > max_size) return size;
+    std::copy(mix.begin(), mix.end(), data);
+    return mix.size();
+  }
   // Behind the header, that most inputs need.
-  size = 24 + LLVMFuzzerMutate(data + 24, size - 24, max_size - 24);
+  size = kMixHeaderSize +
+         LLVMFuzzerMutate(data + kMixHeaderSize, size - kMixHeaderSize, max_size - kMixHeaderSize);
   if (random() % 16 == 0) return size;
-  memcpy(data, good().data(), 24);
+  memcpy(data, good().data(), kMixHeaderSize);
   store_little_endian(data + kAtSize, uint64_t{size});
   store_little_endian(data + kAtChecksum, clip_checksum(data, size));
   return size;
 }
 
-extern "C" int LLVMFuzzerInitialize(int*, char***) { return 0; }
+// Layers, poses, guards of another mix.
+extern "C" size_t LLVMFuzzerCustomCrossOver(const uint8_t* a, size_t a_size, const uint8_t* b,
+                                            size_t b_size, uint8_t* out, size_t max_size,
+                                            unsigned seed) {
+  Bytes mix(a, a + a_size);
+  MixMutator mutator(mix, seed);
+  mutator.take_element({b, b_size});
+  mutator.seal();
+  if (mix.size() > max_size) return 0;
+  std::copy(mix.begin(), mix.end(), out);
+  return mix.size();
+}
+
+extern "C" int LLVMFuzzerInitialize(int*, char***) {
+  if (MixPlaces({good().data(), good().size()}).at != good().size())
+    abort();  // not all fields would change
+  return 0;
+}
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   for (const Rig* of : {static_cast<const Rig*>(nullptr), &rig()}) {
