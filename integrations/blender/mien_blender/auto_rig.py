@@ -44,6 +44,9 @@ def head_of(thing, scene):
     return found
 
 
+running = []  # jobs of operators that are waiting for them
+
+
 class Job:
     """The work, in a thread of its own. It touches nothing of Blender's."""
 
@@ -132,6 +135,7 @@ class MIEN_OT_auto_rig(bpy.types.Operator):
         if bpy.app.background:
             self._job.thread.join()
             return self._finish(context)
+        running.append(self._job)
         manager = context.window_manager
         self._timer = manager.event_timer_add(0.1, window=context.window)
         manager.progress_begin(0, 100)
@@ -152,6 +156,7 @@ class MIEN_OT_auto_rig(bpy.types.Operator):
             context.workspace.status_text_set(f"Auto-rig: {step}, {100 * share:.0f} %. Esc cancels")
         if not self._job.is_done:
             return {"RUNNING_MODAL"}
+        running.remove(self._job)
         context.window_manager.event_timer_remove(self._timer)
         context.window_manager.progress_end()
         context.workspace.status_text_set(None)

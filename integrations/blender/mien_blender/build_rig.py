@@ -12,7 +12,7 @@ def _bone_length(neutral):
     """Of all bones: short against the distances between joints, so that they do not hide the face."""
     positions = neutral[:, :3, 3]
     size = float(np.linalg.norm(positions.max(0) - positions.min(0))) if len(positions) else 0
-    return size / 60 or 0.01
+    return size / 150 or 0.01
 
 
 def build_armature(context, rig_file, name):

@@ -43,7 +43,7 @@ class MIEN_PT_rig(MienPanel, bpy.types.Panel):
 
 class MIEN_PT_controls(MienPanel, bpy.types.Panel):
     bl_label = "Controls"
-    bl_options = {"DEFAULT_CLOSED"}
+    bl_order = 10  # last, as it is long
 
     @classmethod
     def poll(cls, context):

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: MIT
 """Runs the tests of the add-on in Blender: builds the add-on, installs it for a user without settings, starts Blender.
 
-    run.py [--library FILE] [--blender FILE] [FILE.py...]
+    run.py [--library FILE] [--blender FILE] [--window] [FILE.py...]
 
-Without files: all *_test.py here.
+Without files: all *_test.py here, a check in a window if there is an xvfb-run, and the extension.
 """
 import argparse
 import os
@@ -52,8 +52,8 @@ def environment(folder):
     return made
 
 
-def run(blender, folder, *arguments, window=False):
-    command = [blender, *([] if window else ["--background"]), "--python-exit-code", "1", *map(str, arguments)]
+def run(blender, folder, *arguments):
+    command = [blender, "--background", "--python-exit-code", "1", *map(str, arguments)]
     return subprocess.run(command, env=environment(folder), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                           timeout=900)
 
@@ -75,6 +75,22 @@ def install(blender, folder, addon):
     check(run(blender, folder, "--python", script))
 
 
+def test_window(blender, folder):
+    """In a window: that of the desktop, or one of Xvfb."""
+    if not shutil.which("xvfb-run"):
+        print("NOT TESTED: the Blender add-on in a window; xvfb-run is not installed (Debian package: xvfb)")
+        return
+    made = environment(folder)
+    made["LIBGL_ALWAYS_SOFTWARE"] = "1"
+    command = ["xvfb-run", "-a", "-s", "-screen 0 1000x700x24 +extension GLX", blender, "--window-geometry", "0", "0",
+               "1000", "700", "--python-exit-code", "1", "--python", str(HERE / "window_check.py")]
+    result = subprocess.run(command, env=made, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=900)
+    if "WINDOW OK" not in check(result):
+        print(result.stdout[-3000:])
+        sys.exit("Blender ended before the check in a window did")
+    print("works in a window")
+
+
 def test_extension(blender, folder, extension):
     home = folder / "scripts/addons/mien_blender"
     with zipfile.ZipFile(extension) as archive:
@@ -91,6 +107,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--library", default=None)
     parser.add_argument("--blender", default=shutil.which("blender"))
+    parser.add_argument("--window", action="store_true", help="also with FILE: the check in a window")
     parser.add_argument("files", nargs="*", type=Path, help="default: all *_test.py here")
     args = parser.parse_args()
     if not args.blender:
@@ -103,6 +120,8 @@ def main():
         for file in args.files or sorted(HERE.glob("*_test.py")):
             output = check(run(args.blender, folder / "user", "--python", file.resolve()))
             print(*(line for line in output.splitlines() if re.match(r"Ran \d|OK|MEASURED|NOT TESTED", line)), sep="\n")
+        if not args.files or args.window:
+            test_window(args.blender, folder / "user")
         if not args.files:
             test_extension(args.blender, folder / "extension", extension)
             print("the extension loads its wheel")
