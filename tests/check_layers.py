@@ -46,8 +46,9 @@ GRAPH = {
     "author/fit": ["runtime/base", "author/base", "author/mesh", "author/weights"],
     "author/rig_dna": ["runtime/load/dna/format", "author/base", "author/mesh", "author/fit"],
     # A file that is changed.
-    "author/document": ["runtime/base", "runtime/load/dna/format", "runtime/load/dna",
-                        "author/base"],
+    "author/document": ["runtime/base", "runtime/load/dna/format", "runtime/load/dna/check",
+                        "runtime/load/dna/convert", "runtime/load/dna", "author/base", "author/mesh",
+                        "author/fit"],
     "author/rigging": ["author/base", "author/mesh", "author/place", "author/weights", "author/rig_dna"],
     # The C interface: the headers; what both libraries read their arguments with; each of them. capi looks
     # up the instruction set that a caller asks for: its simd.

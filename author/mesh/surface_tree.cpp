@@ -90,12 +90,12 @@ void SurfaceTree::split(uint32_t node, uint32_t first, uint32_t count) {
   split(child + 1, first + half, count - half);
 }
 
-void SurfaceTree::search(uint32_t node, Vec3 at, double& squares) const {
+void SurfaceTree::search(uint32_t node, Vec3 at, Best& best) const {
   const Node& n = nodes_[node];
   for (uint32_t i = n.first; i < n.first + n.count; ++i) {
     const uint32_t* c = &triangles_[3 * order_[i]];
-    squares =
-        std::min(squares, squares_to_triangle(at, points_[c[0]], points_[c[1]], points_[c[2]]));
+    const double squares = squares_to_triangle(at, points_[c[0]], points_[c[1]], points_[c[2]]);
+    if (squares < best.squares) best = {squares, order_[i]};
   }
   if (n.count > 0) return;
   double near = squares_to_box(at, nodes_[n.child].box);
@@ -105,14 +105,53 @@ void SurfaceTree::search(uint32_t node, Vec3 at, double& squares) const {
     std::swap(near, far);
     std::swap(first, second);
   }
-  if (near < squares) search(first, at, squares);
-  if (far < squares) search(second, at, squares);
+  if (near < best.squares) search(first, at, best);
+  if (far < best.squares) search(second, at, best);
 }
 
 double SurfaceTree::distance(Vec3 at) const {
-  double squares = std::numeric_limits<double>::infinity();
-  search(0, at, squares);
-  return std::sqrt(squares);
+  Best best{std::numeric_limits<double>::infinity(), 0};
+  search(0, at, best);
+  return std::sqrt(best.squares);
+}
+
+SurfacePoint SurfaceTree::nearest(Vec3 at) const {
+  Best best{std::numeric_limits<double>::infinity(), 0};
+  search(0, at, best);
+  SurfacePoint out;
+  out.triangle = best.triangle;
+  out.distance = std::sqrt(best.squares);
+  const uint32_t* c = &triangles_[3 * best.triangle];
+  const Vec3 corners[3] = {points_[c[0]], points_[c[1]], points_[c[2]]};
+  // Inside: shares of the area. Else the nearest place on an edge.
+  const Vec3 n = cross(corners[1] - corners[0], corners[2] - corners[0]);
+  const double area = dot(n, n);
+  double least = std::numeric_limits<double>::infinity();
+  if (area > 0) {
+    double shares[3];
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 a = corners[(k + 1) % 3], b = corners[(k + 2) % 3];
+      shares[k] = dot(cross(b - a, at - a), n) / area;
+    }
+    if (shares[0] >= 0 && shares[1] >= 0 && shares[2] >= 0) {
+      std::copy(shares, shares + 3, out.weights);
+      return out;
+    }
+  }
+  for (int k = 0; k < 3; ++k) {
+    const int next = (k + 1) % 3;
+    const Vec3 edge = corners[next] - corners[k];
+    const double squares = dot(edge, edge);
+    double t = squares > 0 ? dot(at - corners[k], edge) / squares : 0;
+    t = t < 0 ? 0 : t > 1 ? 1 : t;
+    const Vec3 gap = at - (corners[k] + edge * t);
+    if (!(dot(gap, gap) < least)) continue;
+    least = dot(gap, gap);
+    out.weights[0] = out.weights[1] = out.weights[2] = 0;
+    out.weights[k] = 1 - t;
+    out.weights[next] = t;
+  }
+  return out;
 }
 
 }  // namespace mien::author

@@ -44,10 +44,18 @@ WITHOUT = {
         "mien_mix_open_file", "mien_mix_write_file")},
     **{name: {"JavaScript": "a stream reads the caller's bytes, without a copy that has to be kept"}
        for name in ("mien_dna_open_memory", "mien_baked_open_memory", "mien_clip_open_memory")},
-    # In preparation.
+    # In preparation: documents have no bindings yet.
+    **{name: dict.fromkeys(("C++", "Python", "Rust", "JavaScript"), "documents: not yet") for name in (
+        *re.findall(r"\bmien_document_\w+", (INTEGRATIONS.parent / "author/mien_author.map").read_text()),
+        "MienPlacement.scale", "MienPlacement.translation", "MienPruneJointsDesc.translation",
+        "MienPruneJointsDesc.scale", "MienProjectDesc.match", "MienProjectDesc.keep_weights",
+        "MienProjectDesc.keep_targets", "MienTransplantDesc.match")},
+    **{name: dict.fromkeys(("C++", "Python", "JavaScript"), "documents: not yet") for name in (
+        "MienPlacement.rotation", "MienPruneJointsDesc.rotation")},
+    **{name: dict.fromkeys(("C++", "JavaScript"), "documents: not yet") for name in (
+        "MienProjectDesc.influences", "MienTransplantDesc.influences")},
     "MienDocumentDesc.allocator": {"C++": "documents: not yet"},
-    **{name: dict.fromkeys(("C++", "Python", "Rust", "JavaScript"), "documents: not yet") for name in
-       re.findall(r"\bmien_document_\w+", (INTEGRATIONS.parent / "author/mien_author.map").read_text())},
+    "MienMatch": {"Python": "documents: not yet"},
     **{name: {"JavaScript": "one by one, each on several threads if it is large"} for name in (
         "mien_deformer_instance_deform_batch", "mien_deformer_instance_write_vertices_batch")},
 }

@@ -11,7 +11,7 @@ VIEWS = {"MienStringView", "MienFloatView", "MienMutableFloatView", "MienIndex16
          "MienIndex32View"}
 CALLBACKS = {"MienParallelFor", "MienStream", "MienAllocator"}
 NUMBERS = {"count", "size", "capacity", "first", "value", "numerator", "denominator", "tick", "ticks",
-           "stride", "mark", "weight", "strength", "level", "activation", "tolerance"}
+           "stride", "mark", "lods", "weight", "strength", "level", "activation", "tolerance"}
 FIRST_RELEASE = "0.1.0"
 # The statuses of wrong arguments, which the introduction of mien.h explains for all functions.
 GENERAL = ("MIEN_ERROR_NULL_ARGUMENT", "MIEN_ERROR_INVALID_ARGUMENT", "MIEN_ERROR_STRUCT_SIZE",

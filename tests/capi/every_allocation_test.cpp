@@ -12,6 +12,7 @@
 
 #include "tests/support/counting_allocator.h"
 #include "tests/support/dna_bytes.h"
+#include "tests/support/document_edits.h"
 #include "tests/support/memory_stream.h"
 #include "tests/support/mesh_source.h"
 #include "tests/support/public_functions.h"
@@ -416,12 +417,12 @@ auto edits(const World& w, const Edit& edit) {
   };
 }
 
-std::vector<Call> calls_of_documents(const World& w) {
+std::vector<Call> calls_of_documents(const World& w, const DocumentHandle& other) {
   const auto desc = w.desc<MienDocumentDesc>();
   const auto validate = w.desc<MienValidateDesc>();
   static const float number = 2;
   static const int64_t integer = 0;
-  return {
+  std::vector<Call> calls = {
       {"mien_document_create",
        makes(mien_document_destroy, desc, mien_document_create, w.tiny.object)},
       {"mien_document_create", makes(mien_document_destroy, desc, mien_document_create, nullptr)},
@@ -466,6 +467,15 @@ std::vector<Call> calls_of_documents(const World& w) {
                                                       mien_document_validate, d)(error);
                                        })},
   };
+  // Those that refuse their arguments for this rig are called by tests/author/document, too.
+  for (const DocumentEdit& edit : document_edits()) {
+    calls.push_back({edit.function, edits(w, [&other, edit](MienDocument* d, MienError* error) {
+                       Random random(1, 1);
+                       const MienStatus status = edit.run(d, other.get(), random, error);
+                       return status == MIEN_ERROR_MEMORY ? status : MIEN_OK;
+                     })});
+  }
+  return calls;
 }
 
 /// Requests that the call makes.
@@ -497,11 +507,12 @@ size_t survive_every_failure(World& world, const Call& call) {
 TEST(EveryAllocation, MayFailUnderEveryFunctionThatTakesMemory) {
   World world;
   const AuthorInput input;
+  const DocumentHandle other = create_document(world.tiny.object);
   ASSERT_FALSE(HasFailure());
   std::set<std::string> called;
   for (const auto& calls :
        {calls_of_dna(world), calls_of_rigs(world), calls_of_clips(world), calls_of_mixes(world),
-        calls_of_authoring(world, input), calls_of_documents(world)}) {
+        calls_of_authoring(world, input), calls_of_documents(world, other)}) {
     for (const Call& call : calls) {
       const size_t requests = survive_every_failure(world, call);
       EXPECT_GT(requests, 0u) << call.function;

@@ -139,6 +139,350 @@ MIEN_AUTHOR_CHECKED MienStatus mien_document_mark(MienDocument* document, uint64
 MIEN_AUTHOR_CHECKED MienStatus mien_document_undo(MienDocument* document, uint64_t mark,
                                                   MienError* error);
 
+/* ---- Documents: operations -------------------------------------------------------------------- */
+
+/* Operations check the document first, as a file is checked when it is opened, and fail with the status of the
+ * first field that is not valid. They keep together what refers to each other; elements that are
+ * removed renumber the others. */
+
+/* Finds the index of a name; of equal names, the first. `kind` is a MIEN_KIND_...: GUI, raw, ML and RBF
+ * controls, joints, blend shape channels, animated maps, meshes.
+ * Fails with MIEN_ERROR_NAME if there is no such name, MIEN_ERROR_INVALID_ARGUMENT if the kind has no names
+ * in a document. */
+MIEN_AUTHOR_CHECKED MienStatus mien_document_find(const MienDocument* document, uint32_t kind,
+                                                  const char* name, uint32_t* out_index,
+                                                  MienError* error);
+
+/* Renames element `index` of a kind of mien_document_find().
+ * Fails with MIEN_ERROR_INDEX if there is no such element, MIEN_ERROR_INVALID_ARGUMENT if another element
+ * of the kind has the name, or the kind has no names in a document, MIEN_ERROR_MEMORY if the allocator
+ * returns NULL. */
+MIEN_AUTHOR_CHECKED MienStatus mien_document_rename(MienDocument* document, uint32_t kind,
+                                                    uint32_t index, const char* name,
+                                                    MienError* error);
+
+/* Removes joints, blend shape channels, animated maps or meshes, and what refers to them: names, LOD lists,
+ * rows of tables, targets, networks' regions. `indices` has `index_count` elements. Children of a joint go to its nearest ancestor that stays, or
+ * become roots, and keep their neutral place in the world; motions that are relative to the parent keep
+ * their numbers. The joint's skin weights go to the same ancestor, or to the first joint that stays.
+ * Quaternion joints move as before within 1e-2 degrees; where columns of a joint group would rotate
+ * them in another order, each of its quaternion joints gets a joint group of its own.
+ * Fails with MIEN_ERROR_INDEX if an index is past the end, MIEN_ERROR_INVALID_ARGUMENT if elements of the
+ * kind cannot be removed, or no joint would be left for the skin weights, MIEN_ERROR_DNA_STRUCTURE,
+ * MIEN_ERROR_DNA_REFERENCE, MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE if the document is not valid,
+ * MIEN_ERROR_MEMORY if the allocator returns NULL. */
+MIEN_AUTHOR_CHECKED MienStatus mien_document_remove(MienDocument* document, uint32_t kind,
+                                                    const uint32_t* indices, size_t index_count,
+                                                    MienError* error);
+
+/* Removes all blend shape channels with their targets, all animated maps, or, for MIEN_KIND_JOINT, all that
+ * moves joints. `kind` is a MIEN_KIND_....
+ * Fails like mien_document_remove(), but not with MIEN_ERROR_INDEX. */
+MIEN_AUTHOR_CHECKED MienStatus mien_document_clear(MienDocument* document, uint32_t kind,
+                                                   MienError* error);
+
+/* Removes what moves these joints: their rows of joint groups, twists, swings and ML joints.
+ * Fails like mien_document_remove(). */
+MIEN_AUTHOR_CHECKED MienStatus mien_document_clear_joints(MienDocument* document,
+                                                          const uint32_t* joints,
+                                                          size_t joint_count, MienError* error);
+
+/* Sets neutral transforms of joints from `first_joint` on, relative to their parents, in the units and
+ * axes of the file: translations, 3 floats per joint, and rotations, 3 floats per joint. Either may be
+ * left out: `translations` may be NULL; `rotations` may be NULL.
+ * Fails with MIEN_ERROR_INDEX if there are not so many joints, MIEN_ERROR_INVALID_ARGUMENT if a number is
+ * not finite, MIEN_ERROR_DNA_STRUCTURE, MIEN_ERROR_DNA_REFERENCE, MIEN_ERROR_DNA_LIMIT or
+ * MIEN_ERROR_DNA_VALUE if the document is not valid, MIEN_ERROR_MEMORY if the allocator returns NULL. */
+MIEN_AUTHOR_CHECKED MienStatus mien_document_set_neutral(MienDocument* document, uint32_t first_joint,
+                                                         const float* translations,
+                                                         const float* rotations, size_t count,
+                                                         MienError* error);
+
+/* Sets all positions of a mesh, 3 floats per position. Normals stay: deformers recompute them, or write
+ * geom.meshes[i].normals.
+ * Fails with MIEN_ERROR_INDEX if `mesh` is past the end, MIEN_ERROR_INVALID_ARGUMENT if the mesh has another
+ * number of positions, or a number is not finite, MIEN_ERROR_MEMORY if the allocator returns NULL. */
+MIEN_AUTHOR_CHECKED MienStatus mien_document_set_positions(MienDocument* document, uint32_t mesh,
+                                                           const float* positions,
+                                                           size_t position_count,
+                                                           MienError* error);
+
+/* Sets the target of blend shape channel `channel` on mesh `mesh`: 3 floats per delta, of the positions
+ * `vertices`. `vertices` may be NULL for the first `count` positions. Deltas of zero are left out; without
+ * any other, the target is removed. The pair of mesh and channel in defn.meshBlendShapeChannelMapping
+ * follows.
+ * Fails with MIEN_ERROR_INDEX if `mesh`, `channel` or a vertex is past the end, MIEN_ERROR_INVALID_ARGUMENT
+ * if there are more deltas than positions, or a number is not finite, MIEN_ERROR_DNA_STRUCTURE,
+ * MIEN_ERROR_DNA_REFERENCE, MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE if the document is not valid,
+ * MIEN_ERROR_MEMORY if the allocator returns NULL. */
+MIEN_AUTHOR_CHECKED MienStatus mien_document_set_target(MienDocument* document, uint32_t mesh,
+                                                        uint32_t channel, const uint32_t* vertices,
+                                                        const float* deltas, size_t count,
+                                                        MienError* error);
+
+/* How many deltas and targets mien_document_prune_targets() removed. */
+typedef struct MienPrunedTargets {
+    size_t struct_size;
+    uint64_t deltas;
+    uint64_t targets;
+} MienPrunedTargets;
+MIEN_DEFAULT(MienPrunedTargets, mien_pruned_targets_default)
+
+/* Removes deltas not longer than `tolerance`, in the unit of the file, and targets that have none left.
+ * `out_pruned` gets how many.
+ * Fails with MIEN_ERROR_INVALID_ARGUMENT if `tolerance` is negative or not finite, MIEN_ERROR_DNA_STRUCTURE,
+ * MIEN_ERROR_DNA_REFERENCE, MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE if the document is not valid,
+ * MIEN_ERROR_MEMORY if the allocator returns NULL. */
+MIEN_AUTHOR_CHECKED MienStatus mien_document_prune_targets(MienDocument* document, float tolerance,
+                                                           MienPrunedTargets* out_pruned,
+                                                           MienError* error);
+
+/* Which entries of the joint matrix are small: those not above these, in the units of the file. */
+typedef struct MienPruneJointsDesc {
+    size_t struct_size;
+    float translation;
+    float rotation;
+    float scale;
+    uint32_t reserved; /* 0 */
+} MienPruneJointsDesc;
+MIEN_DEFAULT(MienPruneJointsDesc, mien_prune_joints_desc_default)
+
+/* What mien_document_prune_joints() did, and the largest distance by which it moved a position. */
+typedef struct MienPrunedJoints {
+    size_t struct_size;
+    uint64_t entry_count; /* entries of the joint matrix that were not 0 */
+    uint64_t removed_count; /* of these, now 0 */
+    double worst_distance;  /* in the unit of the file */
+    uint32_t worst_control; /* number of the raw control, or corrective with its raw controls, at 1 */
+    uint32_t worst_mesh;
+    uint32_t worst_position;
+    uint32_t reserved;
+} MienPrunedJoints;
+MIEN_DEFAULT(MienPrunedJoints, mien_pruned_joints_default)
+
+/* Sets small entries of the joint matrix to 0, and removes columns and rows of joint groups without any
+ * other. Measures what that does to the positions of LOD 0: over each raw control at 1, and each
+ * corrective with all its raw controls at 1. `desc` is required.
+ * Fails with MIEN_ERROR_INVALID_ARGUMENT if a field of `desc` is negative or not finite,
+ * MIEN_ERROR_DNA_STRUCTURE, MIEN_ERROR_DNA_REFERENCE, MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE if the
+ * document is not valid, MIEN_ERROR_MEMORY if the allocator returns NULL. */
+MIEN_AUTHOR_CHECKED MienStatus mien_document_prune_joints(MienDocument* document,
+                                                          const MienPruneJointsDesc* desc,
+                                                          MienPrunedJoints* out_pruned,
+                                                          MienError* error);
+
+/* Sets the skin weights of a mesh: `influences` joints and weights per position, row by row. Weights of 0
+ * are left out. `joints` has `weight_count` elements, as many as `weights`.
+ * Fails with MIEN_ERROR_INDEX if `mesh` is past the end, MIEN_ERROR_INVALID_ARGUMENT if there is another
+ * number of weights, a weight is negative or not finite, a joint does not exist, or a position has a
+ * joint twice or no weight, MIEN_ERROR_DNA_STRUCTURE, MIEN_ERROR_DNA_REFERENCE, MIEN_ERROR_DNA_LIMIT or
+ * MIEN_ERROR_DNA_VALUE if the document is not valid, MIEN_ERROR_MEMORY if the allocator returns NULL. */
+MIEN_AUTHOR_CHECKED MienStatus mien_document_set_weights(MienDocument* document, uint32_t mesh,
+                                                         uint32_t influences,
+                                                         const uint16_t* joints,
+                                                         const float* weights, size_t weight_count,
+                                                         MienError* error);
+
+/* Scales the weights of each position of mesh `mesh` to a sum of 1; sums within 1e-6 of it stay as they are.
+ * Fails with MIEN_ERROR_INDEX if `mesh` is past the end, MIEN_ERROR_DNA_STRUCTURE,
+ * MIEN_ERROR_DNA_REFERENCE, MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE if the document is not valid,
+ * MIEN_ERROR_MEMORY if the allocator returns NULL. */
+MIEN_AUTHOR_CHECKED MienStatus mien_document_normalize_weights(MienDocument* document, uint32_t mesh,
+                                                               MienError* error);
+
+/* Keeps the `influences` largest weights of each position of mesh `mesh` that has more, in their order, scaled to the
+ * sum that all had.
+ * Fails like mien_document_normalize_weights(), and with MIEN_ERROR_INVALID_ARGUMENT if `influences` is 0. */
+MIEN_AUTHOR_CHECKED MienStatus mien_document_limit_influences(MienDocument* document, uint32_t mesh,
+                                                              uint32_t influences, MienError* error);
+
+/* Smooths the weights of mesh `mesh` `iterations` times: those of each position become (1 - strength) of its own
+ * and strength of the mean of its neighbors along edges. Positions at the same place count as one. Each
+ * keeps at most `influences`, with a sum of 1.
+ * Fails like mien_document_limit_influences(), and with MIEN_ERROR_INVALID_ARGUMENT if `strength` is not 0
+ * to 1, or there are more than 1000 iterations. */
+MIEN_AUTHOR_CHECKED MienStatus mien_document_smooth_weights(MienDocument* document, uint32_t mesh,
+                                                            uint32_t iterations, float strength,
+                                                            uint32_t influences, MienError* error);
+
+/* Where a character goes: scaled about the origin, then rotated about it, then moved. */
+typedef struct MienPlacement {
+    size_t struct_size;
+    double scale;          /* above 0. 0: 1 */
+    double rotation[3];    /* right-handed degrees about x, then y, then z of the file */
+    double translation[3]; /* in the unit of the file */
+} MienPlacement;
+MIEN_DEFAULT(MienPlacement, mien_placement_default)
+
+/* Scales, rotates and moves the whole character: neutral joints, positions, normals, targets, and the
+ * translations that controls add to joints. `placement` is required.
+ * Fails with MIEN_ERROR_INVALID_ARGUMENT if a number is not finite or the scale is negative,
+ * MIEN_ERROR_DNA_VALUE if a root joint is moved by controls and the rotation is not 0, networks translate
+ * joints and the scale is not 1, or the document is not valid, MIEN_ERROR_DNA_STRUCTURE,
+ * MIEN_ERROR_DNA_REFERENCE or MIEN_ERROR_DNA_LIMIT if the document is not valid, MIEN_ERROR_MEMORY if the
+ * allocator returns NULL. */
+MIEN_AUTHOR_CHECKED MienStatus mien_document_place(MienDocument* document,
+                                                   const MienPlacement* placement,
+                                                   MienError* error);
+
+/* Keeps the LODs whose bits are set in `lods`, as MienDnaDesc.lods.
+ * Fails with MIEN_ERROR_LOD if there is none of them, MIEN_ERROR_DNA_STRUCTURE, MIEN_ERROR_DNA_REFERENCE,
+ * MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE if the document is not valid, MIEN_ERROR_MEMORY if the
+ * allocator returns NULL.
+ * See docs/dna-format.md, 10 "Choosing LODs". */
+MIEN_AUTHOR_CHECKED MienStatus mien_document_keep_lods(MienDocument* document, uint64_t lods,
+                                                       MienError* error);
+
+/* Converts to another coordinate system, as MienDnaDesc.system. `system` is required.
+ * Fails with MIEN_ERROR_DNA_VALUE if the rig cannot be converted or the document is not valid,
+ * MIEN_ERROR_DNA_STRUCTURE, MIEN_ERROR_DNA_REFERENCE or MIEN_ERROR_DNA_LIMIT if the document is not valid,
+ * MIEN_ERROR_MEMORY if the allocator returns NULL.
+ * See docs/dna-format.md, 11 "Coordinate systems". */
+MIEN_AUTHOR_CHECKED MienStatus mien_document_convert(MienDocument* document,
+                                                     const MienCoordinateSystem* system,
+                                                     MienError* error);
+
+/* ---- Documents: parts of other documents ------------------------------------------------------ */
+
+/* Copies the layers of another document whose bits are set. `layers` is a MIEN_LAYER_..., combined with |.
+ * Layers that refer to each other are copied together.
+ * Fails with MIEN_ERROR_INVALID_ARGUMENT if `layers` has other bits, MIEN_ERROR_DNA_STRUCTURE,
+ * MIEN_ERROR_DNA_REFERENCE, MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE if they do not fit the layers that
+ * stay, MIEN_ERROR_MEMORY if the allocator returns NULL. */
+MIEN_AUTHOR_CHECKED MienStatus mien_document_copy_layers(MienDocument* document,
+                                                         const MienDocument* from, uint32_t layers,
+                                                         MienError* error);
+
+/* Copies mesh `mesh` of another document: over the mesh of the same name, or as a new one at the LODs where it
+ * is there and that this document has. Joints and channels are found by name; a joint that is not here
+ * hands its influence to its nearest ancestor that is, targets of other channels are left out.
+ * Fails with MIEN_ERROR_INDEX if there is no such mesh, MIEN_ERROR_MISMATCH if the documents differ in axes,
+ * units or rotations, or no joint of a position is here, MIEN_ERROR_DNA_STRUCTURE,
+ * MIEN_ERROR_DNA_REFERENCE, MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE if one of them is not valid,
+ * MIEN_ERROR_MEMORY if the allocator returns NULL. */
+MIEN_AUTHOR_CHECKED MienStatus mien_document_copy_mesh(MienDocument* document,
+                                                       const MienDocument* from, uint32_t mesh,
+                                                       uint32_t* out_mesh, MienError* error);
+
+/* Adds the joints of another document whose names this one lacks, such as those of a body to a head: below
+ * the joints of the same names, behind the own ones, at the LODs that list them there. Joints that both
+ * have stay as they are, but a root that has a parent there becomes its child. Joints that both have must
+ * stand in the same place of the model, within `tolerance` in the unit of the file.
+ * Fails with MIEN_ERROR_MISMATCH if the documents differ in axes, units or rotations, or in the place of a
+ * joint, MIEN_ERROR_DNA_STRUCTURE, MIEN_ERROR_DNA_REFERENCE, MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE
+ * if one of them is not valid or the result would not be, MIEN_ERROR_MEMORY if the allocator returns NULL. */
+MIEN_AUTHOR_CHECKED MienStatus mien_document_merge_joints(MienDocument* document,
+                                                          const MienDocument* from,
+                                                          double tolerance, MienError* error);
+
+/* Removes the joints that another document does not have by name, as mien_document_remove().
+ * Fails with MIEN_ERROR_INVALID_ARGUMENT if no joint would be left for the skin weights,
+ * MIEN_ERROR_DNA_STRUCTURE, MIEN_ERROR_DNA_REFERENCE, MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE if
+ * `document` is not valid, MIEN_ERROR_MEMORY if the allocator returns NULL. */
+MIEN_AUTHOR_CHECKED MienStatus mien_document_split_joints(MienDocument* document,
+                                                          const MienDocument* from,
+                                                          MienError* error);
+
+/* ---- Documents: shapes ------------------------------------------------------------------------- */
+
+/* How positions of one mesh are found on another. */
+enum MienMatch {
+    MIEN_MATCH_SURFACE = 0, /* the nearest place in space */
+    MIEN_MATCH_UV = 1       /* the nearest place in the texture */
+};
+
+/* How mien_document_project() works. */
+typedef struct MienProjectDesc {
+    size_t struct_size;
+    uint32_t match;        /* MIEN_MATCH_... */
+    uint32_t influences;   /* at most, per position. 0: 8 */
+    uint32_t keep_weights; /* boolean: leave the skin weights as they are */
+    uint32_t keep_targets; /* boolean: leave the targets as they are */
+} MienProjectDesc;
+MIEN_DEFAULT(MienProjectDesc, mien_project_desc_default)
+
+/* Gives mesh `mesh` the skin weights and targets of mesh `source`, interpolated at the place of each position:
+ * a coarser LOD from a finer one. Joints that no LOD of the mesh lists hand their influence to the nearest
+ * ancestor that one does; targets of channels that none lists are left out. Where these LODs list no
+ * joints or channels, all stay. `out_farthest` gets the largest distance to a place: in the unit of the file,
+ * or of the texture.
+ * Fails with MIEN_ERROR_INDEX if `mesh` or `source` is past the end, MIEN_ERROR_INVALID_ARGUMENT if they are
+ * the same, or lack triangles, texture coordinates or weights, MIEN_ERROR_DNA_STRUCTURE,
+ * MIEN_ERROR_DNA_REFERENCE, MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE if the document is not valid,
+ * MIEN_ERROR_MEMORY if the allocator returns NULL. */
+MIEN_AUTHOR_CHECKED MienStatus mien_document_project(MienDocument* document, uint32_t mesh,
+                                                     uint32_t source, const MienProjectDesc* desc,
+                                                     double* out_farthest, MienError* error);
+
+/* The same for all meshes of LOD `lod`, each from the mesh of LOD `source_lod` whose name differs only in the
+ * number of the LOD ("head_lod3_mesh" from "head_lod0_mesh"). A LOD that lists no joints or channels gets
+ * those of `source_lod`.
+ * Fails with MIEN_ERROR_LOD if there is no such LOD, MIEN_ERROR_NAME if a mesh has no counterpart,
+ * MIEN_ERROR_INVALID_ARGUMENT if the LODs are the same, or meshes lack triangles, texture coordinates or
+ * weights, MIEN_ERROR_DNA_STRUCTURE, MIEN_ERROR_DNA_REFERENCE, MIEN_ERROR_DNA_LIMIT or
+ * MIEN_ERROR_DNA_VALUE if the document is not valid, MIEN_ERROR_MEMORY if the allocator returns NULL. */
+MIEN_AUTHOR_CHECKED MienStatus mien_document_make_lod(MienDocument* document, uint32_t lod,
+                                                      uint32_t source_lod,
+                                                      const MienProjectDesc* desc,
+                                                      double* out_farthest, MienError* error);
+
+/* How the rig followed a mesh. */
+typedef struct MienConformed {
+    size_t struct_size;
+    double joint_distance; /* the farthest that a joint moved, in the unit of the file */
+    uint32_t joint;        /* which */
+    uint32_t reserved;
+} MienConformed;
+MIEN_DEFAULT(MienConformed, mien_conformed_default)
+
+/* Gives mesh `mesh` new positions, 3 floats per position, such as a head that an artist reshaped, and lets the
+ * rig follow: joints move as the surface around them does, and keep their orientation; targets turn and
+ * scale with the surface, translations that controls add to joints scale, normals turn. `others` is 0,
+ * or 1 to move the other meshes, too. Motions of the whole mesh are followed exactly.
+ * Fails with MIEN_ERROR_INDEX if `mesh` is past the end, MIEN_ERROR_INVALID_ARGUMENT if the mesh has another
+ * number of positions, or a number is not finite, MIEN_ERROR_DNA_STRUCTURE, MIEN_ERROR_DNA_REFERENCE,
+ * MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE if the document is not valid, MIEN_ERROR_MEMORY if the
+ * allocator returns NULL. */
+MIEN_AUTHOR_CHECKED MienStatus mien_document_conform(MienDocument* document, uint32_t mesh,
+                                                     const float* positions, size_t position_count,
+                                                     uint32_t others, MienConformed* out_conformed,
+                                                     MienError* error);
+
+/* How mien_document_transplant() works. */
+typedef struct MienTransplantDesc {
+    size_t struct_size;
+    uint32_t match;      /* MIEN_MATCH_..., for meshes of the same name; where their faces are the same, positions
+                            of the same number correspond */
+    uint32_t influences; /* at most, per position. 0: 8 */
+} MienTransplantDesc;
+MIEN_DEFAULT(MienTransplantDesc, mien_transplant_desc_default)
+
+/* What a raw control that both rigs have does differently to the positions of LOD 0, at 1. */
+typedef struct MienControlError {
+    double worst;     /* distance of a position, in the unit of the file */
+    double rms;
+    double moved;     /* the farthest that the control moved a position before */
+    uint32_t control; /* its number in the new rig */
+    uint32_t reserved;
+} MienControlError;
+
+/* Gives a character the rig of a template: controls, joints, behavior, and LODs of document `rig`. The
+ * character keeps its shape. Its meshes keep topology and positions where the template has a mesh of the
+ * same name, and get weights and targets from it; other meshes are the template's, moved with the surface. Joints that
+ * both have by name stand where the character's stood, others move with the surface. `out_errors` has
+ * `capacity` elements, one for each raw control that both rigs have, and may be shorter; `out_errors`
+ * may be NULL; `out_count` gets how many were written.
+ * Fails with MIEN_ERROR_MISMATCH if the documents differ in axes, units or rotations,
+ * MIEN_ERROR_INVALID_ARGUMENT if no mesh of LOD 0 has the name of one of the template, or meshes lack
+ * triangles or texture coordinates, MIEN_ERROR_DNA_STRUCTURE, MIEN_ERROR_DNA_REFERENCE,
+ * MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE if one of them is not valid, MIEN_ERROR_MEMORY if the
+ * allocator returns NULL. */
+MIEN_AUTHOR_CHECKED MienStatus mien_document_transplant(MienDocument* document,
+                                                        const MienDocument* rig,
+                                                        const MienTransplantDesc* desc,
+                                                        MienControlError* out_errors, size_t capacity,
+                                                        size_t* out_count, MienError* error);
+
 /* ---- Documents: results ----------------------------------------------------------------------- */
 
 /* Checks all that opening a file checks, and opens the document as a file. `document` may be destroyed

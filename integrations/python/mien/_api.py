@@ -646,6 +646,15 @@ class AuthorFlags(IntFlag):
     GROUP_IN_SPACE = 32
 
 
+class Match(IntEnum):
+    """How positions of one mesh are found on another."""
+
+    #: the nearest place in space
+    SURFACE = 0
+    #: the nearest place in the texture
+    UV = 1
+
+
 class MienDna(c_void_p):
     pass
 
@@ -2778,6 +2787,165 @@ class MienDocumentDesc(Structure):
         self.allocator = allocator
 
 
+class MienPrunedTargets(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("deltas", c_uint64),
+        ("targets", c_uint64),
+    ]
+    struct_size: Any
+    deltas: Any
+    targets: Any
+
+    def __init__(self) -> None:
+        super().__init__(24)
+
+
+class MienPruneJointsDesc(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("translation", c_float),
+        ("rotation", c_float),
+        ("scale", c_float),
+        ("reserved", c_uint32),
+    ]
+    struct_size: Any
+    translation: Any
+    rotation: Any
+    scale: Any
+    reserved: Any
+
+    def __init__(self, *,
+                 translation: float = 0,
+                 rotation: float = 0,
+                 scale: float = 0) -> None:
+        super().__init__(24)
+        self.translation = translation
+        self.rotation = rotation
+        self.scale = scale
+
+
+class MienPrunedJoints(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("entry_count", c_uint64),
+        ("removed_count", c_uint64),
+        ("worst_distance", c_double),
+        ("worst_control", c_uint32),
+        ("worst_mesh", c_uint32),
+        ("worst_position", c_uint32),
+        ("reserved", c_uint32),
+    ]
+    struct_size: Any
+    entry_count: Any
+    removed_count: Any
+    worst_distance: Any
+    worst_control: Any
+    worst_mesh: Any
+    worst_position: Any
+    reserved: Any
+
+    def __init__(self) -> None:
+        super().__init__(48)
+
+
+class MienPlacement(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("scale", c_double),
+        ("rotation", c_double * 3),
+        ("translation", c_double * 3),
+    ]
+    struct_size: Any
+    scale: Any
+    rotation: Any
+    translation: Any
+
+    def __init__(self, *,
+                 scale: int = 0,
+                 rotation: Tuple[int, int, int] = (0, 0, 0),
+                 translation: Tuple[int, int, int] = (0, 0, 0)) -> None:
+        super().__init__(64)
+        self.scale = scale
+        self.rotation = rotation
+        self.translation = translation
+
+
+class MienProjectDesc(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("match", c_uint32),
+        ("influences", c_uint32),
+        ("keep_weights", c_uint32),
+        ("keep_targets", c_uint32),
+    ]
+    struct_size: Any
+    match: Any
+    influences: Any
+    keep_weights: Any
+    keep_targets: Any
+
+    def __init__(self, *,
+                 match: int = 0,
+                 influences: int = 0,
+                 keep_weights: bool = False,
+                 keep_targets: bool = False) -> None:
+        super().__init__(24)
+        self.match = match
+        self.influences = influences
+        self.keep_weights = keep_weights
+        self.keep_targets = keep_targets
+
+
+class MienConformed(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("joint_distance", c_double),
+        ("joint", c_uint32),
+        ("reserved", c_uint32),
+    ]
+    struct_size: Any
+    joint_distance: Any
+    joint: Any
+    reserved: Any
+
+    def __init__(self) -> None:
+        super().__init__(24)
+
+
+class MienTransplantDesc(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("match", c_uint32),
+        ("influences", c_uint32),
+    ]
+    struct_size: Any
+    match: Any
+    influences: Any
+
+    def __init__(self, *,
+                 match: int = 0,
+                 influences: int = 0) -> None:
+        super().__init__(16)
+        self.match = match
+        self.influences = influences
+
+
+class MienControlError(Structure):
+    _fields_ = [
+        ("worst", c_double),
+        ("rms", c_double),
+        ("moved", c_double),
+        ("control", c_uint32),
+        ("reserved", c_uint32),
+    ]
+    worst: Any
+    rms: Any
+    moved: Any
+    control: Any
+    reserved: Any
+
+
 class CoordinateSystem(NamedTuple):
     """Axes, units and rotation conventions of a rig. Any handedness is allowed. See
     docs/dna-format.md, 11 "Coordinate systems".
@@ -3249,6 +3417,55 @@ class SolverStackInfo(NamedTuple):
     @classmethod
     def _of(cls, c: MienSolverStackInfo) -> SolverStackInfo:
         return cls(c.solver_count, c.curve_count, c.output_count, c.joint_count, c.state_bytes)
+
+
+class PrunedTargets(NamedTuple):
+    """How many deltas and targets mien_document_prune_targets() removed."""
+
+    deltas: int
+    targets: int
+
+    @classmethod
+    def _of(cls, c: MienPrunedTargets) -> PrunedTargets:
+        return cls(c.deltas, c.targets)
+
+
+class PrunedJoints(NamedTuple):
+    """What mien_document_prune_joints() did, and the largest distance by which it moved a
+    position.
+
+      entry_count: entries of the joint matrix that were not 0
+      removed_count: of these, now 0
+      worst_distance: in the unit of the file
+      worst_control: number of the raw control, or corrective with its raw controls, at 1
+    """
+
+    entry_count: int
+    removed_count: int
+    worst_distance: float
+    worst_control: int
+    worst_mesh: int
+    worst_position: int
+
+    @classmethod
+    def _of(cls, c: MienPrunedJoints) -> PrunedJoints:
+        return cls(c.entry_count, c.removed_count, c.worst_distance, c.worst_control, c.worst_mesh,
+                   c.worst_position)
+
+
+class Conformed(NamedTuple):
+    """How the rig followed a mesh.
+
+      joint_distance: the farthest that a joint moved, in the unit of the file
+      joint: which
+    """
+
+    joint_distance: float
+    joint: int
+
+    @classmethod
+    def _of(cls, c: MienConformed) -> Conformed:
+        return cls(c.joint_distance, c.joint)
 
 
 # Why functions fail, beyond what the package checks: (status, condition).
@@ -4429,6 +4646,372 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
         (Status.INDEX,
          "`mark` is not a mark of the document, or gone"),
     ),
+    "mien_document_find": (
+        (Status.INVALID_ARGUMENT,
+         "the kind has no names in a document"),
+        (Status.NAME,
+         "there is no such name"),
+    ),
+    "mien_document_rename": (
+        (Status.INVALID_ARGUMENT,
+         "another element of the kind has the name, or the kind has no names in a "
+         "document"),
+        (Status.INDEX,
+         "there is no such element"),
+        (Status.MEMORY,
+         "the allocator returns NULL"),
+    ),
+    "mien_document_remove": (
+        (Status.INVALID_ARGUMENT,
+         "elements of the kind cannot be removed, or no joint would be left for the skin"
+         " weights"),
+        (Status.INDEX,
+         "an index is past the end"),
+        (Status.MEMORY,
+         "the allocator returns NULL"),
+        (Status.DNA_STRUCTURE,
+         "the document is not valid"),
+        (Status.DNA_REFERENCE,
+         "the document is not valid"),
+        (Status.DNA_LIMIT,
+         "the document is not valid"),
+        (Status.DNA_VALUE,
+         "the document is not valid"),
+    ),
+    "mien_document_clear": (
+        (Status.INVALID_ARGUMENT,
+         "elements of the kind cannot be removed, or no joint would be left for the skin"
+         " weights"),
+        (Status.MEMORY,
+         "the allocator returns NULL"),
+        (Status.DNA_STRUCTURE,
+         "the document is not valid"),
+        (Status.DNA_REFERENCE,
+         "the document is not valid"),
+        (Status.DNA_LIMIT,
+         "the document is not valid"),
+        (Status.DNA_VALUE,
+         "the document is not valid"),
+    ),
+    "mien_document_clear_joints": (
+        (Status.INVALID_ARGUMENT,
+         "elements of the kind cannot be removed, or no joint would be left for the skin"
+         " weights"),
+        (Status.INDEX,
+         "an index is past the end"),
+        (Status.MEMORY,
+         "the allocator returns NULL"),
+        (Status.DNA_STRUCTURE,
+         "the document is not valid"),
+        (Status.DNA_REFERENCE,
+         "the document is not valid"),
+        (Status.DNA_LIMIT,
+         "the document is not valid"),
+        (Status.DNA_VALUE,
+         "the document is not valid"),
+    ),
+    "mien_document_set_neutral": (
+        (Status.INVALID_ARGUMENT,
+         "a number is not finite"),
+        (Status.INDEX,
+         "there are not so many joints"),
+        (Status.MEMORY,
+         "the allocator returns NULL"),
+        (Status.DNA_STRUCTURE,
+         "the document is not valid"),
+        (Status.DNA_REFERENCE,
+         "the document is not valid"),
+        (Status.DNA_LIMIT,
+         "the document is not valid"),
+        (Status.DNA_VALUE,
+         "the document is not valid"),
+    ),
+    "mien_document_set_positions": (
+        (Status.INVALID_ARGUMENT,
+         "the mesh has another number of positions, or a number is not finite"),
+        (Status.INDEX,
+         "`mesh` is past the end"),
+        (Status.MEMORY,
+         "the allocator returns NULL"),
+    ),
+    "mien_document_set_target": (
+        (Status.INVALID_ARGUMENT,
+         "there are more deltas than positions, or a number is not finite"),
+        (Status.INDEX,
+         "`mesh`, `channel` or a vertex is past the end"),
+        (Status.MEMORY,
+         "the allocator returns NULL"),
+        (Status.DNA_STRUCTURE,
+         "the document is not valid"),
+        (Status.DNA_REFERENCE,
+         "the document is not valid"),
+        (Status.DNA_LIMIT,
+         "the document is not valid"),
+        (Status.DNA_VALUE,
+         "the document is not valid"),
+    ),
+    "mien_document_prune_targets": (
+        (Status.INVALID_ARGUMENT,
+         "`tolerance` is negative or not finite"),
+        (Status.MEMORY,
+         "the allocator returns NULL"),
+        (Status.DNA_STRUCTURE,
+         "the document is not valid"),
+        (Status.DNA_REFERENCE,
+         "the document is not valid"),
+        (Status.DNA_LIMIT,
+         "the document is not valid"),
+        (Status.DNA_VALUE,
+         "the document is not valid"),
+    ),
+    "mien_document_prune_joints": (
+        (Status.INVALID_ARGUMENT,
+         "a field of `desc` is negative or not finite"),
+        (Status.MEMORY,
+         "the allocator returns NULL"),
+        (Status.DNA_STRUCTURE,
+         "the document is not valid"),
+        (Status.DNA_REFERENCE,
+         "the document is not valid"),
+        (Status.DNA_LIMIT,
+         "the document is not valid"),
+        (Status.DNA_VALUE,
+         "the document is not valid"),
+    ),
+    "mien_document_set_weights": (
+        (Status.INVALID_ARGUMENT,
+         "there is another number of weights, a weight is negative or not finite, a "
+         "joint does not exist, or a position has a joint twice or no weight"),
+        (Status.INDEX,
+         "`mesh` is past the end"),
+        (Status.MEMORY,
+         "the allocator returns NULL"),
+        (Status.DNA_STRUCTURE,
+         "the document is not valid"),
+        (Status.DNA_REFERENCE,
+         "the document is not valid"),
+        (Status.DNA_LIMIT,
+         "the document is not valid"),
+        (Status.DNA_VALUE,
+         "the document is not valid"),
+    ),
+    "mien_document_normalize_weights": (
+        (Status.INDEX,
+         "`mesh` is past the end"),
+        (Status.MEMORY,
+         "the allocator returns NULL"),
+        (Status.DNA_STRUCTURE,
+         "the document is not valid"),
+        (Status.DNA_REFERENCE,
+         "the document is not valid"),
+        (Status.DNA_LIMIT,
+         "the document is not valid"),
+        (Status.DNA_VALUE,
+         "the document is not valid"),
+    ),
+    "mien_document_limit_influences": (
+        (Status.INVALID_ARGUMENT,
+         "`influences` is 0"),
+        (Status.INDEX,
+         "`mesh` is past the end"),
+        (Status.MEMORY,
+         "the allocator returns NULL"),
+        (Status.DNA_STRUCTURE,
+         "the document is not valid"),
+        (Status.DNA_REFERENCE,
+         "the document is not valid"),
+        (Status.DNA_LIMIT,
+         "the document is not valid"),
+        (Status.DNA_VALUE,
+         "the document is not valid"),
+    ),
+    "mien_document_smooth_weights": (
+        (Status.INVALID_ARGUMENT,
+         "`influences` is 0; or `strength` is not 0 to 1, or there are more than 1000 "
+         "iterations"),
+        (Status.INDEX,
+         "`mesh` is past the end"),
+        (Status.MEMORY,
+         "the allocator returns NULL"),
+        (Status.DNA_STRUCTURE,
+         "the document is not valid"),
+        (Status.DNA_REFERENCE,
+         "the document is not valid"),
+        (Status.DNA_LIMIT,
+         "the document is not valid"),
+        (Status.DNA_VALUE,
+         "the document is not valid"),
+    ),
+    "mien_document_place": (
+        (Status.INVALID_ARGUMENT,
+         "a number is not finite or the scale is negative"),
+        (Status.MEMORY,
+         "the allocator returns NULL"),
+        (Status.DNA_STRUCTURE,
+         "the document is not valid"),
+        (Status.DNA_REFERENCE,
+         "the document is not valid"),
+        (Status.DNA_LIMIT,
+         "the document is not valid"),
+        (Status.DNA_VALUE,
+         "a root joint is moved by controls and the rotation is not 0, networks "
+         "translate joints and the scale is not 1, or the document is not valid"),
+    ),
+    "mien_document_keep_lods": (
+        (Status.LOD,
+         "there is none of them"),
+        (Status.MEMORY,
+         "the allocator returns NULL"),
+        (Status.DNA_STRUCTURE,
+         "the document is not valid"),
+        (Status.DNA_REFERENCE,
+         "the document is not valid"),
+        (Status.DNA_LIMIT,
+         "the document is not valid"),
+        (Status.DNA_VALUE,
+         "the document is not valid"),
+    ),
+    "mien_document_convert": (
+        (Status.INVALID_ARGUMENT,
+         "an argument is outside its range"),
+        (Status.MEMORY,
+         "the allocator returns NULL"),
+        (Status.DNA_STRUCTURE,
+         "the document is not valid"),
+        (Status.DNA_REFERENCE,
+         "the document is not valid"),
+        (Status.DNA_LIMIT,
+         "the document is not valid"),
+        (Status.DNA_VALUE,
+         "the rig cannot be converted or the document is not valid"),
+    ),
+    "mien_document_copy_layers": (
+        (Status.INVALID_ARGUMENT,
+         "`layers` has other bits"),
+        (Status.MEMORY,
+         "the allocator returns NULL"),
+        (Status.DNA_STRUCTURE,
+         "they do not fit the layers that stay"),
+        (Status.DNA_REFERENCE,
+         "they do not fit the layers that stay"),
+        (Status.DNA_LIMIT,
+         "they do not fit the layers that stay"),
+        (Status.DNA_VALUE,
+         "they do not fit the layers that stay"),
+    ),
+    "mien_document_copy_mesh": (
+        (Status.MISMATCH,
+         "the documents differ in axes, units or rotations, or no joint of a position is"
+         " here"),
+        (Status.INDEX,
+         "there is no such mesh"),
+        (Status.MEMORY,
+         "the allocator returns NULL"),
+        (Status.DNA_STRUCTURE,
+         "one of them is not valid"),
+        (Status.DNA_REFERENCE,
+         "one of them is not valid"),
+        (Status.DNA_LIMIT,
+         "one of them is not valid"),
+        (Status.DNA_VALUE,
+         "one of them is not valid"),
+    ),
+    "mien_document_merge_joints": (
+        (Status.MISMATCH,
+         "the documents differ in axes, units or rotations, or in the place of a joint"),
+        (Status.MEMORY,
+         "the allocator returns NULL"),
+        (Status.DNA_STRUCTURE,
+         "one of them is not valid or the result would not be"),
+        (Status.DNA_REFERENCE,
+         "one of them is not valid or the result would not be"),
+        (Status.DNA_LIMIT,
+         "one of them is not valid or the result would not be"),
+        (Status.DNA_VALUE,
+         "one of them is not valid or the result would not be"),
+    ),
+    "mien_document_split_joints": (
+        (Status.INVALID_ARGUMENT,
+         "no joint would be left for the skin weights"),
+        (Status.MEMORY,
+         "the allocator returns NULL"),
+        (Status.DNA_STRUCTURE,
+         "`document` is not valid"),
+        (Status.DNA_REFERENCE,
+         "`document` is not valid"),
+        (Status.DNA_LIMIT,
+         "`document` is not valid"),
+        (Status.DNA_VALUE,
+         "`document` is not valid"),
+    ),
+    "mien_document_project": (
+        (Status.INVALID_ARGUMENT,
+         "they are the same, or lack triangles, texture coordinates or weights"),
+        (Status.INDEX,
+         "`mesh` or `source` is past the end"),
+        (Status.MEMORY,
+         "the allocator returns NULL"),
+        (Status.DNA_STRUCTURE,
+         "the document is not valid"),
+        (Status.DNA_REFERENCE,
+         "the document is not valid"),
+        (Status.DNA_LIMIT,
+         "the document is not valid"),
+        (Status.DNA_VALUE,
+         "the document is not valid"),
+    ),
+    "mien_document_make_lod": (
+        (Status.INVALID_ARGUMENT,
+         "the LODs are the same, or meshes lack triangles, texture coordinates or "
+         "weights"),
+        (Status.LOD,
+         "there is no such LOD"),
+        (Status.NAME,
+         "a mesh has no counterpart"),
+        (Status.MEMORY,
+         "the allocator returns NULL"),
+        (Status.DNA_STRUCTURE,
+         "the document is not valid"),
+        (Status.DNA_REFERENCE,
+         "the document is not valid"),
+        (Status.DNA_LIMIT,
+         "the document is not valid"),
+        (Status.DNA_VALUE,
+         "the document is not valid"),
+    ),
+    "mien_document_conform": (
+        (Status.INVALID_ARGUMENT,
+         "the mesh has another number of positions, or a number is not finite"),
+        (Status.INDEX,
+         "`mesh` is past the end"),
+        (Status.MEMORY,
+         "the allocator returns NULL"),
+        (Status.DNA_STRUCTURE,
+         "the document is not valid"),
+        (Status.DNA_REFERENCE,
+         "the document is not valid"),
+        (Status.DNA_LIMIT,
+         "the document is not valid"),
+        (Status.DNA_VALUE,
+         "the document is not valid"),
+    ),
+    "mien_document_transplant": (
+        (Status.INVALID_ARGUMENT,
+         "no mesh of LOD 0 has the name of one of the template, or meshes lack triangles"
+         " or texture coordinates"),
+        (Status.MISMATCH,
+         "the documents differ in axes, units or rotations"),
+        (Status.MEMORY,
+         "the allocator returns NULL"),
+        (Status.DNA_STRUCTURE,
+         "one of them is not valid"),
+        (Status.DNA_REFERENCE,
+         "one of them is not valid"),
+        (Status.DNA_LIMIT,
+         "one of them is not valid"),
+        (Status.DNA_VALUE,
+         "one of them is not valid"),
+    ),
     "mien_document_to_dna": (
         (Status.INVALID_ARGUMENT,
          "an argument is outside its range"),
@@ -4928,6 +5511,50 @@ AUTHOR_FUNCTIONS: Tuple[Tuple[str, Any, Tuple[Any, ...]], ...] = (
     ("mien_document_resize", c_int32, (MienDocument, c_char_p, c_uint64, POINTER(MienError))),
     ("mien_document_mark", c_int32, (MienDocument, c_void_p, POINTER(MienError))),
     ("mien_document_undo", c_int32, (MienDocument, c_uint64, POINTER(MienError))),
+    ("mien_document_find", c_int32, (MienDocument, c_uint32, c_char_p, c_void_p,
+     POINTER(MienError))),
+    ("mien_document_rename", c_int32, (MienDocument, c_uint32, c_uint32, c_char_p,
+     POINTER(MienError))),
+    ("mien_document_remove", c_int32, (MienDocument, c_uint32, c_void_p, c_size_t,
+     POINTER(MienError))),
+    ("mien_document_clear", c_int32, (MienDocument, c_uint32, POINTER(MienError))),
+    ("mien_document_clear_joints", c_int32, (MienDocument, c_void_p, c_size_t, POINTER(MienError))),
+    ("mien_document_set_neutral", c_int32, (MienDocument, c_uint32, c_void_p, c_void_p, c_size_t,
+     POINTER(MienError))),
+    ("mien_document_set_positions", c_int32, (MienDocument, c_uint32, c_void_p, c_size_t,
+     POINTER(MienError))),
+    ("mien_document_set_target", c_int32, (MienDocument, c_uint32, c_uint32, c_void_p, c_void_p,
+     c_size_t, POINTER(MienError))),
+    ("mien_document_prune_targets", c_int32, (MienDocument, c_float, POINTER(MienPrunedTargets),
+     POINTER(MienError))),
+    ("mien_document_prune_joints", c_int32, (MienDocument, POINTER(MienPruneJointsDesc),
+     POINTER(MienPrunedJoints), POINTER(MienError))),
+    ("mien_document_set_weights", c_int32, (MienDocument, c_uint32, c_uint32, c_void_p, c_void_p,
+     c_size_t, POINTER(MienError))),
+    ("mien_document_normalize_weights", c_int32, (MienDocument, c_uint32, POINTER(MienError))),
+    ("mien_document_limit_influences", c_int32, (MienDocument, c_uint32, c_uint32,
+     POINTER(MienError))),
+    ("mien_document_smooth_weights", c_int32, (MienDocument, c_uint32, c_uint32, c_float, c_uint32,
+     POINTER(MienError))),
+    ("mien_document_place", c_int32, (MienDocument, POINTER(MienPlacement), POINTER(MienError))),
+    ("mien_document_keep_lods", c_int32, (MienDocument, c_uint64, POINTER(MienError))),
+    ("mien_document_convert", c_int32, (MienDocument, POINTER(MienCoordinateSystem),
+     POINTER(MienError))),
+    ("mien_document_copy_layers", c_int32, (MienDocument, MienDocument, c_uint32,
+     POINTER(MienError))),
+    ("mien_document_copy_mesh", c_int32, (MienDocument, MienDocument, c_uint32, c_void_p,
+     POINTER(MienError))),
+    ("mien_document_merge_joints", c_int32, (MienDocument, MienDocument, c_double,
+     POINTER(MienError))),
+    ("mien_document_split_joints", c_int32, (MienDocument, MienDocument, POINTER(MienError))),
+    ("mien_document_project", c_int32, (MienDocument, c_uint32, c_uint32, POINTER(MienProjectDesc),
+     c_void_p, POINTER(MienError))),
+    ("mien_document_make_lod", c_int32, (MienDocument, c_uint32, c_uint32, POINTER(MienProjectDesc),
+     c_void_p, POINTER(MienError))),
+    ("mien_document_conform", c_int32, (MienDocument, c_uint32, c_void_p, c_size_t, c_uint32,
+     POINTER(MienConformed), POINTER(MienError))),
+    ("mien_document_transplant", c_int32, (MienDocument, MienDocument, POINTER(MienTransplantDesc),
+     POINTER(MienControlError), c_size_t, c_void_p, POINTER(MienError))),
     ("mien_document_to_dna", c_int32, (MienDocument, POINTER(MienDocumentDesc), POINTER(MienDna),
      POINTER(MienError))),
     ("mien_document_validate", c_int32, (MienDocument, POINTER(MienValidateDesc),
@@ -4957,6 +5584,31 @@ class AuthorLibrary:
     mien_document_resize: Any
     mien_document_mark: Any
     mien_document_undo: Any
+    mien_document_find: Any
+    mien_document_rename: Any
+    mien_document_remove: Any
+    mien_document_clear: Any
+    mien_document_clear_joints: Any
+    mien_document_set_neutral: Any
+    mien_document_set_positions: Any
+    mien_document_set_target: Any
+    mien_document_prune_targets: Any
+    mien_document_prune_joints: Any
+    mien_document_set_weights: Any
+    mien_document_normalize_weights: Any
+    mien_document_limit_influences: Any
+    mien_document_smooth_weights: Any
+    mien_document_place: Any
+    mien_document_keep_lods: Any
+    mien_document_convert: Any
+    mien_document_copy_layers: Any
+    mien_document_copy_mesh: Any
+    mien_document_merge_joints: Any
+    mien_document_split_joints: Any
+    mien_document_project: Any
+    mien_document_make_lod: Any
+    mien_document_conform: Any
+    mien_document_transplant: Any
     mien_document_to_dna: Any
     mien_document_validate: Any
 

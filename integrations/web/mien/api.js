@@ -335,6 +335,11 @@ export const AuthorFlags = Object.freeze({
   GROUP_IN_SPACE: 32,
 });
 
+export const Match = Object.freeze({
+  SURFACE: 0,
+  UV: 1,
+});
+
 // Of each struct the size, whether it begins with struct_size, and of each field its offset,
 // kind, and the length of an array or the field that counts what a pointer points to.
 export const layouts = {
@@ -957,6 +962,48 @@ export const layouts = {
   } },
   DocumentDesc: { size: 8, sized: true, fields: {
   } },
+  PrunedTargets: { size: 24, sized: true, fields: {
+    deltas: [8, "u64"],
+    targets: [16, "u64"],
+  } },
+  PruneJointsDesc: { size: 20, sized: true, fields: {
+    translation: [4, "f32"],
+    rotation: [8, "f32"],
+    scale: [12, "f32"],
+  } },
+  PrunedJoints: { size: 48, sized: true, fields: {
+    entryCount: [8, "u64"],
+    removedCount: [16, "u64"],
+    worstDistance: [24, "f64"],
+    worstControl: [32, "u32"],
+    worstMesh: [36, "u32"],
+    worstPosition: [40, "u32"],
+  } },
+  Placement: { size: 64, sized: true, fields: {
+    scale: [8, "f64"],
+    rotation: [16, "f64", 3],
+    translation: [40, "f64", 3],
+  } },
+  ProjectDesc: { size: 20, sized: true, fields: {
+    match: [4, "u32"],
+    influences: [8, "u32"],
+    keepWeights: [12, "bool"],
+    keepTargets: [16, "bool"],
+  } },
+  Conformed: { size: 24, sized: true, fields: {
+    jointDistance: [8, "f64"],
+    joint: [16, "u32"],
+  } },
+  TransplantDesc: { size: 12, sized: true, fields: {
+    match: [4, "u32"],
+    influences: [8, "u32"],
+  } },
+  ControlError: { size: 32, sized: false, fields: {
+    worst: [0, "f64"],
+    rms: [8, "f64"],
+    moved: [16, "f64"],
+    control: [24, "u32"],
+  } },
 };
 
 // Parameters of each function that has numbers: p addresses, u and i of 32 bits, U and I of 64, f.
@@ -1056,4 +1103,25 @@ export const calls = {
   mien_document_splice: "ppUUUp",
   mien_document_resize: "ppUp",
   mien_document_undo: "pUp",
+  mien_document_find: "puppp",
+  mien_document_rename: "puupp",
+  mien_document_remove: "pupup",
+  mien_document_clear: "pup",
+  mien_document_clear_joints: "ppup",
+  mien_document_set_neutral: "puppup",
+  mien_document_set_positions: "pupup",
+  mien_document_set_target: "puuppup",
+  mien_document_prune_targets: "pfpp",
+  mien_document_set_weights: "puuppup",
+  mien_document_normalize_weights: "pup",
+  mien_document_limit_influences: "puup",
+  mien_document_smooth_weights: "puufup",
+  mien_document_keep_lods: "pUp",
+  mien_document_copy_layers: "ppup",
+  mien_document_copy_mesh: "ppupp",
+  mien_document_merge_joints: "ppfp",
+  mien_document_project: "puuppp",
+  mien_document_make_lod: "puuppp",
+  mien_document_conform: "pupuupp",
+  mien_document_transplant: "ppppupp",
 };

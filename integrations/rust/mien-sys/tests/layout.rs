@@ -163,5 +163,14 @@ fn structs_are_laid_out_as_in_c() {
             joint_groups 192 overlap_correctives 196 lod_triangles 200 lod_meshes 208 lod_mesh_count
             216;
         MienDocumentDesc 16 8: struct_size 0 allocator 8;
+        MienPrunedTargets 24 8: struct_size 0 deltas 8 targets 16;
+        MienPruneJointsDesc 24 8: struct_size 0 translation 8 rotation 12 scale 16 reserved 20;
+        MienPrunedJoints 48 8: struct_size 0 entry_count 8 removed_count 16 worst_distance 24
+            worst_control 32 worst_mesh 36 worst_position 40 reserved 44;
+        MienPlacement 64 8: struct_size 0 scale 8 rotation 16 translation 40;
+        MienProjectDesc 24 8: struct_size 0 r#match 8 influences 12 keep_weights 16 keep_targets 20;
+        MienConformed 24 8: struct_size 0 joint_distance 8 joint 16 reserved 20;
+        MienTransplantDesc 16 8: struct_size 0 r#match 8 influences 12;
+        MienControlError 32 8: worst 0 rms 8 moved 16 control 24 reserved 28;
     }
 }

@@ -1000,6 +1000,22 @@ impl AuthorFlags {
 
 flags!(AuthorFlags, u32, [(1, "PAPER"), (2, "NO_NECK_CUT"), (4, "MASK_FROM_SHAPES"), (8, "AREA_DENSITY"), (16, "NO_TARGETS"), (32, "GROUP_IN_SPACE")]);
 
+/// How positions of one mesh are found on another.
+///
+/// A later library may give numbers that have no name here.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+#[repr(transparent)]
+pub struct Match(pub u32);
+
+impl Match {
+    /// The nearest place in space.
+    pub const SURFACE: Self = Self(0);
+    /// The nearest place in the texture.
+    pub const UV: Self = Self(1);
+}
+
+numbers!(Match, u32, [(0, "SURFACE"), (1, "UV")]);
+
 /// Axes, units and rotation conventions of a rig. Any handedness is allowed.
 ///
 /// See docs/dna-format.md, 11 "Coordinate systems".
@@ -1594,6 +1610,75 @@ impl From<sys::MienSolverStackInfo> for SolverStackInfo {
             output_count: c.output_count as usize,
             joint_count: c.joint_count as usize,
             state_bytes: c.state_bytes,
+        }
+    }
+}
+
+/// How many deltas and targets `mien_document_prune_targets()` removed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct PrunedTargets {
+    /// Deltas.
+    pub deltas: u64,
+    /// Targets.
+    pub targets: u64,
+}
+
+impl From<sys::MienPrunedTargets> for PrunedTargets {
+    fn from(c: sys::MienPrunedTargets) -> Self {
+        Self {
+            deltas: c.deltas,
+            targets: c.targets,
+        }
+    }
+}
+
+/// What `mien_document_prune_joints()` did, and the largest distance by which it moved a position.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct PrunedJoints {
+    /// Entries of the joint matrix that were not 0.
+    pub entry_count: u64,
+    /// Of these, now 0.
+    pub removed_count: u64,
+    /// In the unit of the file.
+    pub worst_distance: f64,
+    /// Number of the raw control, or corrective with its raw controls, at 1.
+    pub worst_control: u32,
+    /// Worst mesh.
+    pub worst_mesh: u32,
+    /// Worst position.
+    pub worst_position: u32,
+}
+
+impl From<sys::MienPrunedJoints> for PrunedJoints {
+    fn from(c: sys::MienPrunedJoints) -> Self {
+        Self {
+            entry_count: c.entry_count,
+            removed_count: c.removed_count,
+            worst_distance: c.worst_distance,
+            worst_control: c.worst_control,
+            worst_mesh: c.worst_mesh,
+            worst_position: c.worst_position,
+        }
+    }
+}
+
+/// How the rig followed a mesh.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Conformed {
+    /// The farthest that a joint moved, in the unit of the file.
+    pub joint_distance: f64,
+    /// which.
+    pub joint: u32,
+}
+
+impl From<sys::MienConformed> for Conformed {
+    fn from(c: sys::MienConformed) -> Self {
+        Self {
+            joint_distance: c.joint_distance,
+            joint: c.joint,
         }
     }
 }
@@ -2405,6 +2490,209 @@ macro_rules! errors {
     };
     (mien_document_undo) => {
         "- [`Status::INDEX`](crate::Status::INDEX) if `mark` is not a mark of the document, or gone"
+    };
+    (mien_document_find) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if the kind has no names in a document\n\
+         - [`Status::NAME`](crate::Status::NAME) if there is no such name"
+    };
+    (mien_document_rename) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if another element of the kind has the name, or the kind has no names in a document\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if there is no such element\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator returns NULL"
+    };
+    (mien_document_remove) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if elements of the kind cannot be removed, or no joint would be left for the skin weights\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if an index is past the end\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator returns NULL\n\
+         - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if the document is not valid\n\
+         - [`Status::DNA_REFERENCE`](crate::Status::DNA_REFERENCE) if the document is not valid\n\
+         - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if the document is not valid\n\
+         - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if the document is not valid"
+    };
+    (mien_document_clear) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if elements of the kind cannot be removed, or no joint would be left for the skin weights\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator returns NULL\n\
+         - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if the document is not valid\n\
+         - [`Status::DNA_REFERENCE`](crate::Status::DNA_REFERENCE) if the document is not valid\n\
+         - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if the document is not valid\n\
+         - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if the document is not valid"
+    };
+    (mien_document_clear_joints) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if elements of the kind cannot be removed, or no joint would be left for the skin weights\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if an index is past the end\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator returns NULL\n\
+         - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if the document is not valid\n\
+         - [`Status::DNA_REFERENCE`](crate::Status::DNA_REFERENCE) if the document is not valid\n\
+         - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if the document is not valid\n\
+         - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if the document is not valid"
+    };
+    (mien_document_set_neutral) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if a number is not finite\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if there are not so many joints\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator returns NULL\n\
+         - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if the document is not valid\n\
+         - [`Status::DNA_REFERENCE`](crate::Status::DNA_REFERENCE) if the document is not valid\n\
+         - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if the document is not valid\n\
+         - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if the document is not valid"
+    };
+    (mien_document_set_positions) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if the mesh has another number of positions, or a number is not finite\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if `mesh` is past the end\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator returns NULL"
+    };
+    (mien_document_set_target) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if there are more deltas than positions, or a number is not finite\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if `mesh`, `channel` or a vertex is past the end\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator returns NULL\n\
+         - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if the document is not valid\n\
+         - [`Status::DNA_REFERENCE`](crate::Status::DNA_REFERENCE) if the document is not valid\n\
+         - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if the document is not valid\n\
+         - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if the document is not valid"
+    };
+    (mien_document_prune_targets) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `tolerance` is negative or not finite\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator returns NULL\n\
+         - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if the document is not valid\n\
+         - [`Status::DNA_REFERENCE`](crate::Status::DNA_REFERENCE) if the document is not valid\n\
+         - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if the document is not valid\n\
+         - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if the document is not valid"
+    };
+    (mien_document_prune_joints) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if a field of `desc` is negative or not finite\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator returns NULL\n\
+         - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if the document is not valid\n\
+         - [`Status::DNA_REFERENCE`](crate::Status::DNA_REFERENCE) if the document is not valid\n\
+         - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if the document is not valid\n\
+         - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if the document is not valid"
+    };
+    (mien_document_set_weights) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if there is another number of weights, a weight is negative or not finite, a joint does not exist, or a position has a joint twice or no weight\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if `mesh` is past the end\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator returns NULL\n\
+         - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if the document is not valid\n\
+         - [`Status::DNA_REFERENCE`](crate::Status::DNA_REFERENCE) if the document is not valid\n\
+         - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if the document is not valid\n\
+         - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if the document is not valid"
+    };
+    (mien_document_normalize_weights) => {
+        "- [`Status::INDEX`](crate::Status::INDEX) if `mesh` is past the end\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator returns NULL\n\
+         - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if the document is not valid\n\
+         - [`Status::DNA_REFERENCE`](crate::Status::DNA_REFERENCE) if the document is not valid\n\
+         - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if the document is not valid\n\
+         - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if the document is not valid"
+    };
+    (mien_document_limit_influences) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `influences` is 0\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if `mesh` is past the end\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator returns NULL\n\
+         - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if the document is not valid\n\
+         - [`Status::DNA_REFERENCE`](crate::Status::DNA_REFERENCE) if the document is not valid\n\
+         - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if the document is not valid\n\
+         - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if the document is not valid"
+    };
+    (mien_document_smooth_weights) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `influences` is 0; or `strength` is not 0 to 1, or there are more than 1000 iterations\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if `mesh` is past the end\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator returns NULL\n\
+         - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if the document is not valid\n\
+         - [`Status::DNA_REFERENCE`](crate::Status::DNA_REFERENCE) if the document is not valid\n\
+         - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if the document is not valid\n\
+         - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if the document is not valid"
+    };
+    (mien_document_place) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if a number is not finite or the scale is negative\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator returns NULL\n\
+         - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if the document is not valid\n\
+         - [`Status::DNA_REFERENCE`](crate::Status::DNA_REFERENCE) if the document is not valid\n\
+         - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if the document is not valid\n\
+         - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if a root joint is moved by controls and the rotation is not 0, networks translate joints and the scale is not 1, or the document is not valid"
+    };
+    (mien_document_keep_lods) => {
+        "- [`Status::LOD`](crate::Status::LOD) if there is none of them\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator returns NULL\n\
+         - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if the document is not valid\n\
+         - [`Status::DNA_REFERENCE`](crate::Status::DNA_REFERENCE) if the document is not valid\n\
+         - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if the document is not valid\n\
+         - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if the document is not valid"
+    };
+    (mien_document_convert) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator returns NULL\n\
+         - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if the document is not valid\n\
+         - [`Status::DNA_REFERENCE`](crate::Status::DNA_REFERENCE) if the document is not valid\n\
+         - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if the document is not valid\n\
+         - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if the rig cannot be converted or the document is not valid"
+    };
+    (mien_document_copy_layers) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `layers` has other bits\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator returns NULL\n\
+         - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if they do not fit the layers that stay\n\
+         - [`Status::DNA_REFERENCE`](crate::Status::DNA_REFERENCE) if they do not fit the layers that stay\n\
+         - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if they do not fit the layers that stay\n\
+         - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if they do not fit the layers that stay"
+    };
+    (mien_document_copy_mesh) => {
+        "- [`Status::MISMATCH`](crate::Status::MISMATCH) if the documents differ in axes, units or rotations, or no joint of a position is here\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if there is no such mesh\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator returns NULL\n\
+         - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if one of them is not valid\n\
+         - [`Status::DNA_REFERENCE`](crate::Status::DNA_REFERENCE) if one of them is not valid\n\
+         - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if one of them is not valid\n\
+         - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if one of them is not valid"
+    };
+    (mien_document_merge_joints) => {
+        "- [`Status::MISMATCH`](crate::Status::MISMATCH) if the documents differ in axes, units or rotations, or in the place of a joint\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator returns NULL\n\
+         - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if one of them is not valid or the result would not be\n\
+         - [`Status::DNA_REFERENCE`](crate::Status::DNA_REFERENCE) if one of them is not valid or the result would not be\n\
+         - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if one of them is not valid or the result would not be\n\
+         - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if one of them is not valid or the result would not be"
+    };
+    (mien_document_split_joints) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if no joint would be left for the skin weights\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator returns NULL\n\
+         - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if `document` is not valid\n\
+         - [`Status::DNA_REFERENCE`](crate::Status::DNA_REFERENCE) if `document` is not valid\n\
+         - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if `document` is not valid\n\
+         - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if `document` is not valid"
+    };
+    (mien_document_project) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if they are the same, or lack triangles, texture coordinates or weights\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if `mesh` or `source` is past the end\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator returns NULL\n\
+         - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if the document is not valid\n\
+         - [`Status::DNA_REFERENCE`](crate::Status::DNA_REFERENCE) if the document is not valid\n\
+         - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if the document is not valid\n\
+         - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if the document is not valid"
+    };
+    (mien_document_make_lod) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if the LODs are the same, or meshes lack triangles, texture coordinates or weights\n\
+         - [`Status::LOD`](crate::Status::LOD) if there is no such LOD\n\
+         - [`Status::NAME`](crate::Status::NAME) if a mesh has no counterpart\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator returns NULL\n\
+         - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if the document is not valid\n\
+         - [`Status::DNA_REFERENCE`](crate::Status::DNA_REFERENCE) if the document is not valid\n\
+         - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if the document is not valid\n\
+         - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if the document is not valid"
+    };
+    (mien_document_conform) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if the mesh has another number of positions, or a number is not finite\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if `mesh` is past the end\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator returns NULL\n\
+         - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if the document is not valid\n\
+         - [`Status::DNA_REFERENCE`](crate::Status::DNA_REFERENCE) if the document is not valid\n\
+         - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if the document is not valid\n\
+         - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if the document is not valid"
+    };
+    (mien_document_transplant) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if no mesh of LOD 0 has the name of one of the template, or meshes lack triangles or texture coordinates\n\
+         - [`Status::MISMATCH`](crate::Status::MISMATCH) if the documents differ in axes, units or rotations\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator returns NULL\n\
+         - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if one of them is not valid\n\
+         - [`Status::DNA_REFERENCE`](crate::Status::DNA_REFERENCE) if one of them is not valid\n\
+         - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if one of them is not valid\n\
+         - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if one of them is not valid"
     };
     (mien_document_to_dna) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\

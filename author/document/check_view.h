@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// What operations rely on. A document may be in any state while its fields are written; an operation begins
+// with the checks that a file gets when it is opened, of the layers that it follows.
+#pragma once
+
+#include "author/document/document.h"
+
+namespace mien::author {
+
+/// kDnaStructure, kDnaReference, ... with the first field that is not valid.
+Status check_view(const dna::DnaView& view, Error& error);
+
+/// kIndex for the first of `indices` that is not below `count`, the number of elements called `what`.
+Status check_indices(Span<const uint32_t> indices, uint32_t count, const char* what, Error& error);
+
+}  // namespace mien::author
