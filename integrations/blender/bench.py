@@ -3,7 +3,7 @@
 
     blender --background --python bench.py -- RIG.dna [FRAMES]
 
-Run with the add-on installed; tests/run.py does so: run.py ../bench.py. Prints lines that begin with MEASURED.
+Run with the add-on installed, as ./dev blender bench does. Prints lines that begin with MEASURED.
 """
 import os
 import sys

@@ -10,6 +10,7 @@ from bpy_extras.io_utils import ExportHelper, ImportHelper
 
 from . import live, takes
 from .actions import new_action, sampled_frames, set_curve
+from .face_board import slider_of
 from .operators import RigOperator, active_rig
 
 
@@ -36,6 +37,37 @@ def to_action(rig_object, rig_file, take, name, start, rate):
     return missing
 
 
+def to_board(rig_object, rig_file, take, name, start, rate):
+    """The same for the sliders of the face board. What they cannot make stays in the controls, so that the sum is the take."""
+    rows, driven, missing = takes.raw_rows(take, rig_file)
+    board = rig_object.mien.board
+    if not driven:
+        raise ValueError(f"{name}: none of its {len(take.names)} channels drives a control of this rig")
+    face, initial = rig_file.rig.instance(), rig_file.rig.initial_raw_controls
+    sliders, rest = np.zeros((len(rows), len(rig_file.gui_controls)), np.float32), np.zeros_like(rows)
+    for row, slider, left in zip(rows, sliders, rest):
+        face.raw_controls = row
+        face.map_raw_to_gui()
+        slider[:] = face.gui_controls
+        face.raw_controls = initial
+        face.map_gui_to_raw()
+        left[:] = row - face.raw_controls + initial
+    frames = start + take.seconds * rate
+    action = new_action(f"{name} board", board)
+    for control, gui in enumerate(rig_file.gui_controls):
+        bone, axis = slider_of(gui)
+        if bone in board.pose.bones:
+            set_curve(action, board, f'pose.bones["{bpy.utils.escape_identifier(bone)}"].location', axis, frames,
+                      sliders[:, control])
+    moving = [control for control in driven if np.abs(rest[:, control] - initial[control]).max() > 1e-6]
+    action = new_action(name, rig_object)
+    for control in driven:
+        path = live.control_path(rig_file.controls[control])
+        set_curve(action, rig_object, path, 0, frames,
+                  rest[:, control] if control in moving else np.full(len(frames), initial[control]))
+    return missing
+
+
 class MIEN_OT_import_take(bpy.types.Operator, RigOperator, ImportHelper):
     """Import a performance as an action of the controls: CSV of the Live Link Face app, CSV with a column "time", a .clip,
     frames as JSON, or a scene of mien play"""
@@ -47,6 +79,8 @@ class MIEN_OT_import_take(bpy.types.Operator, RigOperator, ImportHelper):
     filename_ext = ""
     filter_glob: StringProperty(default="*.csv;*.clip;*.json", options={"HIDDEN"})
     start: FloatProperty(name="Start Frame", default=1, description="The frame of the scene where the first frame comes")
+    to_board: BoolProperty(name="To Face Board", default=False,
+                           description="Key the sliders of the face board, as far as they can make the performance")
     set_range: BoolProperty(name="Set Scene Range", default=True, description="Let the scene end with the performance")
 
     def execute(self, context):
@@ -60,7 +94,10 @@ class MIEN_OT_import_take(bpy.types.Operator, RigOperator, ImportHelper):
                 take = takes.read(path)
             rate = scene_rate(context.scene)
             name = os.path.splitext(os.path.basename(path))[0]
-            missing = to_action(rig_object, rig_file, take, name, self.start, rate)
+            if self.to_board and rig_object.mien.board is None:
+                return self.fail(f"{rig_object.name} has no face board: its file has no GUI controls, or it was not imported")
+            convert = to_board if self.to_board else to_action
+            missing = convert(rig_object, rig_file, take, name, self.start, rate)
         except (OSError, ValueError) as error:
             return self.fail(error)
         if self.set_range:

@@ -55,7 +55,7 @@ def environment(folder):
 def run(blender, folder, *arguments):
     command = [blender, "--background", "--python-exit-code", "1", *map(str, arguments)]
     return subprocess.run(command, env=environment(folder), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                          timeout=900)
+                          timeout=3600)
 
 
 def check(result):

@@ -82,6 +82,22 @@ class Performances(unittest.TestCase):
         self.assertEqual(take.names, rig_names)
         self.assertLess(np.abs(take.rows - rows).max(), 1e-6)
 
+    def test_to_the_face_board(self):
+        names = live.file_of(self.rig).rig.names(mien.Kind.RAW_CONTROL)
+        rows = np.random.default_rng(2).random((3, len(names))).astype(np.float32)
+        path = written("board.csv", "\n".join(",".join(map(repr, row)) for row in
+                                              [["time", *names], *([i / 24, *map(float, row)] for i, row in enumerate(rows))])
+                       .replace("'", ""))
+        bpy.context.scene.render.fps = 24
+        bpy.ops.mien.import_take(filepath=path, to_board=True)
+        locations = []
+        for i, row in enumerate(rows):
+            bpy.context.scene.frame_set(1 + i)
+            raw = live.raw_controls(self.rig, bpy.context.evaluated_depsgraph_get())
+            self.assertLess(np.abs(raw - row).max(), 1e-5)
+            locations.append([tuple(bone.location) for bone in self.rig.mien.board.pose.bones])
+        self.assertGreater(np.abs(np.subtract(locations[0], locations[1])).max(), 0.1)
+
     def test_scene(self):
         if not os.path.exists(PROGRAM):
             print("NOT TESTED: scenes in Blender; the program mien is not built")
