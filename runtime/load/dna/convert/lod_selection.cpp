@@ -603,8 +603,9 @@ class LodSelector {
 
   void select_joint_metadata() { keep_survivors(view_.jbmd.joints, joints_); }
 
-  template <class Setup>
-  void select_outputs(List<Setup>& setups) {
+  /// `stays(setup)` tells whether one is kept that has lost all its output joints.
+  template <class Setup, class Stays>
+  void select_outputs(List<Setup>& setups, const Stays& stays) {
     uint32_t kept = 0;
     for (Setup& setup : setups) {
       const Array<uint16_t> joints = setup.output_joint_indices;
@@ -613,7 +614,7 @@ class LodSelector {
       for (uint32_t i = 0; i < weights.count; ++i) {
         if (joints_[joints[i]] != kGone) weights.set(k++, setup.blend_weights[i]);
       }
-      if (k == 0) continue;
+      if (k == 0 && !stays(setup)) continue;
       setup.blend_weights = Array<float>(weights).first(k);
       setup.output_joint_indices = renumbered(joints, joints_);
       setups[kept++] = setup;
@@ -621,9 +622,21 @@ class LodSelector {
     setups.count = kept;
   }
 
+  static bool same_numbers(const Array<uint16_t>& a, const Array<uint16_t>& b) {
+    bool same = a.count == b.count;
+    for (uint32_t i = 0; same && i < a.count; ++i) same = a[i] == b[i];
+    return same;
+  }
+
   void select_twists_and_swings() {
-    select_outputs(view_.twsw.twists);
-    select_outputs(view_.twsw.swings);
+    const auto& twists = view_.twsw.twists;
+    select_outputs(view_.twsw.twists, [](const Twist&) { return false; });
+    // A twist of the inputs of a swing is the opposite of one alone (docs/rig-evaluation.md, 7 "Twist and swing").
+    select_outputs(view_.twsw.swings, [&](const Swing& swing) {
+      return std::any_of(twists.begin(), twists.end(), [&](const Twist& twist) {
+        return same_numbers(twist.input_control_indices, swing.input_control_indices);
+      });
+    });
   }
 
   DnaView& view_;
