@@ -71,6 +71,8 @@ PROGRAM_GRAPH = {
     "render": ["math"],                           # meshes -> images: knows nothing of rigs
     "io": ["mien.h", "math"],                     # files, frames, JSON, output
     "gltf": ["mien.h", "math", "io"],             # rigs -> GLB, OBJ
+    "model": [],                                  # a rig in double precision, from the formulas alone
+    "accept": ["mien.h", "math", "io", "model"],  # the checks of `mien accept`
     "scene": ["mien.h", "math", "io", "render"],  # a rig in a pose
     "live": ["mien.h", "io", "gltf"],  # packets of live sources -> rows of controls
     "mesh": ["mien.h", "io"],          # meshes and shapes from files, for `mien author`
@@ -80,7 +82,7 @@ PROGRAM_GRAPH = {
     "tests/gltf": ["gltf"],
     "tests/render": ["render"],
     "view": ["io"],                    # the page of the viewer, served on this machine
-    "commands": ["mien.h", "mien_author.h", "math", "io", "render", "gltf", "scene", "mesh", "play", "live",
+    "commands": ["mien.h", "mien_author.h", "accept", "math", "io", "render", "gltf", "scene", "mesh", "play", "live",
                  "view", "baseline"],
     "": ["mien.h", "mien_author.h", "io", "commands"],  # main.cpp, without_author.cpp
 }

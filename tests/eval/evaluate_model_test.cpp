@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Random rigs against the formulas of docs/rig-evaluation.md in double precision
-// (tests/support/plain_rig.h). The rules one by one: evaluate_test.cpp, evaluate_controls_test.cpp.
+// (integrations/program/model/plain_rig.h). The rules one by one: evaluate_test.cpp, evaluate_controls_test.cpp.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Learned behavior against a plain model (tests/support/ml_model.h): networks, operations, masks,
+// Learned behavior against a plain model (integrations/program/model/ml_model.h): networks, operations, masks,
 // and the joints that follow, on every instruction set.
 #include <gtest/gtest.h>
 
@@ -7,13 +7,11 @@
 #include <cmath>
 #include <cstring>
 
-#include "tests/support/ml_model.h"
-#include "tests/support/rotation_model.h"
+#include "integrations/program/model/ml_model.h"
+#include "tests/support/same_joints.h"
 
 namespace mien {
 namespace {
-
-using dna::MlOperationType;
 
 constexpr uint16_t kRaw = 12;  // four plain controls, two quaternions
 
@@ -160,17 +158,17 @@ TEST(Operations, GatherRunSumScatterAndRunAgain) {
                     random_network(12, {8, 7}, 1, random), random_network(8, {9}, 2, random)};
     rig.regions = {{0}, {2, 3}};
     const auto gather = [&](uint32_t count) {
-      PlainOperation operation = {MlOperationType::kGather, {}, {}};
+      PlainOperation operation = {OperationType::kGather, {}, {}};
       for (uint32_t i = 0; i < count; ++i) operation.parameters.push_back(random.below(kRaw));
       return operation;
     };
     const auto scatter = [&](uint32_t first, uint32_t count,
                              std::vector<std::pair<uint16_t, uint16_t>> from) {
-      PlainOperation operation = {MlOperationType::kScatter, {}, std::move(from)};
+      PlainOperation operation = {OperationType::kScatter, {}, std::move(from)};
       for (uint32_t i = 0; i < count; ++i) operation.parameters.push_back(kRaw + first + i);
       return operation;
     };
-    PlainOperation sum = {MlOperationType::kWeightedSum, {6}, {{1, 0}, {1, 1}, {0, 2}}};
+    PlainOperation sum = {OperationType::kWeightedSum, {6}, {{1, 0}, {1, 1}, {0, 2}}};
     for (int d = 0; d < 3; ++d) {
       const auto weight = static_cast<float>(random.between(-1, 1));
       uint32_t bits;
@@ -180,13 +178,13 @@ TEST(Operations, GatherRunSumScatterAndRunAgain) {
     // Row limits [layer][lod]: of the last layer they say how much is scattered.
     rig.operations = {
         {gather(2), gather(3), gather(6)},
-        {{MlOperationType::kMlp, {0}, {{0, 0}, {0, 1}}}, {MlOperationType::kMlp, {1}, {{0, 1}}}},
+        {{OperationType::kMlp, {0}, {{0, 0}, {0, 1}}}, {OperationType::kMlp, {1}, {{0, 1}}}},
         {sum},
-        {{MlOperationType::kMlp, {2, 8, 8, 7, 4}, {{1, 0}, {2, 0}}}},
+        {{OperationType::kMlp, {2, 8, 8, 7, 4}, {{1, 0}, {2, 0}}}},
         {scatter(0, 4, {{3, 0}}), scatter(4, 3, {{3, 0}}), scatter(7, 4, {{1, 1}})},
         // Reads what was scattered: a gather stands before what it is for.
-        {{MlOperationType::kGather, {kRaw, kRaw + 1, kRaw + 2, kRaw + 7, kRaw + 8, 0, 1, 2}, {}}},
-        {{MlOperationType::kMlp, {3, 5, 2}, {{5, 0}}}},
+        {{OperationType::kGather, {kRaw, kRaw + 1, kRaw + 2, kRaw + 7, kRaw + 8, 0, 1, 2}, {}}},
+        {{OperationType::kMlp, {3, 5, 2}, {{5, 0}}}},
         {scatter(14, 9, {{6, 0}})}};
     expect_model(rig, random, 3, 2e-5);
   }

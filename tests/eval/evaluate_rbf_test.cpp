@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// RBF solvers against a plain model (tests/support/rbf_model.h), on every instruction set.
+// RBF solvers against a plain model (integrations/program/model/rbf_model.h), on every instruction set.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "tests/support/rbf_model.h"
+#include "integrations/program/model/rbf_model.h"
+#include "tests/support/layer_rig.h"
 
 namespace mien {
 namespace {

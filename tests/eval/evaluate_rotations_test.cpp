@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Rotations of joints against a plain model (tests/support/rotation_model.h): every convention,
+// Rotations of joints against a plain model (integrations/program/model/rotation_model.h): every convention,
 // form of outputs and representation, twists and swings, on every instruction set.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "tests/support/rotation_model.h"
+#include "tests/support/same_joints.h"
 
 namespace mien {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Joint groups, channels, maps, LODs, stages and the state of an instance: each rule on a small
-// rig, then random rigs against a model in double precision (tests/support/plain_rig.h).
+// rig, then random rigs against a model in double precision (integrations/program/model/plain_rig.h).
 #include "runtime/eval/evaluate.h"
 
 #include <gtest/gtest.h>

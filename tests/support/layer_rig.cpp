@@ -162,10 +162,6 @@ List<Turn> turns(const std::vector<PlainTurn>& from, Maker& make) {
 
 }  // namespace
 
-bool LayerRig::has(const LodIndices& list, uint32_t lod, uint32_t index) const {
-  return list.empty() || std::count(list[lod].begin(), list[lod].end(), index) != 0;
-}
-
 dna::DnaView to_view(const LayerRig& rig, Arena& arena) {
   Maker make{arena};
   dna::DnaView view = to_view(rig.base, arena);
@@ -190,24 +186,6 @@ LayerFile::LayerFile(const LayerRig& rig) {
   Arena arena(default_allocator());
   bytes = write_view(to_view(rig, arena));
   dna = open_dna(bytes);
-}
-
-std::vector<double> initial_controls(const LayerRig& rig) {
-  std::vector<double> controls(rig.control_count());
-  const auto start = [&](uint16_t control) {
-    const bool w = std::find(rig.raw_w.begin(), rig.raw_w.end(), control) != rig.raw_w.end();
-    if (w) controls[control] = 1;
-  };
-  for (const PlainRbfSolver& solver : rig.solvers) {
-    for (uint16_t input : solver.inputs) start(input);
-  }
-  for (const std::vector<PlainTurn>& all : {rig.twists, rig.swings}) {
-    for (const PlainTurn& turn : all) {
-      for (uint16_t input : turn.inputs) start(input);
-    }
-  }
-  for (uint16_t w : rig.ml_w) controls[size_t{rig.first_ml()} + w] = 1;
-  return controls;
 }
 
 std::vector<float> random_raw(const LayerRig& rig, const std::vector<uint16_t>& quaternions,

@@ -8,8 +8,6 @@
 namespace mien {
 namespace {
 
-using dna::MlOperationType;
-
 struct Builder {
   Random& random;
   bool wild;
@@ -110,12 +108,11 @@ struct Builder {
       more.push_back(rig.first_ml() + 7 + i);
     }
     rig.operations = {
-        {{MlOperationType::kGather, {0, 1, 2}, {}}},
-        {{MlOperationType::kMlp, {0}, {{0, 0}}}, {MlOperationType::kMlp, {1}, {{0, 0}}}},
-        {{MlOperationType::kWeightedSum, {7, bits[0], bits[1]}, {{1, 0}, {1, 1}}}},
-        {{MlOperationType::kMlp, {2}, {{2, 0}}}},
-        {{MlOperationType::kScatter, outputs, {{3, 0}}},
-         {MlOperationType::kScatter, more, {{1, 0}}}}};
+        {{OperationType::kGather, {0, 1, 2}, {}}},
+        {{OperationType::kMlp, {0}, {{0, 0}}}, {OperationType::kMlp, {1}, {{0, 0}}}},
+        {{OperationType::kWeightedSum, {7, bits[0], bits[1]}, {{1, 0}, {1, 1}}}},
+        {{OperationType::kMlp, {2}, {{2, 0}}}},
+        {{OperationType::kScatter, outputs, {{3, 0}}}, {OperationType::kScatter, more, {{1, 0}}}}};
   }
 
   void make_joints() {
@@ -186,8 +183,8 @@ struct Builder {
     }
     for (PlainOperationSet& set : rig.operations) {
       for (PlainOperation& operation : set) {
-        const bool controls = operation.type == MlOperationType::kGather ||
-                              operation.type == MlOperationType::kScatter;
+        const bool controls =
+            operation.type == OperationType::kGather || operation.type == OperationType::kScatter;
         for (uint32_t& parameter : operation.parameters) {
           if (controls && random.chance(0.5)) parameter = below(rig.control_count());
         }

@@ -11,6 +11,7 @@
 #include "integrations/program/commands/bench_frame.h"
 #include "integrations/program/commands/bench_measurement.h"
 #include "integrations/program/commands/bench_stage.h"
+#include "integrations/program/io/cpu.h"
 #include "integrations/program/io/dna_fields.h"
 #include "integrations/program/io/json_writer.h"
 #include "integrations/program/io/text.h"
@@ -25,17 +26,6 @@ struct BenchOptions {
   LoadOptions load;
   RigOptions evaluation;
 };
-
-std::string cpu_name() {
-  std::ifstream file("/proc/cpuinfo");
-  std::string line;
-  while (std::getline(file, line)) {
-    if (line.compare(0, 10, "model name") != 0) continue;
-    const size_t colon = line.find(": ");
-    if (colon != std::string::npos) return line.substr(colon + 2);
-  }
-  return "unknown";
-}
 
 std::string compiler_name() {
 #if defined(__clang__)

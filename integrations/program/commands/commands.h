@@ -26,6 +26,7 @@ struct Command {
 
 Command add_info_command(CLI::App& app, const Session& session);
 Command add_validate_command(CLI::App& app, const Session& session);
+Command add_accept_command(CLI::App& app, const Session& session);
 Command add_eval_command(CLI::App& app, const Session& session);
 Command add_bake_command(CLI::App& app, const Session& session);
 Command add_convert_command(CLI::App& app, const Session& session);

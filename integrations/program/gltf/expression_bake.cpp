@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "integrations/program/math/random.h"
+
 namespace mien::gltf {
 
 namespace {
@@ -12,20 +14,6 @@ constexpr uint32_t kCombinations = 200;
 constexpr double kLeastMove = 2e-6;  // of the diagonal
 constexpr double kLeastCorrective = 1e-3;
 constexpr size_t kMaxCorrectives = 128;
-
-/// Pseudo-random numbers that are the same everywhere: splitmix64.
-class Random {
- public:
-  double unit() {
-    uint64_t z = state_ += 0x9e3779b97f4a7c15u;
-    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ z >> 27) * 0x94d049bb133111ebu;
-    return static_cast<double>((z ^ z >> 31) >> 11) * 0x1p-53;
-  }
-
- private:
-  uint64_t state_ = 0;
-};
 
 using Weights = std::vector<double>;  // of the expressions
 
@@ -332,7 +320,7 @@ std::vector<size_t> bases_of(const RigExpressions& set) {
 }
 
 /// Weights of a random combination.
-void draw_weights(const RigExpressions& set, const std::vector<size_t>& bases, Random& random,
+void draw_weights(const RigExpressions& set, const std::vector<size_t>& bases, math::Random& random,
                   Weights& weights) {
   for (double& weight : weights) {
     const bool is_on = random.unit() < 0.125;
@@ -387,7 +375,7 @@ BakeReport bake_expressions(const RigSource& source, const RigExpressions& set, 
     report.moved_positions +=
         static_cast<size_t>(std::count(baked.is_moved.begin(), baked.is_moved.end(), true));
     measure_halfway(face, set, baked, halfway);
-    Random random;
+    math::Random random;
     Weights weights(count);
     for (uint32_t i = 0; i < kCombinations; ++i) {
       // Most of the time goes here.

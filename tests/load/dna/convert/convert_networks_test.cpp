@@ -13,7 +13,7 @@
 namespace mien {
 namespace {
 
-using Operation = dna::MlOperationType;
+using Operation = OperationType;
 
 // Controls: 0 and 1 are plain, 2 3 4 5 the quaternion x y z w that a twist reads, 6 to 9 are learned.
 class ConvertNetworks : public testing::Test {

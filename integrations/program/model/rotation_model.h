@@ -6,9 +6,9 @@
 #include <array>
 #include <vector>
 
-#include "tests/support/layer_rig.h"
+#include "integrations/program/model/layer_rig.h"
 
-namespace mien {
+namespace mien::model {
 
 /// x y z w. a * b turns by b first.
 struct ModelQuaternion {
@@ -42,13 +42,8 @@ struct ModelJoint {
 std::vector<ModelJoint> model_joints(const LayerRig& rig, const std::vector<double>& controls,
                                      uint32_t lod, bool quaternion_outputs);
 
-/// The joint values of the library as the model sees them.
-std::vector<ModelJoint> joints_of(const LayerRig& rig, Span<const float> outputs,
+/// Joint values of the library, 9 or 10 floats for each joint, as the model sees them.
+std::vector<ModelJoint> joints_of(const LayerRig& rig, const float* outputs, size_t count,
                                   bool quaternion_outputs);
 
-/// Every joint: rotations within `radians`, the rest within `tolerance`.
-testing::AssertionResult same_joints(const std::vector<ModelJoint>& mine,
-                                     const std::vector<ModelJoint>& expected, double radians,
-                                     double tolerance);
-
-}  // namespace mien
+}  // namespace mien::model

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "tests/support/ml_model.h"
+#include "integrations/program/model/ml_model.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 
-#include "tests/support/rotation_model.h"
+#include "integrations/program/model/rotation_model.h"
 
-namespace mien {
+namespace mien::model {
 namespace {
 
 using Row = std::vector<double>;
-using dna::MlOperationType;
 
 constexpr double kDirections[6][3] = {{-1, 0, 0}, {1, 0, 0}, {0, 1, 0},
                                       {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
@@ -131,12 +130,11 @@ void convert(const LayerRig& rig, uint32_t lod, Row& controls) {
 
 /// A file without operations is gather, run, scatter for each network (8.1).
 void run_networks(const LayerRig& rig, uint32_t lod, const Row& masks, bool blend, Row& controls) {
-  const Row before = controls;
   for (size_t n = 0; n < rig.networks.size(); ++n) {
     if (!rig.has(rig.lod_networks, lod, static_cast<uint32_t>(n))) continue;
     const PlainNetwork& network = rig.networks[n];
     Row inputs;
-    for (uint16_t input : network.inputs) inputs.push_back(before[input]);
+    for (uint16_t input : network.inputs) inputs.push_back(controls[input]);
     const Row outputs = model_network(network, inputs);
     const double mask = mask_of(rig, static_cast<uint32_t>(n), masks, blend);
     for (size_t i = 0; i < network.outputs.size(); ++i) {
@@ -149,18 +147,28 @@ void run_networks(const LayerRig& rig, uint32_t lod, const Row& masks, bool blen
 void run_operations(const LayerRig& rig, uint32_t lod, const Row& masks, bool blend,
                     Row& controls) {
   std::vector<std::vector<Row>> results(rig.operations.size());
+  // Controls are gathered when they are needed.
+  const auto result_of = [&](const std::pair<uint16_t, uint16_t>& dependency) {
+    const PlainOperation& from = rig.operations[dependency.first][dependency.second];
+    if (from.type != OperationType::kGather) return results[dependency.first][dependency.second];
+    Row gathered;
+    for (uint32_t control : from.parameters) gathered.push_back(controls[control]);
+    return gathered;
+  };
   for (size_t s = 0; s < rig.operations.size(); ++s) {
     for (size_t o = 0; o < rig.operations[s].size(); ++o) {
       const PlainOperation& operation = rig.operations[s][o];
       Row out;
-      if (operation.type == MlOperationType::kGather) {
-        for (uint32_t control : operation.parameters) out.push_back(controls[control]);
-      } else if (operation.type == MlOperationType::kMlp) {
+      const bool runs = rig.lod_operations.empty() ||
+                        rig.has(rig.lod_operations[s], lod, static_cast<uint32_t>(o));
+      if (operation.type == OperationType::kMlp && !runs) {
+        out.assign(rig.networks[operation.parameters[0]].layers.back().biases.size(), 0.0);
+      } else if (operation.type == OperationType::kMlp) {
         Row gathered, all;
         for (const auto& [set, number] : operation.dependencies) {
-          const Row& from = results[set][number];
+          const Row from = result_of({set, number});
           all.insert(all.end(), from.begin(), from.end());
-          if (rig.operations[set][number].type != MlOperationType::kGather) continue;
+          if (rig.operations[set][number].type != OperationType::kGather) continue;
           gathered.insert(gathered.end(), from.begin(), from.end());
         }
         const uint32_t network = operation.parameters[0];
@@ -174,7 +182,7 @@ void run_operations(const LayerRig& rig, uint32_t lod, const Row& masks, bool bl
         if (limits > 1) limit = operation.parameters[1 + limits - rig.base.lod_count + lod];
         for (const PlainOperationSet& later : rig.operations) {
           for (const PlainOperation& scatter : later) {
-            if (scatter.type != MlOperationType::kScatter) continue;
+            if (scatter.type != OperationType::kScatter) continue;
             for (const auto& [set, number] : scatter.dependencies) {
               if (set != s || number != o) continue;
               for (uint32_t control : scatter.parameters) {
@@ -187,13 +195,13 @@ void run_operations(const LayerRig& rig, uint32_t lod, const Row& masks, bool bl
             }
           }
         }
-      } else if (operation.type == MlOperationType::kWeightedSum) {
+      } else if (operation.type == OperationType::kWeightedSum) {
         out.assign(operation.dependencies.empty() ? 0 : operation.parameters[0], 0);
-        for (size_t d = 0; d < operation.dependencies.size(); ++d) {
-          const auto& [set, number] = operation.dependencies[d];
+        for (size_t d = 0; runs && d < operation.dependencies.size(); ++d) {
+          const Row from = result_of(operation.dependencies[d]);
           float weight;
           memcpy(&weight, &operation.parameters[d + 1], sizeof(weight));
-          for (size_t i = 0; i < out.size(); ++i) out[i] += weight * results[set][number][i];
+          for (size_t i = 0; i < out.size(); ++i) out[i] += weight * from[i];
         }
       }
       results[s].push_back(out);
@@ -249,4 +257,4 @@ void model_ml(const LayerRig& rig, uint32_t lod, const std::vector<double>& mask
   convert(rig, lod, controls);
 }
 
-}  // namespace mien
+}  // namespace mien::model

@@ -5,9 +5,9 @@
 
 #include <vector>
 
-#include "tests/support/layer_rig.h"
+#include "integrations/program/model/layer_rig.h"
 
-namespace mien {
+namespace mien::model {
 
 /// Values per joint, as keys 0, 1 and 2 of the ML joints give them.
 struct MlJointLayout {
@@ -25,4 +25,4 @@ std::vector<double> model_network(const PlainNetwork& network, std::vector<doubl
 void model_ml(const LayerRig& rig, uint32_t lod, const std::vector<double>& masks, bool blend_masks,
               std::vector<double>& controls);
 
-}  // namespace mien
+}  // namespace mien::model

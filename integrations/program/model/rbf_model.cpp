@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "tests/support/rbf_model.h"
+#include "integrations/program/model/rbf_model.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace mien {
+namespace mien::model {
 namespace {
 
 using Row = std::vector<double>;
@@ -38,7 +38,7 @@ Row target(const PlainRbfSolver& solver, size_t pose) {
   return prepared(solver, Row(from, from + n));
 }
 
-// 6.3
+// 6.3: as it says there, the dot product of quaternions has 32-bit floats, each product and sum rounded once.
 double distance(const PlainRbfSolver& solver, const Row& a, const Row& b) {
   double sum = 0;
   if (solver.distance == 0) {
@@ -46,9 +46,10 @@ double distance(const PlainRbfSolver& solver, const Row& a, const Row& b) {
     return std::sqrt(sum);
   }
   for (size_t i = 0; i + 4 <= a.size(); i += 4) {
-    double dot = 0;
-    for (size_t k = i; k < i + 4; ++k) dot += a[k] * b[k];
-    const double u = dot * dot, angle = u > 1 ? 0 : std::acos(2 * u - 1);
+    float dot = 0;
+    for (size_t k = i; k < i + 4; ++k) dot += static_cast<float>(a[k]) * static_cast<float>(b[k]);
+    const float u = dot * dot;
+    const double angle = u > 1 ? 0 : std::acos(2 * double{u} - 1);
     sum += angle * angle;
   }
   return std::sqrt(sum);
@@ -106,19 +107,25 @@ Row solution(std::vector<Row> m, Row b) {
 }  // namespace
 
 std::vector<double> model_rbf_weights(const LayerRig& rig, const PlainRbfSolver& solver,
-                                      const std::vector<double>& inputs) {
+                                      const std::vector<double>& inputs, double noise) {
   const double r = radius(rig, solver);
+  uint32_t draw = 0;  // of a linear congruential sequence, whose highest bit is the sign
+  const auto noisy = [&](double value) {
+    draw = draw * 1664525u + 1013904223u;
+    return value * (1 + (draw >> 31 ? noise : -noise));
+  };
   const size_t n = solver.poses.size();
   const Row input = prepared(solver, inputs);
   Row weights(n);
   for (size_t t = 0; t < n; ++t) {
-    weights[t] = weight(solver, distance(solver, target(solver, t), input), r);
+    weights[t] = noisy(weight(solver, distance(solver, target(solver, t), input), r));
   }
   if (solver.type == 0) return weights;
   std::vector<Row> kernel(n, Row(n));
   for (size_t s = 0; s < n; ++s) {
     for (size_t t = 0; t < n; ++t) {
-      kernel[s][t] = weight(solver, distance(solver, target(solver, s), target(solver, t)), r);
+      kernel[s][t] =
+          noisy(weight(solver, distance(solver, target(solver, s), target(solver, t)), r));
     }
   }
   weights = solution(kernel, weights);
@@ -127,13 +134,13 @@ std::vector<double> model_rbf_weights(const LayerRig& rig, const PlainRbfSolver&
 }
 
 void model_rbf_solver(const LayerRig& rig, const PlainRbfSolver& solver,
-                      std::vector<double>& controls) {
+                      std::vector<double>& controls, double noise) {
   for (uint16_t pose : solver.poses) {
     for (uint16_t output : rig.poses[pose].outputs) controls[output] = 0;
   }
   Row inputs;
   for (uint16_t input : solver.inputs) inputs.push_back(controls[input]);
-  const Row weights = model_rbf_weights(rig, solver, inputs);
+  const Row weights = model_rbf_weights(rig, solver, inputs, noise);
   double sum = 0;
   for (double w : weights) sum += w;
   const double scale = sum > 1 || (solver.normalize == 1 && sum > 0) ? 1 / sum : 1;
@@ -148,12 +155,12 @@ void model_rbf_solver(const LayerRig& rig, const PlainRbfSolver& solver,
   }
 }
 
-void model_rbf(const LayerRig& rig, uint32_t lod, std::vector<double>& controls) {
+void model_rbf(const LayerRig& rig, uint32_t lod, std::vector<double>& controls, double noise) {
   for (size_t s = 0; s < rig.solvers.size(); ++s) {
     if (rig.has(rig.lod_solvers, lod, static_cast<uint32_t>(s))) {
-      model_rbf_solver(rig, rig.solvers[s], controls);
+      model_rbf_solver(rig, rig.solvers[s], controls, noise);
     }
   }
 }
 
-}  // namespace mien
+}  // namespace mien::model

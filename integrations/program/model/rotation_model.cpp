@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "tests/support/rotation_model.h"
+#include "integrations/program/model/rotation_model.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 
-#include "tests/support/ml_model.h"
+#include "integrations/program/model/ml_model.h"
 
-namespace mien {
+namespace mien::model {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
@@ -287,12 +287,12 @@ std::vector<ModelJoint> model_joints(const LayerRig& rig, const std::vector<doub
   return out.joints;
 }
 
-std::vector<ModelJoint> joints_of(const LayerRig& rig, Span<const float> outputs,
+std::vector<ModelJoint> joints_of(const LayerRig& rig, const float* outputs, size_t count,
                                   bool quaternion_outputs) {
   const size_t width = quaternion_outputs ? 10 : 9;
-  std::vector<ModelJoint> joints(outputs.count / width);
+  std::vector<ModelJoint> joints(count / width);
   for (size_t j = 0; j < joints.size(); ++j) {
-    const float* v = outputs.data + j * width;
+    const float* v = outputs + j * width;
     ModelJoint& to = joints[j];
     to.translation = {v[0], v[1], v[2]};
     to.rotation = quaternion_outputs ? ModelQuaternion{v[3], v[4], v[5], v[6]}
@@ -302,25 +302,4 @@ std::vector<ModelJoint> joints_of(const LayerRig& rig, Span<const float> outputs
   return joints;
 }
 
-testing::AssertionResult same_joints(const std::vector<ModelJoint>& mine,
-                                     const std::vector<ModelJoint>& expected, double radians,
-                                     double tolerance) {
-  if (mine.size() != expected.size()) return testing::AssertionFailure() << "other joints";
-  for (size_t j = 0; j < mine.size(); ++j) {
-    const double turn = angle_between(mine[j].rotation, expected[j].rotation);
-    if (!(turn <= radians)) {
-      return testing::AssertionFailure() << "joint " << j << " is turned by " << turn << " rad";
-    }
-    for (int i = 0; i < 3; ++i) {
-      const double t = std::fabs(mine[j].translation[i] - expected[j].translation[i]);
-      const double s = std::fabs(mine[j].scale[i] - expected[j].scale[i]);
-      if (!(t <= tolerance) || !(s <= tolerance)) {
-        return testing::AssertionFailure() << "joint " << j << ", axis " << i
-                                           << ": translation off by " << t << ", scale by " << s;
-      }
-    }
-  }
-  return testing::AssertionSuccess();
-}
-
-}  // namespace mien
+}  // namespace mien::model
