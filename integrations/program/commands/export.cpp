@@ -1,17 +1,23 @@
 // SPDX-License-Identifier: MIT
-// mien export: a rig with its geometry, as a GLB or OBJ file.
+// mien export: a rig with its geometry, as a GLB, VRM, USD or OBJ file.
 #include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <sstream>
 
+#include "integrations/program/commands/attachments.h"
 #include "integrations/program/commands/exported_rig.h"
 #include "integrations/program/gltf/bake_skeleton.h"
+#include "integrations/program/gltf/control_names.h"
 #include "integrations/program/gltf/expression_bake.h"
 #include "integrations/program/gltf/expression_file.h"
 #include "integrations/program/gltf/glb_writer.h"
+#include "integrations/program/gltf/morph_limit.h"
 #include "integrations/program/gltf/obj_writer.h"
+#include "integrations/program/gltf/usd_writer.h"
+#include "integrations/program/gltf/vrm.h"
+#include "integrations/program/io/clip_file.h"
 #include "integrations/program/io/controls.h"
 #include "integrations/program/io/json_writer.h"
 #include "integrations/program/io/nearest_name.h"
@@ -24,17 +30,23 @@ namespace {
 
 struct ExportOptions {
   OutputFile output;
-  std::string rig, format, lod = "0", animation, rate, mouth_close, bake;
+  std::string rig, format, lod = "0", animation, clip, rate, mouth_close, bake;
+  std::vector<std::string> authors;  // of a VRM
   std::vector<std::string> settings;
   GlbOptions glb;
+  AttachmentOptions attachments;
+  std::string morphs;  // at most so many, or empty
   OutputFile residuals;
-  bool correctives = false;
+  bool correctives = false, point_cache = false;
+
+  bool moves() const { return !animation.empty() || !clip.empty(); }
 };
 
-enum class Format { kGlb, kObj };
+enum class Format { kGlb, kObj, kVrm, kUsda };
 
 constexpr const char* kCannotExport = "cannot export";
 constexpr double kDefaultRate = 30;
+constexpr uint64_t kMostMorphs = 65535;
 constexpr double kNotableClose = 0.005;  // of the size: a millimeter or two of a head
 
 // Options -----------------------------------------------------------------------------------------
@@ -48,11 +60,14 @@ Format parse_format(const ExportOptions& options) {
     if (ending == option_words("--format")[i]) return static_cast<Format>(i);
   }
   fail_usage("-o " + options.output.path, "the name does not tell the format",
-             "let it end in .glb or .obj, or add --format");
+             "let it end in .glb, .vrm, .usda or .obj, or add --format");
 }
 
 double frames_per_second(const ExportOptions& options) {
   if (options.rate.empty()) return kDefaultRate;
+  if (!options.clip.empty()) {
+    fail_usage("--fps " + options.rate, "a clip has its own rate", "leave out --fps");
+  }
   if (options.animation.empty()) {
     fail_usage("--fps " + options.rate, "there is no animation", "add --animation FRAMES");
   }
@@ -63,20 +78,58 @@ double frames_per_second(const ExportOptions& options) {
   fail_usage("--fps \"" + options.rate + "\"", "not a number above 0", "write it as 30 or 29.97");
 }
 
+/// What only some formats have a place for.
+void check_format(const ExportOptions& options, Format format) {
+  if (format == Format::kUsda && (options.glb.quantize || options.glb.exact)) {
+    fail_usage(options.glb.quantize ? "--quantize" : "--exact", "USD text holds whole floats",
+               "leave it out, or write a .glb file");
+  }
+  if (format == Format::kVrm && options.moves()) {
+    fail_usage(options.clip.empty() ? "--animation" : "--clip",
+               "a VRM is a character without animation", "write a .glb file");
+  }
+  if (format == Format::kVrm && options.lod == "all") {
+    fail_usage("--lod all", "a VRM shows all its meshes at once", "choose one LOD");
+  }
+  if (!options.authors.empty() && format != Format::kVrm) {
+    fail_usage("--author", "only a VRM names its authors", "write a .vrm file");
+  }
+  const bool attaches = !options.attachments.soft.empty() || !options.attachments.rigid.empty();
+  const char* shapes = attaches ? "--attach" : !options.morphs.empty() ? "--morphs" : nullptr;
+  if (shapes && (format == Format::kObj || options.point_cache)) {
+    fail_usage(shapes, "it is for files with morph targets", "write a .glb, .vrm or .usda file");
+  }
+  if (!options.morphs.empty()) parse_number("--morphs", options.morphs, kMostMorphs);
+  if (!options.point_cache) return;
+  if (format != Format::kUsda) {
+    fail_usage("--point-cache", "only USD files have one", "write a .usda file");
+  }
+  if (!options.moves()) fail_usage("--point-cache", "there is no animation", "add --clip CLIP");
+  if (!options.bake.empty()) {
+    fail_usage("--point-cache", "a cache has no shapes", "leave out --point-cache or --bake");
+  }
+}
+
 void check_combination(const ExportOptions& options, Format format) {
   if (options.rig == "-" && options.animation == "-") {
     fail_usage("--animation -", "standard input cannot be both RIG and FRAMES",
                "put one of them in a file");
   }
-  if (!options.animation.empty() && !options.settings.empty()) {
-    fail_usage("--set", "the animation sets the controls", "leave out --set or --animation");
+  if (options.moves() && !options.settings.empty()) {
+    fail_usage("--set", "the animation sets the controls", "leave out --set or the animation");
+  }
+  if (!options.animation.empty() && !options.clip.empty()) {
+    fail_usage("--clip " + options.clip, "a file has one animation",
+               "leave out --clip or --animation");
   }
   const char* only_glb = !options.bake.empty()        ? "--bake"
                          : !options.animation.empty() ? "--animation"
+                         : !options.clip.empty()      ? "--clip"
                                                       : options.glb.named();
   if (format == Format::kObj && only_glb) {
     fail_usage(only_glb, "an OBJ file holds one still pose", "write a .glb file");
   }
+  check_format(options, format);
   if (!options.mouth_close.empty()) {
     parse_word("--mouth-close", options.mouth_close);
     if (options.bake.empty()) fail_usage("--mouth-close", "nothing is baked", "add --bake arkit");
@@ -225,8 +278,54 @@ void note_lost_controls(ExportedRig& face, const gltf::RigExpressions& set,
            " controls that were set are not baked expressions: the file has no targets for them");
 }
 
-std::string baked_glb(ExportedRig& face, const Frame& still, const std::vector<Frame>& frames,
-                      double rate, const ExportOptions& options, const Session& session) {
+/// Leaves the largest morph targets, and says what the others would have moved.
+void keep_morphs(gltf::Scene& scene, const ExportOptions& options, const Session& session) {
+  if (options.morphs.empty()) return;
+  const uint64_t most = parse_number("--morphs", options.morphs, kMostMorphs);
+  const gltf::MorphLoss loss = limit_morphs(most, scene);
+  if (loss.names.empty()) return;
+  char off[96];
+  std::snprintf(off, sizeof(off), "%.3g mm at most, %.3g mm rms", loss.max * 1000, loss.rms * 1000);
+  std::string names;
+  for (const std::string& name : loss.names) names += (names.empty() ? "" : ", ") + one_line(name);
+  note(session, shown_name(options.rig) + ": " + std::to_string(loss.names.size()) +
+                    " morph targets are left out, which move vertices by " + off + ": " + names);
+}
+
+/// Of a scene in the format, with what is attached to it.
+std::string scene_bytes(gltf::Scene& scene, Format format, double rate,
+                        const ExportOptions& options, const Session& session,
+                        const gltf::Vrm* vrm = nullptr) {
+  add_attachments(options.attachments, scene, session);
+  keep_morphs(scene, options, session);
+  if (format != Format::kUsda) return glb_bytes(scene, options.glb, vrm);
+  apply_options(scene, options.glb);
+  gltf::UsdOptions usd;
+  usd.rate = rate;
+  return write_usda(scene, usd);
+}
+
+/// Every frame of every mesh, as the rig deforms it.
+std::string cache_bytes(ExportedRig& face, const std::vector<Frame>& frames, double rate,
+                        const ExportOptions& options, const Session& session) {
+  gltf::RigScene scene = make_still_scene(*face.source, face.scene_options(options.glb));
+  note_losses(face, scene.losses, session);
+  apply_options(scene.scene, options.glb);
+  Progress progress(session, "deforming", scene.rig_meshes.size() * frames.size());
+  gltf::UsdOptions usd;
+  usd.rate = rate;
+  usd.cached_frames = frames.size();
+  usd.posed = [&](size_t mesh, size_t frame) {
+    progress.at(mesh * frames.size() + frame);
+    face.apply(frames[frame]);
+    return gltf::posed_vertices(*face.source, scene.rig_meshes[mesh], face.pose.get());
+  };
+  return write_usda(scene.scene, usd);
+}
+
+std::string baked_bytes(ExportedRig& face, const Frame& still, const std::vector<Frame>& frames,
+                        double rate, Format format, const ExportOptions& options,
+                        const Session& session) {
   const gltf::RigExpressions set = gltf::find_expressions(*face.source, parse_sets(options));
   const bool is_posed = !options.settings.empty() || !frames.empty();
   if (is_posed && !set.by_name()) {
@@ -264,7 +363,14 @@ std::string baked_glb(ExportedRig& face, const Frame& still, const std::vector<F
     weights.erase(weights.begin());
     scene.scene.animation = gltf::baked_animation(scene, weights, "frames", rate);
   }
-  const std::string bytes = glb_bytes(scene.scene, options.glb);
+  gltf::Vrm vrm;
+  if (format == Format::kVrm) {
+    const std::vector<std::string> unknown = {"unknown"};
+    vrm = make_person(scene.scene.name, options.authors.empty() ? unknown : options.authors, scene);
+    vrm.looks = measure_looks(*face.source, set);
+  }
+  const std::string bytes = scene_bytes(scene.scene, format, rate, options, session,
+                                        format == Format::kVrm ? &vrm : nullptr);
   if (!session.quiet) print_report(report, options.output.path == "-" ? stderr : stdout);
   if (!options.residuals.path.empty()) write_residuals(report, set.missing, options.residuals);
   return bytes;
@@ -272,15 +378,49 @@ std::string baked_glb(ExportedRig& face, const Frame& still, const std::vector<F
 
 // -------------------------------------------------------------------------------------------------
 
-void run(const ExportOptions& options, const Session& session) {
+/// Frames of a clip, and its rate; channels that the rig lacks are named.
+std::vector<Frame> clip_frames(const ExportOptions& options, const MienRig* rig, double& rate,
+                               const Session& session) {
+  const ClipFile clip = open_clip_file(options.clip);
+  rate = double(clip.info.rate_numerator) / clip.info.rate_denominator;
+  const gltf::ControlNames names(rig, MIEN_KIND_RAW_CONTROL);
+  std::vector<uint32_t> controls;
+  std::string missing;
+  for (const std::string& channel : channel_names(clip)) {
+    uint32_t control = gltf::kNone;
+    if (!names.find(channel, control)) {
+      control = gltf::kNone;
+      missing += (missing.empty() ? "" : ", ") + one_line(channel);
+    }
+    controls.push_back(control);
+  }
+  if (!missing.empty()) {
+    note(session,
+         clip.shown +
+             ": the rig lacks the controls of these channels, which are left out: " + missing);
+  }
+  std::vector<Frame> frames;
+  for_each_frame(clip, [&](uint32_t, const float* values) {
+    Frame frame;
+    for (size_t c = 0; c < controls.size(); ++c) {
+      if (controls[c] != gltf::kNone) frame.raw.push_back({controls[c], values[c]});
+    }
+    frames.push_back(std::move(frame));
+  });
+  return frames;
+}
+
+void run(ExportOptions options, const Session& session) {
   const Format format = parse_format(options);
-  const double rate = frames_per_second(options);
+  double rate = frames_per_second(options);
+  if (format == Format::kVrm && options.bake.empty()) options.bake = "vrm";
   check_combination(options, format);
   check_glb_options(options.glb);
-  if (format == Format::kGlb && options.output.path == "-" && session.terminal.out_is_terminal) {
+  const bool binary = format == Format::kGlb || format == Format::kVrm;
+  if (binary && options.output.path == "-" && session.terminal.out_is_terminal) {
     fail_usage("-o -", "a GLB file is not for a terminal", "name a file, or pipe the output");
   }
-  refuse_replacing(options.output, {options.rig, options.animation});
+  refuse_replacing(options.output, {options.rig, options.animation, options.clip});
   if (!options.residuals.path.empty())
     refuse_replacing(options.residuals, {options.rig, options.animation});
   // Beside an OBJ file; standard output and devices have no place for it.
@@ -296,10 +436,13 @@ void run(const ExportOptions& options, const Session& session) {
     std::vector<Frame> frames;
     if (!options.animation.empty()) {
       frames = read_frames(options.animation, face.rig.get());
-      if (frames.empty()) {
-        fail(kInvalid, "cannot use frames", shown_name(options.animation), "there are none",
-             "give at least one frame");
-      }
+    } else if (!options.clip.empty()) {
+      frames = clip_frames(options, face.rig.get(), rate, session);
+    }
+    if (options.moves() && frames.empty()) {
+      fail(kInvalid, "cannot use frames",
+           shown_name(options.clip.empty() ? options.animation : options.clip), "there are none",
+           "give at least one frame");
     }
     std::string bytes;
     if (format == Format::kObj) {
@@ -312,9 +455,12 @@ void run(const ExportOptions& options, const Session& session) {
         library.commit();
       }
     } else if (!options.bake.empty()) {
-      bytes = baked_glb(face, still, frames, rate, options, session);
+      bytes = baked_bytes(face, still, frames, rate, format, options, session);
+    } else if (options.point_cache) {
+      bytes = cache_bytes(face, frames, rate, options, session);
     } else {
-      bytes = rig_glb(face, still, frames, rate, options.glb, session);
+      gltf::RigScene scene = rig_scene(face, still, frames, rate, options.glb, session);
+      bytes = scene_bytes(scene.scene, format, rate, options, session);
     }
     Output output(options.output.path);
     output.write(bytes);
@@ -329,14 +475,17 @@ void run(const ExportOptions& options, const Session& session) {
 
 Command add_export_command(CLI::App& app, const Session& session) {
   auto options = std::make_shared<ExportOptions>();
-  CLI::App* command =
-      app.add_subcommand("export", "Write a rig's face as GLB (glTF 2.0) or OBJ, posed or moving");
+  CLI::App* command = app.add_subcommand(
+      "export", "Write a rig's face as GLB (glTF 2.0), VRM, USD or OBJ, posed or moving");
   command->add_option("RIG", options->rig, "DNA file with geometry; - reads standard input")
       ->type_name("")
       ->required();
-  add_output_options(*command, options->output, "File to write, .glb or .obj; - is standard output")
+  add_output_options(*command, options->output,
+                     "File to write: .glb, .vrm, .usda, .obj; - is standard output")
       ->required();
-  command->add_option("--format", options->format, "glb or obj (default: by the ending of OUT)")
+  command
+      ->add_option("--format", options->format,
+                   "glb, vrm, usda or obj (default: by the ending of OUT)")
       ->type_name("NAME");
   command
       ->add_option("--lod", options->lod,
@@ -353,13 +502,40 @@ Command add_export_command(CLI::App& app, const Session& session) {
       ->add_option("--animation", options->animation,
                    "Write frames as an animation: JSON as for 'mien eval'; - reads standard input")
       ->type_name("FRAMES");
+  command->add_option("--clip", options->clip, "Write a clip as the animation, at its rate")
+      ->type_name("CLIP");
+  command->add_flag("--point-cache", options->point_cache,
+                    "With .usda and an animation: every vertex in every frame, as the rig\n"
+                    "deforms it, without skeleton and shapes");
+  command
+      ->add_option("--attach", options->attachments.soft,
+                   "An OBJ or GLB mesh that follows the surface in every shape: hair cards,\n"
+                   "brows, a beard; in meters, y up, the face toward +z; may be repeated")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--attach-rigid", options->attachments.rigid,
+                   "The same, but its connected parts keep their shape: glasses, earrings")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--morphs", options->morphs,
+                   "Keep at most so many morph targets, those that move the most; what is lost\n"
+                   "is printed")
+      ->type_name("N");
+  command
+      ->add_option("--author", options->authors,
+                   "With .vrm: who made the character; may be repeated (default: unknown)")
+      ->type_name("NAME")
+      ->allow_extra_args(false);
   command->add_option("--fps", options->rate, "Frames per second (default: 30)")->type_name("N");
   command
       ->add_option(
           "--bake", options->bake,
           "Write whole expressions as morph targets, with only the bones of head, neck\n"
           "and eyes: arkit (52), visemes (15 of Oculus), visemes22 (cloud voices), unified\n"
-          "(Unified Expressions), emotions, or a JSON file; several with commas. Prints\n"
+          "(Unified Expressions), vrm (presets of VRM 1.0), emotions, or a JSON file;\n"
+          "several with commas. A .vrm file has vrm if nothing is named. Prints\n"
           "the error compared with the full rig")
       ->type_name("SET");
   command
@@ -387,7 +563,9 @@ Command add_export_command(CLI::App& app, const Session& session) {
       "  mien export head.dna -o smile.obj --set mouthSmileLeft=1\n"
       "  mien export head.dna -o talk.glb --animation frames.json --fps 60\n"
       "  mien export head.dna -o arkit.glb --bake arkit --lod 2\n"
-      "  mien export head.dna -o talk.glb --bake visemes,emotions --residuals loss.json");
+      "  mien export head.dna -o talk.glb --bake visemes,emotions --residuals loss.json\n"
+      "  mien export head.dna -o head.vrm --bake vrm,arkit --author \"A. Artist\"\n"
+      "  mien export head.dna -o talk.usda --clip talk.clip");
   return {command, [options, &session] { run(*options, session); }};
 }
 

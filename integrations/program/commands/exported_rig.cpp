@@ -173,8 +173,8 @@ void note_losses(const ExportedRig& face, const gltf::Losses& losses, const Sess
   }
 }
 
-std::string rig_glb(ExportedRig& face, const Frame& still, const std::vector<Frame>& frames,
-                    double rate, const GlbOptions& options, const Session& session) {
+gltf::RigScene rig_scene(ExportedRig& face, const Frame& still, const std::vector<Frame>& frames,
+                         double rate, const GlbOptions& options, const Session& session) {
   gltf::SceneOptions scene_options = face.scene_options(options);
   gltf::RigScene scene;
   {
@@ -195,10 +195,16 @@ std::string rig_glb(ExportedRig& face, const Frame& still, const std::vector<Fra
     }
     scene.scene.animation = recorder.finish();
   }
+  return scene;
+}
+
+std::string rig_glb(ExportedRig& face, const Frame& still, const std::vector<Frame>& frames,
+                    double rate, const GlbOptions& options, const Session& session) {
+  gltf::RigScene scene = rig_scene(face, still, frames, rate, options, session);
   return glb_bytes(scene.scene, options);
 }
 
-std::string glb_bytes(gltf::Scene& scene, const GlbOptions& options) {
+void apply_options(gltf::Scene& scene, const GlbOptions& options) {
   for (gltf::Mesh& mesh : scene.meshes) {
     if (options.no_uvs) mesh.uvs.clear();
     if (!options.no_morph_normals) continue;
@@ -207,9 +213,15 @@ std::string glb_bytes(gltf::Scene& scene, const GlbOptions& options) {
       target.normal_vertices.clear();
     }
   }
-  return gltf::write_glb(scene, options.quantize ? gltf::Encoding::kQuantized
-                                : options.exact  ? gltf::Encoding::kFloat
-                                                 : gltf::Encoding::kShares);
+}
+
+std::string glb_bytes(gltf::Scene& scene, const GlbOptions& options, const gltf::Vrm* vrm) {
+  apply_options(scene, options);
+  return gltf::write_glb(scene,
+                         options.quantize ? gltf::Encoding::kQuantized
+                         : options.exact  ? gltf::Encoding::kFloat
+                                          : gltf::Encoding::kShares,
+                         vrm);
 }
 
 void fail_export(const gltf::ExportError& error, const std::string& rig) {

@@ -7,6 +7,10 @@
 #include "integrations/program/io/frames.h"
 #include "integrations/program/scene/head_turn.h"
 
+namespace mien::gltf {
+struct Vrm;
+}
+
 namespace mien::cli {
 
 /// Options of commands that write GLB files.
@@ -52,13 +56,21 @@ class ExportedRig {
 void note_color_problems(const ExportedRig& face, const Session& session);
 void note_losses(const ExportedRig& face, const gltf::Losses& losses, const Session& session);
 
-/// A GLB with skeleton, skin and morph targets that opens in the pose `still` and plays `frames`, if there
-/// are any. Throws gltf::ExportError.
+/// Skeleton, skin and morph targets, in the pose `still`, with `frames` as an animation, if there are any.
+/// Throws gltf::ExportError.
+gltf::RigScene rig_scene(ExportedRig& face, const Frame& still, const std::vector<Frame>& frames,
+                         double rate, const GlbOptions& options, const Session& session);
+
+/// The same as a GLB.
 std::string rig_glb(ExportedRig& face, const Frame& still, const std::vector<Frame>& frames,
                     double rate, const GlbOptions& options, const Session& session);
 
-/// The scene with what the options leave of it.
-std::string glb_bytes(gltf::Scene& scene, const GlbOptions& options);
+/// Leaves of a scene what the options say.
+void apply_options(gltf::Scene& scene, const GlbOptions& options);
+
+/// A GLB, or a VRM if `vrm` is not null, of what the options leave of a scene.
+std::string glb_bytes(gltf::Scene& scene, const GlbOptions& options,
+                      const gltf::Vrm* vrm = nullptr);
 
 /// "cannot export" with the exit code of what was wrong.
 [[noreturn]] void fail_export(const gltf::ExportError& error, const std::string& rig);

@@ -30,7 +30,7 @@ const OptionWords kOptionWords[] = {
      {"tiny", "small", "medium", "large", "body", "metahuman-head", "metahuman-body", "archetype"}},
     {"--version", {"2.1", "2.2", "2.3", "2.4", "2.5", "2.6", "2.7", "2.8"}},
     {"--unknown", {"keep", "drop"}},
-    {"--format", {"glb", "obj"}},
+    {"--format", {"glb", "obj", "vrm", "usda"}},
     {"eval --format", {"json", "jsonl", "csv", "npy"}},
     {"--mouth-close", {"alone", "jaw"}},
     {"--influences", {"4", "8", "12"}},

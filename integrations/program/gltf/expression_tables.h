@@ -240,6 +240,40 @@ constexpr ExpressionRow kEmotions[] = {
     {"contemptuous", "mouthSmileRight 0.5 mouthDimpleRight 0.7"},
 };
 
+// The presets of VRM 1.0 but neutral, which is the face as it is. Vowels are the visemes above; to the left is to
+// the left of the character.
+constexpr ExpressionRow kVrm[] = {
+    {"happy", "mouthSmileLeft 0.9 mouthSmileRight 0.9 cheekSquintLeft 0.7 cheekSquintRight 0.7"},
+    {"angry",
+     "browDownLeft 0.9 browDownRight 0.9 eyeSquintLeft 0.5 eyeSquintRight 0.5 noseSneerLeft 0.3 "
+     "noseSneerRight 0.3 mouthPressLeft 0.6 mouthPressRight 0.6"},
+    {"sad",
+     "browInnerUp 0.8 browDownLeft 0.3 browDownRight 0.3 mouthFrownLeft 0.7 mouthFrownRight 0.7"},
+    {"relaxed",
+     "mouthSmileLeft 0.35 mouthSmileRight 0.35 eyeBlinkLeft 0.2 eyeBlinkRight 0.2 browInnerUp 0.1"},
+    {"surprised",
+     "browInnerUp 0.9 browOuterUpLeft 0.9 browOuterUpRight 0.9 eyeWideLeft 0.7 eyeWideRight 0.7 "
+     "jawOpen 0.4"},
+    {"aa",
+     "jawOpen 0.6 mouthLowerDownLeft 0.2 mouthLowerDownRight 0.2 mouthUpperUpLeft 0.15 "
+     "mouthUpperUpRight 0.15"},
+    {"ih",
+     "jawOpen 0.2 mouthSmileLeft 0.3 mouthSmileRight 0.3 mouthLowerDownLeft 0.2 "
+     "mouthLowerDownRight 0.2"},
+    {"ou", "jawOpen 0.15 mouthPucker 0.75 mouthFunnel 0.35"},
+    {"ee",
+     "jawOpen 0.3 mouthSmileLeft 0.25 mouthSmileRight 0.25 mouthStretchLeft 0.2 "
+     "mouthStretchRight 0.2 mouthLowerDownLeft 0.2 mouthLowerDownRight 0.2"},
+    {"oh", "jawOpen 0.4 mouthFunnel 0.6 mouthPucker 0.15"},
+    {"blink", "eyeBlinkLeft 1 eyeBlinkRight 1"},
+    {"blinkLeft", "eyeBlinkLeft 1"},
+    {"blinkRight", "eyeBlinkRight 1"},
+    {"lookUp", "eyeLookUpLeft 1 eyeLookUpRight 1"},
+    {"lookDown", "eyeLookDownLeft 1 eyeLookDownRight 1"},
+    {"lookLeft", "eyeLookOutLeft 1 eyeLookInRight 1"},
+    {"lookRight", "eyeLookInLeft 1 eyeLookOutRight 1"},
+};
+
 template <size_t kCount>
 constexpr ExpressionTable table_of(const char* name, const ExpressionRow (&rows)[kCount]) {
   return {name, rows, kCount};
@@ -247,6 +281,6 @@ constexpr ExpressionTable table_of(const char* name, const ExpressionRow (&rows)
 
 constexpr ExpressionTable kExpressionTables[] = {
     table_of("visemes", kVisemes), table_of("visemes22", kVisemes22), table_of("unified", kUnified),
-    table_of("emotions", kEmotions)};
+    table_of("vrm", kVrm), table_of("emotions", kEmotions)};
 
 }  // namespace mien::gltf

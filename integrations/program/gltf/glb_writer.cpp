@@ -6,6 +6,8 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "integrations/program/gltf/vrm.h"
+
 namespace mien::gltf {
 
 namespace {
@@ -621,7 +623,7 @@ std::string pack(std::string text, const std::string& binary) {
 
 }  // namespace
 
-std::string write_glb(const Scene& scene, Encoding encoding) {
+std::string write_glb(const Scene& scene, Encoding encoding, const Vrm* vrm) {
   Data data;
   const bool quantized = encoding == Encoding::kQuantized;
   Packings packings = quantized ? packings_of(scene) : Packings{};
@@ -664,6 +666,10 @@ std::string write_glb(const Scene& scene, Encoding encoding) {
   if (!scene.joints.empty()) root["skins"] = list_of(skin_json(data, scene, packings.positions));
   if (moves_something(scene.animation)) {
     root["animations"] = list_of(animation_json(data, scene.animation, first_mesh_node));
+  }
+  if (vrm) {
+    root["extensionsUsed"].push_back("VRMC_vrm");
+    root["extensions"]["VRMC_vrm"] = vrm_json(*vrm, scene, kFirstJointNode, first_mesh_node);
   }
   root["accessors"] = std::move(data.accessors);
   root["bufferViews"] = std::move(data.views);

@@ -8,6 +8,8 @@
 
 namespace mien::gltf {
 
+struct Vrm;
+
 /// How numbers are stored.
 enum class Encoding {
   kFloat,
@@ -25,8 +27,10 @@ enum class Encoding {
 ///   targets     sparse where that is smaller; names in mesh.extras.targetNames, those whose weight is
 ///               a product in mesh.extras.correctives: [{"target": 52, "product": [17, 23]}, ...]
 ///   animation   joint channels for what moves, weights for each mesh with targets
+///   vrm         null, or what makes the file a VRM 1.0
 ///
 /// Throws ExportError for numbers that are not finite and for more than 4 GiB.
-std::string write_glb(const Scene& scene, Encoding encoding = Encoding::kFloat);
+std::string write_glb(const Scene& scene, Encoding encoding = Encoding::kFloat,
+                      const Vrm* vrm = nullptr);
 
 }  // namespace mien::gltf

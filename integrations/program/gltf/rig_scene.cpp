@@ -281,6 +281,24 @@ void set_pose(RigScene& scene, const RigSource& source, const MienDeformerInstan
   }
 }
 
+PosedVertices posed_vertices(const RigSource& source, uint32_t rig_mesh,
+                             MienDeformerInstance* pose) {
+  check(mien_deformer_instance_deform(pose, rig_mesh, MIEN_NORMALS_RECOMPUTED, nullptr),
+        "cannot deform");
+  MienFloatView positions{}, normals{};
+  check(mien_deformer_instance_positions(pose, rig_mesh, &positions), "cannot deform");
+  check(mien_deformer_instance_normals(pose, rig_mesh, &normals), "cannot deform");
+  const MienMesh mesh = source.mesh(rig_mesh);
+  PosedVertices result;
+  for (uint32_t v = 0; v < mesh.vertex_count; ++v) {
+    const uint32_t position = mesh.vertex_position_indices.data[v];
+    result.positions.push_back(floats(source.point(positions.data + size_t{3} * position)));
+    const Vec3d normal = source.direction(normals.data + size_t{3} * v);
+    result.normals.push_back(floats(normalized(normal, Vec3d{0, 1, 0})));
+  }
+  return result;
+}
+
 MorphTarget difference(const RigSource& source, uint32_t rig_mesh, const MienDeformerInstance* pose,
                        const std::vector<float>& neutral_positions,
                        const std::vector<float>& neutral_normals, double least) {

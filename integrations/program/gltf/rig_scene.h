@@ -76,6 +76,13 @@ std::vector<Joint> neutral_joints(const RigSource& source);
 /// In the neutral pose.
 cli::DeformerInstance make_deformer_instance(const RigSource& source);
 
+/// Positions and normals of each vertex of a mesh in a pose, which is deformed for it.
+struct PosedVertices {
+  std::vector<Float3> positions, normals;
+};
+PosedVertices posed_vertices(const RigSource& source, uint32_t rig_mesh,
+                             MienDeformerInstance* pose);
+
 /// How far each vertex of a mesh moves: `positions` and `normals` as of the pose less those given,
 /// in the axes of glTF. Moves below `least` (meters) and turns below half a degree are left out.
 MorphTarget difference(const RigSource& source, uint32_t rig_mesh, const MienDeformerInstance* pose,

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// Hair cards, brows, beards, glasses: meshes of other files that follow the face.
+#pragma once
+
+#include "integrations/program/gltf/scene.h"
+
+namespace mien::gltf {
+
+/// A mesh in the axes and units of the scene. Vertices of one position are one here.
+struct Attachment {
+  std::string name;
+  std::vector<Float3> positions;
+  std::vector<uint32_t> triangles;
+  std::vector<Float2> uvs;  // one for each position, or empty; v points down
+  bool rigid = false;       // connected parts keep their shape
+};
+
+/// How far the attached vertices were from the surface that they follow.
+struct Attached {
+  std::string base;          // the mesh that they follow
+  double mean = 0, max = 0;  // meters
+  size_t parts = 0;          // that move rigidly
+};
+
+/// Adds a mesh to each LOD of the scene that shows its base: of the finest LOD, the mesh that is nearest to most of
+/// its vertices. Each vertex is bound to the nearest point of a triangle of the base, and keeps its place in the
+/// frame of this triangle. So it has
+/// the targets of the base, and its skin weights. Of a rigid part, each target moves all of it by the rotation
+/// and translation that best agree with this, and its weights are those of its middle.
+///
+/// Throws ExportError if the scene has no triangles to bind to.
+Attached attach(const Attachment& attachment, uint32_t material, Scene& scene);
+
+}  // namespace mien::gltf
