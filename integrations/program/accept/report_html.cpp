@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cstdio>
+#include <sstream>
 
 #include "integrations/program/accept/report.h"
 #include "integrations/program/io/text.h"
@@ -24,10 +25,11 @@ h2 { font-size: 17px; margin: 36px 0 12px; }
 h3 { font-size: 14px; margin: 0 0 10px; font-weight: 600; }
 p.facts { margin: 0; color: var(--soft); }
 .verdict { font-weight: 600; padding: 2px 12px; border-radius: 99px; color: #fff; }
-.verdict.good { background: #14794a; } .verdict.bad { background: #b42318; }
+.verdict.good { background: #14794a; color: #fff; } .verdict.bad { background: #b42318; color: #fff; }
 .card { background: var(--card); border: 1px solid var(--line); border-radius: 10px; padding: 16px 18px; }
 table { border-collapse: collapse; width: 100%; }
 th, td { text-align: left; padding: 8px 12px 8px 0; border-top: 1px solid var(--line); vertical-align: top; }
+tbody:first-child tr:first-child td { border-top: 0; }
 thead th { border-top: 0; color: var(--soft); font-weight: 500; font-size: 13px; }
 td.number, th.number { text-align: right; font-variant-numeric: tabular-nums; padding-right: 20px; }
 td.state { white-space: nowrap; font-weight: 600; width: 1%; padding-right: 20px; }
@@ -60,10 +62,18 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
-/// "raw controls" of "raw_controls".
-std::string words_of(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return escaped(name);
+/// "RBF controls" of "rbf_controls".
+std::string words_of(const std::string& name) {
+  std::istringstream parts(name);
+  std::string words, word;
+  while (std::getline(parts, word, '_')) {
+    if (word == "gui" || word == "ml" || word == "rbf" || word == "lod") {
+      for (char& c : word) c = static_cast<char>(c - 'a' + 'A');
+    }
+    if (word == "lods") word = "LODs";
+    words += (words.empty() ? "" : " ") + word;
+  }
+  return escaped(words);
 }
 
 std::string checks_table(const std::vector<Check>& checks) {

@@ -565,7 +565,7 @@ Command add_export_command(CLI::App& app, const Session& session) {
       "  mien export head.dna -o arkit.glb --bake arkit --lod 2\n"
       "  mien export head.dna -o talk.glb --bake visemes,emotions --residuals loss.json\n"
       "  mien export head.dna -o head.vrm --bake vrm,arkit --author \"A. Artist\"\n"
-      "  mien export head.dna -o talk.usda --clip talk.clip");
+      "  mien export head.dna -o talk.usda --animation frames.json");
   return {command, [options, &session] { run(*options, session); }};
 }
 

@@ -39,7 +39,7 @@ Row target(const PlainRbfSolver& solver, size_t pose) {
 }
 
 // 6.3: as it says there, the dot product of quaternions has 32-bit floats, each product and sum rounded once.
-double distance(const PlainRbfSolver& solver, const Row& a, const Row& b) {
+double distance(const PlainRbfSolver& solver, const Row& a, const Row& b, double noise = 0) {
   double sum = 0;
   if (solver.distance == 0) {
     for (size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
@@ -48,8 +48,7 @@ double distance(const PlainRbfSolver& solver, const Row& a, const Row& b) {
   for (size_t i = 0; i + 4 <= a.size(); i += 4) {
     float dot = 0;
     for (size_t k = i; k < i + 4; ++k) dot += static_cast<float>(a[k]) * static_cast<float>(b[k]);
-    const float u = dot * dot;
-    const double angle = u > 1 ? 0 : std::acos(2 * double{u} - 1);
+    const double u = double{dot * dot} * (1 + noise), angle = u > 1 ? 0 : std::acos(2 * u - 1);
     sum += angle * angle;
   }
   return std::sqrt(sum);
@@ -110,22 +109,22 @@ std::vector<double> model_rbf_weights(const LayerRig& rig, const PlainRbfSolver&
                                       const std::vector<double>& inputs, double noise) {
   const double r = radius(rig, solver);
   uint32_t draw = 0;  // of a linear congruential sequence, whose highest bit is the sign
-  const auto noisy = [&](double value) {
+  const auto next_noise = [&] {
     draw = draw * 1664525u + 1013904223u;
-    return value * (1 + (draw >> 31 ? noise : -noise));
+    return draw >> 31 ? noise : -noise;
   };
   const size_t n = solver.poses.size();
   const Row input = prepared(solver, inputs);
   Row weights(n);
   for (size_t t = 0; t < n; ++t) {
-    weights[t] = noisy(weight(solver, distance(solver, target(solver, t), input), r));
+    weights[t] = weight(solver, distance(solver, target(solver, t), input, next_noise()), r);
   }
   if (solver.type == 0) return weights;
   std::vector<Row> kernel(n, Row(n));
   for (size_t s = 0; s < n; ++s) {
     for (size_t t = 0; t < n; ++t) {
       kernel[s][t] =
-          noisy(weight(solver, distance(solver, target(solver, s), target(solver, t)), r));
+          weight(solver, distance(solver, target(solver, s), target(solver, t), next_noise()), r);
     }
   }
   weights = solution(kernel, weights);

@@ -8,9 +8,9 @@
 
 namespace mien::model {
 
-/// Weight of each pose before normalization, for inputs as the controls give them. With `noise` every weight
-/// function is off by this part of itself, up or down: what that changes tells how well solved the equations of
-/// an interpolative solver are.
+/// Weight of each pose before normalization, for inputs as the controls give them. With `noise` the squared
+/// dot products of angular distances are off by this part of themselves, up or down, as rounding may have it: what
+/// that changes tells how far results can be trusted (docs/rig-evaluation.md, 10).
 std::vector<double> model_rbf_weights(const LayerRig& rig, const PlainRbfSolver& solver,
                                       const std::vector<double>& inputs, double noise = 0);
 

@@ -781,7 +781,7 @@ class Failures(ExportTest):
             self.assertIn(word, text)
         script = self.ok("completion", "bash").stdout.decode()
         self.assertIn("'export --influences')\n      COMPREPLY=($(compgen -W '4 8 12'", script)
-        self.assertIn("'export --format')\n      COMPREPLY=($(compgen -W 'glb obj'", script)
+        self.assertIn("'export --format')\n      COMPREPLY=($(compgen -W 'glb obj vrm usda'", script)
         self.assertIn("'export --lod')\n      COMPREPLY=($(compgen -W 'all'", script)
         self.assertIn("'export --animation')\n      COMPREPLY=($(compgen -f", script)
 

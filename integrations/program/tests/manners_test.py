@@ -30,7 +30,7 @@ def setUpModule():
     write("frames.json", '{"frames": [{}]}')
 
 
-COMMANDS = ("info", "validate", "eval", "convert", "gen", "demo-head", "export", "render", "inspect", "bake", "bench",
+COMMANDS = ("info", "validate", "accept", "eval", "convert", "gen", "demo-head", "export", "render", "inspect", "bake", "bench",
             "view", "completion", "help", "clip", "clip build", "clip info", "clip verify", "clip export")
 
 
