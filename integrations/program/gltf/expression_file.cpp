@@ -12,7 +12,7 @@ namespace mien::gltf {
 
 namespace {
 
-using json = nlohmann::ordered_json;
+using json = nlohmann::basic_json<cli::MemberList>;
 
 constexpr char kCannot[] = "cannot use expressions";
 constexpr char kExample[] = R"(write {"aa": {"jawOpen": 0.6}, "ou": {"mouthPucker": 1}})";

@@ -2,6 +2,7 @@
 #include "integrations/program/gltf/expression_set.h"
 
 #include <algorithm>
+#include <set>
 #include <sstream>
 
 #include "integrations/program/gltf/control_names.h"
@@ -78,13 +79,21 @@ struct Finder {
     for (const NamedValue& value : values) {
       if (add(value, out)) continue;
       complete = false;
-      if (std::find(missing.begin(), missing.end(), value.control) == missing.end()) {
-        missing.push_back(value.control);
-      }
+      missing.push_back(value.control);
     }
     return complete;
   }
 };
+
+/// Without those that came before; a file may have many.
+std::vector<std::string> distinct(const std::vector<std::string>& names) {
+  std::set<std::string> seen;
+  std::vector<std::string> result;
+  for (const std::string& name : names) {
+    if (seen.insert(name).second) result.push_back(name);
+  }
+  return result;
+}
 
 }  // namespace
 
@@ -155,7 +164,7 @@ RigExpressions find_expressions(const RigSource& source, const ExpressionSet& se
       const bool has_minus = finder.add_all(way.minus, made.minus, lacks);
       complete = has_plus && has_minus;
       if (complete) break;
-      if (missing.empty()) missing = lacks;
+      if (missing.empty()) missing = distinct(lacks);
     }
     if (!complete) {
       std::string text = expression.name + " (";

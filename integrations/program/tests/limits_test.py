@@ -42,6 +42,26 @@ class Takes(ProgramTest):
                         200e6)
 
 
+class Frames(ProgramTest):
+    def test_frames_name_controls_of_the_rig_once(self):
+        many = write("frames.json", json.dumps({"frames": [{"raw": {"n%d" % i: 1 for i in range(60000)}}]}))
+        self.fails(INVALID, "eval", path("tiny.dna"), "-i", many, says='"n0"')
+        self.assertLess(cost("eval", path("tiny.dna"), "-i", many)[0], 1)
+        twice = write("twice.json", '{"frames": [{"raw": {"0": 1, "0": 0}}]}')
+        self.fails(INVALID, "eval", path("tiny.dna"), "-i", twice, says="twice")
+
+
+class Expressions(ProgramTest):
+    def test_expressions_with_many_controls(self):
+        many = {"n%d" % i: 1 for i in range(60000)}
+        source = write("expressions.json", json.dumps({"aa": many}))
+        arguments = ("export", path("tiny.dna"), "--bake", source, "-o", path("no.glb"))
+        self.fails(INVALID, *arguments, says="none of the expressions")
+        self.assertLess(cost(*arguments)[0], 1.5)
+        source = write("expressions.json", json.dumps({"e%d" % i: {"a": 1} for i in range(513)}))
+        self.fails(INVALID, *arguments, says="more than 512 expressions")
+
+
 class Scenes(ProgramTest):
     def test_large_scenes_are_refused_or_read_at_once(self):
         def scene(**members):

@@ -15,7 +15,7 @@ struct DnaFile : Object {
   Arena arena;
   DnaView view;
 
-  explicit DnaFile(const Allocator& allocator) : arena(allocator) {}
+  explicit DnaFile(const Allocator& of) : arena(of) {}
   ~DnaFile() { close_file(file); }
 };
 

@@ -23,7 +23,7 @@ struct Report : Object {
   Arena arena;
   Span<StoredFinding> findings;  // room for kMaxFindings
 
-  explicit Report(const Allocator& allocator) : arena(allocator) {}
+  explicit Report(const Allocator& of) : arena(of) {}
 };
 
 /// Examines a file and tries to compile it. kMemory. On success, give back `out` with release().
