@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "author/base/dna_making.h"
+#include "author/mesh/mirror_places.h"
 #include "author/mesh/topology.h"
 
 namespace mien::author {
@@ -17,6 +18,9 @@ constexpr double kAlong = 1e-3;
 constexpr double kBorder = 10, kSeam = 1;  // weights of moving off a border or a seam
 constexpr double kLeastTurn = 0.2;    // cosine between normals in this LOD and the previous one
 constexpr double kLeastShape = 0.05;  // 1: equilateral, 0: a line
+constexpr double kStraight = 0.995;   // cosine between edges of a border
+constexpr uint32_t kLeastLoop = 10;   // places of a border of the skin
+constexpr double kSameLength = 1e-3;  // diagonals of a quad that differ by less are equal
 
 /// 1 for an equilateral triangle, 0 for a line.
 double shape_of(Vec3 a, Vec3 b, Vec3 c) {
@@ -40,8 +44,10 @@ bool EdgeCollapse::make(const AuthorMesh& mesh, Span<const Shape> poses, Arena& 
       !author::make(arena, n, costs_) || !author::make(arena, n, targets_) ||
       !author::make(arena, n, slots_) || !author::make(arena, n, heap_) ||
       !author::make(arena, mesh.component_count, component_counts_) ||
-      !find_places(scratch, vertex_places) || !make_triangles(vertex_places, arena) ||
-      !make_charts(arena, scratch) || !classify_edges(scratch)) {
+      !author::make(arena, n, loops_) || !find_places(scratch, vertex_places) ||
+      !find_mirror(mesh, vertex_places, arena, scratch, mirror_) ||
+      !make_triangles(vertex_places, arena, scratch) || !make_charts(arena, scratch) ||
+      !classify_edges(arena, scratch)) {
     return false;
   }
   const Box box = bounding_box(mesh.positions);
@@ -109,7 +115,23 @@ bool EdgeCollapse::find_places(Arena& scratch, Span<uint32_t>& vertex_places) co
   return true;
 }
 
-bool EdgeCollapse::make_triangles(Span<const uint32_t> vertex_places, Arena& arena) {
+/// At which corner the fan of a quad begins. Two quads around a place without others would have the same diagonal
+/// beside it: theirs goes through it. Otherwise it is the shorter diagonal, which is so on the other side of a
+/// symmetric mesh too.
+uint32_t EdgeCollapse::first_of_quad(const uint32_t* places,
+                                     Span<const uint32_t> face_counts) const {
+  const auto fewest = [&](uint32_t k) {
+    return std::min(face_counts[places[k]], face_counts[places[k + 2]]) <= 2;
+  };
+  if (fewest(0) != fewest(1)) return fewest(0) ? 0 : 1;
+  const Vec3 a = at(places[2], 0) - at(places[0], 0), b = at(places[3], 0) - at(places[1], 0);
+  return dot(b, b) < dot(a, a) * (1 - kSameLength) ? 1 : 0;
+}
+
+bool EdgeCollapse::make_triangles(Span<const uint32_t> vertex_places, Arena& arena,
+                                  Arena& scratch) {
+  Span<uint32_t> face_counts;  // around each place
+  if (!author::make(scratch, vertex_places.count, face_counts)) return false;
   const AuthorMesh& mesh = *mesh_;
   const size_t faces = mesh.face_starts.count - 1;
   size_t most = 0;
@@ -121,11 +143,20 @@ bool EdgeCollapse::make_triangles(Span<const uint32_t> vertex_places, Arena& are
     return false;
   }
   for (uint32_t& c : first_) c = kNone;
+  for (const uint32_t v : mesh.corners) ++face_counts[vertex_places[v]];
   uint32_t count = 0;
   for (size_t f = 0; f < faces; ++f) {
     face_triangles_[f] = count;
-    for (uint32_t k = mesh.face_starts[f] + 2; k < mesh.face_starts[f + 1]; ++k) {
-      const uint32_t corners[3] = {mesh.face_starts[f], k - 1, k};
+    const uint32_t begin = mesh.face_starts[f], size = mesh.face_starts[f + 1] - begin;
+    uint32_t start = 0;
+    if (size == 4) {
+      uint32_t around[4];
+      for (uint32_t i = 0; i < 4; ++i) around[i] = vertex_places[mesh.corners[begin + i]];
+      start = first_of_quad(around, face_counts);
+    }
+    for (uint32_t k = 2; k < size; ++k) {
+      const uint32_t corners[3] = {begin + start, begin + start + k - 1,
+                                   begin + (start + k) % size};
       uint32_t places[3];
       for (int i = 0; i < 3; ++i) places[i] = vertex_places[mesh.corners[corners[i]]];
       if (places[0] == places[1] || places[1] == places[2] || places[2] == places[0]) continue;
@@ -185,7 +216,7 @@ bool EdgeCollapse::make_charts(Arena& arena, Arena& scratch) {
 }
 
 /// Finds borders, and places where the surface is not a manifold: those are never removed.
-bool EdgeCollapse::classify_edges(Arena& scratch) {
+bool EdgeCollapse::classify_edges(Arena& arena, Arena& scratch) {
   struct Edge {
     uint32_t low, high, corner;
     bool operator<(const Edge& other) const {
@@ -195,7 +226,10 @@ bool EdgeCollapse::classify_edges(Arena& scratch) {
   };
   Span<Edge> edges;
   Span<uint8_t> borders;
+  Span<uint64_t> border_edges;
+  size_t border_count = 0;
   if (!author::make(scratch, places_.count, edges) ||
+      !author::make(scratch, places_.count, border_edges) ||
       !author::make(scratch, first_.count, borders)) {
     return false;
   }
@@ -212,6 +246,7 @@ bool EdgeCollapse::classify_edges(Arena& scratch) {
         end - i > 2 || (end - i == 2 && places_[e.corner] == places_[edges[i + 1].corner]);
     if (is_odd) locked_[e.low] = locked_[e.high] = 1;
     if (end - i == 1) {
+      border_edges[border_count++] = uint64_t{e.low} << 32 | e.high;
       for (const uint32_t place : {e.low, e.high}) {
         border_[place] = 1;
         borders[place] = static_cast<uint8_t>(std::min(borders[place] + 1, 3));
@@ -224,6 +259,30 @@ bool EdgeCollapse::classify_edges(Arena& scratch) {
         (!locked_[place] && !is_one_fan(place))) {
       locked_[place] = 1;
     }
+  }
+  return find_loops(border_edges.first(border_count), arena);
+}
+
+/// Places of the borders of the skin that hang together.
+bool EdgeCollapse::find_loops(Span<const uint64_t> border_edges, Arena& arena) {
+  if (!author::make(arena, first_.count, loop_counts_)) return false;
+  for (uint32_t place = 0; place < loops_.count; ++place) {
+    loops_[place] = border_[place] && mesh_->is_skin[place] ? place : kNone;
+  }
+  const auto root = [this](uint32_t place) {
+    while (loops_[place] != place) place = loops_[place] = loops_[loops_[place]];
+    return place;
+  };
+  for (const uint64_t edge : border_edges) {
+    const auto a = static_cast<uint32_t>(edge >> 32), b = static_cast<uint32_t>(edge);
+    if (loops_[a] == kNone || loops_[b] == kNone) continue;
+    const uint32_t x = root(a), y = root(b);
+    loops_[std::max(x, y)] = std::min(x, y);
+  }
+  for (uint32_t place = 0; place < loops_.count; ++place) {
+    if (loops_[place] == kNone) continue;
+    loops_[place] = root(place);
+    ++loop_counts_[loops_[place]];
   }
   return true;
 }
@@ -366,6 +425,8 @@ bool EdgeCollapse::may_collapse(uint32_t u, const Ring& ring, uint32_t v) {
     across[shared++] = a == v ? b : a;
   }
   if (shared != (border_[u] ? 1u : 2u) || (border_[u] && !border_[v])) return false;
+  if (loops_[u] != kNone && loop_counts_[loops_[u]] <= kLeastLoop && !is_straight(u, ring))
+    return false;
   if (valence_[u] + valence_[v] - 2 * shared > kMaxRing) return false;
   // Neighbors of both ends must lie across the edge; otherwise the surface would touch itself.
   Ring other;
@@ -422,13 +483,58 @@ double EdgeCollapse::cost(uint32_t u, uint32_t v) const {
   return sum;
 }
 
+/// Whether the collapse leaves the surface as it is.
+bool EdgeCollapse::is_flat(uint32_t u, uint32_t v) const {
+  double along = 0;
+  for (size_t pose = 0; pose <= poses_.count; ++pose) {
+    const Vec3 step = at(v, pose) - at(u, pose);
+    along += kAlong * areas_[u] * dot(step, step);
+  }
+  return cost(u, v) <= 1.01 * along;
+}
+
+/// Whether the border at u runs straight on.
+bool EdgeCollapse::is_straight(uint32_t u, const Ring& ring) const {
+  Vec3 ends[2];
+  uint32_t count = 0;
+  for (uint32_t i = 0; i < ring.place_count; ++i) {
+    uint32_t triangles = 0;
+    for (uint32_t k = 0; k < ring.corner_count; ++k) {
+      const uint32_t c = ring.corners[k];
+      triangles +=
+          places_[next_corner(c)] == ring.places[i] || places_[third_corner(c)] == ring.places[i];
+    }
+    if (triangles != 1) continue;
+    if (count == 2) return false;
+    ends[count++] = at(ring.places[i], 0);
+  }
+  if (count < 2) return false;
+  return dot(normalized(at(u, 0) - ends[0]), normalized(ends[1] - at(u, 0))) > kStraight;
+}
+
+bool EdgeCollapse::mirror_may_collapse(uint32_t u, uint32_t v) {
+  const uint32_t other = partner_of(u), to = partner_of(v);
+  if (other == kNone || is_flat(u, v)) return true;
+  if (other == u) return to == v;  // stays on the plane
+  if (other == v || to == kNone || valence_[other] == 0 || locked_[other]) return false;
+  Ring ring;
+  find_ring(other, ring);
+  return ring.has(to) && may_collapse(other, ring, to);
+}
+
 void EdgeCollapse::refresh(uint32_t u) {
   remove(u);
   if (locked_[u] || valence_[u] == 0 || valence_[u] > kMaxRing) return;
   Ring ring;
   find_ring(u, ring);
   double costs[2 * kMaxRing];
-  for (uint32_t i = 0; i < ring.place_count; ++i) costs[i] = cost(u, ring.places[i]);
+  // The same on both sides: expressions of one side count on the other one too.
+  const uint32_t other = partner_of(u);
+  for (uint32_t i = 0; i < ring.place_count; ++i) {
+    costs[i] = cost(u, ring.places[i]);
+    const uint32_t to = partner_of(ring.places[i]);
+    if (other != kNone && other != u && to != kNone) costs[i] += cost(other, to);
+  }
   // The cheapest first, because most collapses are allowed.
   for (uint32_t tried = 0; tried < ring.place_count; ++tried) {
     uint32_t best = tried;
@@ -439,7 +545,9 @@ void EdgeCollapse::refresh(uint32_t u) {
     std::swap(costs[tried], costs[best]);
     std::swap(ring.places[tried], ring.places[best]);
     if (!(costs[tried] < std::numeric_limits<double>::infinity())) return;
-    if (!may_collapse(u, ring, ring.places[tried])) continue;
+    if (!may_collapse(u, ring, ring.places[tried]) || !mirror_may_collapse(u, ring.places[tried])) {
+      continue;
+    }
     costs_[u] = costs[tried];
     targets_[u] = ring.places[tried];
     slots_[u] = heap_count_ + 1;
@@ -477,6 +585,7 @@ void EdgeCollapse::collapse(uint32_t u) {
   }
   first_[u] = kNone;
   valence_[u] = 0;
+  if (loops_[u] != kNone) --loop_counts_[loops_[u]];
   const size_t poses = poses_.count + 1;
   for (size_t pose = 0; pose < poses; ++pose) {
     quadrics_[v * poses + pose].add(quadrics_[u * poses + pose]);
@@ -496,20 +605,48 @@ void EdgeCollapse::reduce(uint32_t wanted, Span<const uint32_t> floors) {
   // Start over: what an earlier floor kept may be removed now.
   for (uint32_t place = 0; place < first_.count; ++place) refresh(place);
   while (alive_count_ > wanted && heap_count_ > 0) {
-    const uint32_t u = heap_[0];
+    const uint32_t u = heap_[0], v = targets_[u], other = partner_of(u);
     const uint32_t component = mesh_->component[u];
-    if (component_counts_[component] < floors[component] + 2) {
+    const bool is_pair = other != kNone && other != u;
+    if (is_pair && alive_count_ < wanted + 2) break;
+    const uint32_t gone = is_pair && mesh_->component[other] == component ? 4 : 2;
+    if (component_counts_[component] < floors[component] + gone) {
       remove(u);
       continue;
     }
     // Costs of places up to two edges away may have changed.
     Ring ring;
     find_ring(u, ring);
-    if (may_collapse(u, ring, targets_[u])) {
+    if (may_collapse(u, ring, v) && mirror_may_collapse(u, v)) {
       collapse(u);
+      if (is_pair) collapse_mirrored(u, v);
     } else {
       refresh(u);
     }
+  }
+}
+
+/// Near the plane the first collapse may be in the way of the second one, and flat ones need none.
+void EdgeCollapse::collapse_mirrored(uint32_t u, uint32_t v) {
+  const uint32_t other = mirror_[u], to = mirror_[v];
+  if (valence_[other] == 0 || valence_[other] > kMaxRing) return;
+  Ring ring;
+  find_ring(other, ring);
+  if (to != kNone && !locked_[other] && ring.has(to) && may_collapse(other, ring, to)) {
+    targets_[other] = to;
+    collapse(other);
+  } else {
+    mirror_[other] = kNone;
+  }
+}
+
+void EdgeCollapse::remove_component(uint32_t component) {
+  for (uint32_t t = 0; t < alive_.count; ++t) {
+    if (!alive_[t] || mesh_->component[places_[3 * t]] != component) continue;
+    alive_[t] = 0;
+    --alive_count_;
+    --component_counts_[component];
+    for (uint32_t c = 3 * t; c < 3 * t + 3; ++c) valence_[places_[c]] = 0;
   }
 }
 

@@ -6,6 +6,10 @@
 // that only touch have separate places. When u collapses onto v, triangles that contain both are
 // removed. The others get the corner at v in the same chart. So u can only be removed if the edges
 // to v have corners of all charts at u; then the chart stays whole.
+//
+// On a symmetric mesh, each collapse is followed by its mirror image, quads are split alike on both
+// sides, and places on the plane stay on it. Collapses that leave the surface unchanged need no mirror
+// image. Borders of the skin, such as lips and lids, keep kLeastLoop places where they bend.
 #pragma once
 
 #include "author/mesh/author_mesh.h"
@@ -25,7 +29,11 @@ class EdgeCollapse {
   /// `floors[c]`.
   void reduce(uint32_t wanted, Span<const uint32_t> floors);
 
+  /// Takes all of a component away.
+  void remove_component(uint32_t component);
+
   uint32_t triangle_count() const { return alive_count_; }
+  bool is_symmetric() const { return !mirror_.empty(); }
   Span<const uint32_t> component_counts() const { return component_counts_; }
   /// Triangles of face f are first_triangle(f) to first_triangle(f + 1).
   uint32_t first_triangle(uint32_t face) const { return face_triangles_[face]; }
@@ -57,9 +65,11 @@ class EdgeCollapse {
   };
 
   bool find_places(Arena& scratch, Span<uint32_t>& vertex_places) const;
-  bool make_triangles(Span<const uint32_t> vertex_places, Arena& arena);
+  uint32_t first_of_quad(const uint32_t* places, Span<const uint32_t> face_counts) const;
+  bool make_triangles(Span<const uint32_t> vertex_places, Arena& arena, Arena& scratch);
   bool make_charts(Arena& arena, Arena& scratch);
-  bool classify_edges(Arena& scratch);
+  bool classify_edges(Arena& arena, Arena& scratch);
+  bool find_loops(Span<const uint64_t> border_edges, Arena& arena);
   bool is_one_fan(uint32_t place);
   void make_quadrics();
   void add_border(uint32_t corner, double weight);
@@ -71,12 +81,19 @@ class EdgeCollapse {
   Vec3 normal_of(uint32_t triangle, uint32_t moved, uint32_t to, size_t pose) const;
   void find_ring(uint32_t place, Ring& ring);
   bool map_charts(const Ring& ring, uint32_t v, ChartMap& map) const;
+  bool is_flat(uint32_t u, uint32_t v) const;
+  bool is_straight(uint32_t u, const Ring& ring) const;
   bool may_collapse(uint32_t u, const Ring& ring, uint32_t v);
   bool keeps_facing(uint32_t u, const Ring& ring, uint32_t v, const ChartMap& map) const;
   double cost(uint32_t u, uint32_t v) const;
+  /// Whether the mirror image of the collapse may follow it, or need not as nothing changes.
+  bool mirror_may_collapse(uint32_t u, uint32_t v);
+  uint32_t partner_of(uint32_t place) const { return mirror_.empty() ? kNone : mirror_[place]; }
   /// Finds the cheapest collapse of u and enters it into the heap.
   void refresh(uint32_t u);
   void collapse(uint32_t u);
+  /// The same for its mirror image, after it.
+  void collapse_mirrored(uint32_t u, uint32_t v);
 
   bool before(uint32_t a, uint32_t b) const {
     return costs_[a] != costs_[b] ? costs_[a] < costs_[b] : a < b;
@@ -100,7 +117,11 @@ class EdgeCollapse {
   // Per vertex; in use for those that are the first at their place.
   Span<uint32_t> first_, valence_;
   Span<uint8_t> locked_, border_;
-  Span<Quadric> quadrics_;  // one for each pose
+  Span<uint32_t>
+      mirror_;            // the place on the other side, or kNone; empty: the mesh is not symmetric
+  Span<uint32_t> loops_;  // of places on borders of the skin: their loop, else kNone
+  Span<uint32_t> loop_counts_;  // places of each loop
+  Span<Quadric> quadrics_;      // one for each pose
   Span<double> areas_, costs_;
   Span<uint32_t> targets_, slots_;
   Span<uint32_t> heap_;

@@ -21,7 +21,7 @@ class Extraction {
 
  private:
   bool is_whole(size_t part) const {
-    return triangles_.keeps_empty_parts && triangles_.starts[part] == triangles_.starts[part + 1];
+    return !triangles_.whole_parts.empty() && triangles_.whole_parts[part] != 0;
   }
   /// Corners of a part of LOD 0.
   uint32_t first_corner(size_t part) const {

@@ -18,7 +18,8 @@ struct LodTriangles {
   Span<const uint32_t> corners;     // vertices of LOD 0, 3 each
   Span<const uint32_t> corner_uvs;  // one for each of `corners`; empty: no UVs
   Span<const uint32_t> starts;      // parts + 1: where in `corners` each part begins
-  bool keeps_empty_parts = false;   // parts without triangles keep all faces of LOD 0
+  Span<const uint8_t>
+      whole_parts;  // of parts without triangles, which keep all faces of LOD 0; empty: none
 };
 
 /// The mesh of these triangles, which are of `whole`. False if memory ran out.

@@ -298,6 +298,181 @@ TEST(Simplify, FollowsExpressionsToo) {
   EXPECT_LT(error(Lods(bent, 0.5, 4)), 0.65 * error(Lods(plain, 0.5, 4)));
 }
 
+/// The share of the vertices of a LOD that have no mirror image in it across x = 0.
+double without_mirror(const AuthorMesh& mesh) {
+  size_t alone = 0;
+  for (uint32_t v = 0; v < mesh.positions.count; ++v) {
+    const Vec3 p = mesh.positions[v];
+    bool found = false;
+    for (uint32_t w = 0; w < mesh.positions.count && !found; ++w) {
+      found = length(mesh.positions[w] - Vec3{-p.x, p.y, p.z}) < 1e-6;
+    }
+    alone += !found;
+  }
+  return static_cast<double>(alone) / static_cast<double>(mesh.positions.count);
+}
+
+TEST(Simplify, ASymmetricMeshStaysSymmetric) {
+  TestMesh mesh;
+  add_sphere(mesh, 0, 0, 0, 1, 40, 60);
+  // A smile of one side, and quads that are split alike by no fan.
+  mesh.shape_names = {"smileLeft"};
+  mesh.displacements.resize(1);
+  for (size_t v = 0; v < mesh.positions.size(); v += 3) {
+    const bool moves = mesh.positions[v] > 0.3 && mesh.positions[v + 2] > 0.3;
+    mesh.displacements[0].insert(mesh.displacements[0].end(), {0, moves ? 0.2 : 0, 0});
+  }
+  const Lods made(mesh, 0.5, 7);
+  for (size_t lod = 1; lod < 7; ++lod) {
+    EXPECT_NEAR(made.triangles(lod), made.triangles(0) * std::pow(0.5, lod), 2) << lod;
+    EXPECT_LT(without_mirror(made.at(lod)), 0.03) << lod;
+  }
+}
+
+TEST(Simplify, AMeshWithoutMirrorImagesIsNotHeldBack) {
+  TestMesh mesh;
+  add_sphere(mesh, 0, 0, 0, 1, 40, 60);
+  mesh.transform([](double x, double y, double z) {
+    return std::array<double, 3>{x + 0.2 * y * (x > 0 ? x : 0), y, z};
+  });
+  const Lods made(mesh, 0.5, 6);
+  EXPECT_NEAR(made.triangles(5), made.triangles(0) / 32.0, 2);
+}
+
+TEST(Simplify, BordersOfTheSkinKeepTenPlaces) {
+  // A plate with a hole, as a mask of a face has for an eye.
+  TestMesh mesh;
+  constexpr int kSide = 30;
+  for (int y = 0; y <= kSide; ++y) {
+    for (int x = 0; x <= kSide; ++x) mesh.vertex(x, y, 0.01 * x * y);
+  }
+  const auto at = [](int x, int y) { return static_cast<uint32_t>(y * (kSide + 1) + x); };
+  const auto in_hole = [](int x, int y) { return std::hypot(x + 0.5 - 18, y + 0.5 - 14) < 5; };
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      if (!in_hole(x, y)) mesh.face({at(x, y), at(x + 1, y), at(x + 1, y + 1), at(x, y + 1)});
+    }
+  }
+  const Lods made(mesh, 0.5, 7);
+  std::map<std::pair<uint32_t, uint32_t>, int> edges = edges_of(made.at(6));
+  size_t around = 0;
+  for (const auto& [edge, count] : edges) {
+    const Vec3 p = made.at(6).positions[edge.first];
+    const bool is_border = edges.count({edge.second, edge.first}) == 0;
+    around += is_border && std::hypot(p.x - 18, p.y - 14) < 8;
+  }
+  EXPECT_GE(around, 10u);
+  EXPECT_LE(around, 20u) << "where few triangles are left";
+}
+
+TEST(Simplify, TeethGoWholeAndEyesStay) {
+  TestMesh mesh = OpenBox(5).mesh;  // 250 triangles, a tooth
+  const size_t tooth = mesh.positions.size() / 3;
+  add_sphere(mesh, 0, 0, -30, 20, 40, 60);  // a head
+  add_sphere(mesh, 5, 5, -8, 0.6, 8, 12);   // an eye
+  const Lods made(mesh, 0.5, 8);
+  size_t gone_at = 0;
+  for (size_t lod = 1; lod < 8; ++lod) {
+    std::map<uint32_t, size_t> counts;
+    for (size_t t = 0; t < made.triangles(lod); ++t) {
+      ++counts[made.at(lod).component[made.at(lod).triangles[3 * t]]];
+    }
+    const uint32_t of_tooth = made.at(0).component[0];
+    const uint32_t of_eye = made.at(0).component[made.at(0).positions.count - 1];
+    EXPECT_NE(made.at(0).component[tooth], of_tooth);
+    EXPECT_GE(counts[of_eye], 8u) << lod;
+    if (counts[of_tooth] == 0 && gone_at == 0) gone_at = lod;
+    if (gone_at == 0) EXPECT_GE(counts[of_tooth], 8u) << lod;
+    if (gone_at != 0) EXPECT_EQ(counts[of_tooth], 0u) << lod;
+  }
+  EXPECT_EQ(gone_at, 5u) << "250 / 32 are less than twelve";
+}
+
+/// Which cells of a grid over the face's box triangles cover, seen along x (axis 0) or z (axis 2).
+std::vector<bool> covered(const AuthorMesh& mesh, const AuthorMesh& whole, int axis) {
+  constexpr int kCells = 160;
+  Vec3 low = whole.positions[0], high = low;
+  for (const Vec3 p : whole.positions) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  const Vec3 size = high - low;
+  const double cell = std::max({size.x, size.y, size.z}) / kCells;
+  std::vector<bool> cells(kCells * kCells);
+  const auto flat = [&](Vec3 p) {
+    p = (p - low) * (1 / cell);
+    return Vec3{axis == 0 ? p.z : p.x, p.y, 0};
+  };
+  for (size_t t = 0; t < mesh.triangles.count; t += 3) {
+    if (!mesh.is_skin[mesh.triangles[t]]) continue;
+    Vec3 p[3];
+    for (size_t k = 0; k < 3; ++k) p[k] = flat(mesh.positions[mesh.triangles[t + k]]);
+    const auto from = [](double v) { return std::max(0, static_cast<int>(v)); };
+    const auto to = [](double v) { return std::min(kCells - 1, static_cast<int>(v)); };
+    for (int y = from(std::min({p[0].y, p[1].y, p[2].y}));
+         y <= to(std::max({p[0].y, p[1].y, p[2].y})); ++y) {
+      for (int x = from(std::min({p[0].x, p[1].x, p[2].x}));
+           x <= to(std::max({p[0].x, p[1].x, p[2].x})); ++x) {
+        const Vec3 at = {x + 0.5, y + 0.5, 0};
+        double sides[3];
+        for (size_t k = 0; k < 3; ++k) sides[k] = cross(p[(k + 1) % 3] - p[k], at - p[k]).z;
+        const bool inside = (sides[0] >= 0 && sides[1] >= 0 && sides[2] >= 0) ||
+                            (sides[0] <= 0 && sides[1] <= 0 && sides[2] <= 0);
+        if (inside) cells[static_cast<size_t>(y * kCells + x)] = true;
+      }
+    }
+  }
+  return cells;
+}
+
+/// How far the silhouette of a LOD is from that of the whole mesh in the mean, as a share of its height: the area
+/// between both over the length of the outline.
+double silhouette_error(const AuthorMesh& mesh, const AuthorMesh& whole, int axis) {
+  const std::vector<bool> a = covered(mesh, whole, axis), b = covered(whole, whole, axis);
+  const size_t width = static_cast<size_t>(std::sqrt(static_cast<double>(a.size())));
+  size_t between = 0, outline = 0, first = b.size(), last = 0;
+  for (size_t i = 0; i < a.size(); ++i) {
+    between += a[i] != b[i];
+    outline += i % width > 0 && b[i] != b[i - 1];
+    outline += i >= width && b[i] != b[i - width];
+    if (b[i]) {
+      first = std::min(first, i / width);
+      last = i / width;
+    }
+  }
+  return static_cast<double>(between) / static_cast<double>(outline) /
+         static_cast<double>(last - first + 1);
+}
+
+/// Places on the borders of the skin.
+size_t border_places(const AuthorMesh& mesh) {
+  const auto edges = edges_of(mesh);
+  std::set<uint32_t> places;
+  for (const auto& [edge, count] : edges) {
+    if (edges.count({edge.second, edge.first}) == 0 && mesh.is_skin[edge.first])
+      places.insert(edge.first);
+  }
+  return places.size();
+}
+
+TEST(Simplify, AHeadKeepsItsSilhouetteItsBordersAndItsSymmetry) {
+  constexpr double kSilhouettes[] = {0, 0.001, 0.001, 0.002, 0.004, 0.009, 0.016, 0.03};
+  const Lods made(procedural_mesh(2, true), 0.5, 8);
+  printf(
+      "LOD, triangles, silhouette from the front and the side in %%, places on borders, without "
+      "mirror image\n");
+  for (size_t lod = 1; lod < 8; ++lod) {
+    const double front = silhouette_error(made.at(lod), made.at(0), 2);
+    const double side = silhouette_error(made.at(lod), made.at(0), 0);
+    const double alone = without_mirror(made.at(lod));
+    printf("%zu, %zu, %.2f, %.2f, %zu of %zu, %.3f\n", lod, made.triangles(lod), 100 * front,
+           100 * side, border_places(made.at(lod)), border_places(made.at(0)), alone);
+    EXPECT_LT(std::max(front, side), kSilhouettes[lod]) << lod;
+    EXPECT_LT(alone, 0.03) << lod;
+    EXPECT_GE(border_places(made.at(lod)), std::min<size_t>(10, border_places(made.at(0)))) << lod;
+  }
+}
+
 TEST(Simplify, TakesWhatIsNoSurface) {
   TestMesh mesh;
   add_sphere(mesh, 0, 0, 0, 1, 12, 16);
