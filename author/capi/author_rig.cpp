@@ -114,7 +114,7 @@ MienStatus check_options(const MienAuthorDesc& desc, MienError* error) {
                     {"MienAuthorDesc.up", desc.up, MIEN_MESH_AXIS_MINUS_Z},
                     {"MienAuthorDesc.front", desc.front, MIEN_MESH_AXIS_MINUS_Z},
                     {"MienAuthorDesc.symmetry", desc.symmetry, MIEN_SYMMETRY_OFF},
-                    {"MienAuthorDesc.flags", desc.flags, 63},
+                    {"MienAuthorDesc.flags", desc.flags, 127},
                     {"MienAuthorDesc.joint_groups", desc.joint_groups, author::kMaxRegions}},
                    error);
   if (status != MIEN_OK) return status;
@@ -272,6 +272,7 @@ bool read_input(const MienAuthorMesh& mesh, const MienAuthorDesc& desc, Arena& a
   place.area_density = (desc.flags & MIEN_AUTHOR_AREA_DENSITY) != 0;
   place.group_in_space = (desc.flags & MIEN_AUTHOR_GROUP_IN_SPACE) != 0;
   options.residual_targets = (desc.flags & MIEN_AUTHOR_NO_TARGETS) == 0;
+  options.metahuman_names = (desc.flags & MIEN_AUTHOR_METAHUMAN_NAMES) != 0;
   if (desc.name.count) options.name = name_of(desc.name);
   options.bones = bones;
   options.lod_meshes = lod_meshes;

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "author/base/dna_making.h"
+#include "author/rigging/metahuman_names.h"
 #include "author/rigging/own_stages.h"
 
 namespace mien::author {
@@ -61,6 +62,10 @@ class Rigger {
     if (status == Status::kOk) {
       status = place_bones(mesh_, place, options_.parallel, arena_, allocator_, out_.placement,
                            out_.place, error_);
+    }
+    if (status == Status::kOk && options_.metahuman_names &&
+        !name_as_metahuman(out_.placement, arena_)) {
+      return no_memory();
     }
     if (status != Status::kOk || !has_own_bones()) return status;
     return take_bones(source_, options_, arena_, out_.placement, error_);

@@ -74,5 +74,6 @@
 #include "mien/clip.h"
 #include "mien/mix.h"
 #include "mien/solve.h"
+#include "mien/names.h"
 
 #endif /* MIEN_H */

@@ -171,7 +171,9 @@ enum MienAuthorFlags {
     MIEN_AUTHOR_MASK_FROM_SHAPES = 4, /* the face mask is what shapes move: for heads that are not human */
     MIEN_AUTHOR_AREA_DENSITY = 8,     /* weight positions by the area around them: for scans */
     MIEN_AUTHOR_NO_TARGETS = 16,      /* no blend shape targets for the motion that joints cannot produce */
-    MIEN_AUTHOR_GROUP_IN_SPACE = 32   /* group by distance in space, not in depth: for comparison */
+    MIEN_AUTHOR_GROUP_IN_SPACE = 32,  /* group by distance in space, not in depth: for comparison */
+    MIEN_AUTHOR_METAHUMAN_NAMES = 64  /* names of bones as MetaHuman heads have them, where they have a
+                                         counterpart: neck_01, FACIAL_C_Jaw; not of the caller's bones */
 };
 
 /* How to rig a mesh. bones, weights, depth_groups, mask, lod_joints, bone_groups, bone_motions and

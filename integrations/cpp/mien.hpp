@@ -482,6 +482,20 @@ class Rig : public Owner<MienRig, mien_rig_destroy> {
     const MienStatus status = mien_rig_find_n(get(), kind, name.data(), name.size(), &index);
     return {status, std::move(index)};
   }
+  /// What a name of another tool means on this rig.
+  struct Match {
+    MienNameMatch how = MIEN_NAME_MATCH_NONE;
+    size_t count = 0;
+    MienControlShare shares[MIEN_MOST_SHARES] = {};
+  };
+  Result<Match> match(std::string_view name) const {
+    Match match;
+    uint32_t how = 0;
+    const MienStatus status = mien_rig_match(get(), name.data(), name.size(), match.shares,
+                                             MIEN_MOST_SHARES, &match.count, &how);
+    match.how = static_cast<MienNameMatch>(how);
+    return {status, std::move(match)};
+  }
 
   Result<Span<const uint16_t>> lod_indices(MienKind kind, uint32_t lod) const {
     MienIndex16View found;
@@ -879,6 +893,15 @@ class Clip : public Owner<MienClip, mien_clip_close> {
 inline Result<size_t> arkit_matrix(Span<MienMatrixEntry> out) {
   size_t count = 0;
   const MienStatus status = mien_arkit_matrix(out.data(), out.size(), &count);
+  return {status, std::move(count)};
+}
+
+/// The usual name of a control, "mouthSmileLeft" for "AU12_L". Writes as many bytes as there is room for, and tells how
+/// many there are.
+inline Result<size_t> control_name(std::string_view name, Span<char> out) {
+  size_t count = 0;
+  const MienStatus status =
+      mien_control_name(name.data(), name.size(), out.data(), out.size(), &count);
   return {status, std::move(count)};
 }
 

@@ -209,6 +209,11 @@ void test_mixing() {
 
   std::vector<MienMatrixEntry> matrix(mien::arkit_matrix({}).value());
   CHECK(mien::arkit_matrix(matrix) && matrix.back().weight > 0);
+  char name[32];
+  const auto name_bytes = mien::control_name("AU12_L", mien::Span<char>(name, sizeof name));
+  CHECK(name_bytes && std::string_view(name, name_bytes.value()) == "mouthSmileLeft");
+  CHECK(rig.match("nobody").status() == MIEN_ERROR_NAME);
+  CHECK(mien::control_name("nobody", mien::Span<char>()).status() == MIEN_ERROR_NAME);
 
   const mien::Mix mix = mien::Mix::create(rig, desc).value();
   CHECK(mix.info()->curve_count == raw_count + 1);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "runtime/anim/control_names.h"
+#include "runtime/anim/match_controls.h"
 #include "runtime/base/arena.h"
 
 namespace mien {
@@ -14,16 +15,30 @@ constexpr uint8_t kByChannel = 1, kByMatrix = 2, kByGui = 3;
 
 // Building ----------------------------------------------------------------------------------------
 
+/// `weight` times the value of a channel goes to a target: a raw control, then GUI controls.
+struct Share {
+  uint32_t source, target;
+  float weight;
+};
+
+/// Shares of channels whose names mean other controls: of a channel two at most, those of both sides; more only of
+/// the expressions of a vocabulary, each of which one channel drives.
+constexpr size_t kMostOfExpressions = 512;
+size_t most_matched(const Clip& clip) {
+  return 2 * size_t{clip.channel_count} + kMostOfExpressions;
+}
+
 /// Scratch memory of binding. Targets are raw controls, then GUI controls.
 struct Scratch {
   Allocator allocator;
   size_t block_size = 0;
   Span<uint16_t> raw_order, gui_order, channel_order;
-  Span<uint8_t> driven_by;          // [target]
-  Span<uint8_t> is_used;            // [channel]
-  Span<uint32_t> sources, targets;  // [matrix entry] or kNone
-  Span<uint32_t> entry_order;       // matrix entries by target
-  Span<uint16_t> slots;             // [GUI control] its number in the binding
+  Span<uint8_t> driven_by;                 // [target]
+  Span<uint8_t> is_used;                   // [channel]
+  Span<Share> shares;                      // of the matrix, then of matched names; begins empty
+  Span<uint32_t> share_order;              // shares by target
+  Span<ControlKey> by_spelling, by_alias;  // raw controls
+  Span<uint16_t> slots;                    // [GUI control] its number in the binding
 
   void place(Placer& placer, const Clip& clip, const Rig& rig, size_t entries) {
     raw_order = placer.array<uint16_t>(rig.raw_count);
@@ -31,9 +46,10 @@ struct Scratch {
     channel_order = placer.array<uint16_t>(clip.channel_count);
     driven_by = placer.array<uint8_t>(size_t{rig.raw_count} + rig.gui_count);
     is_used = placer.array<uint8_t>(clip.channel_count);
-    sources = placer.array<uint32_t>(entries);
-    targets = placer.array<uint32_t>(entries);
-    entry_order = placer.array<uint32_t>(entries);
+    shares = placer.array<Share>(entries + most_matched(clip)).first(0);
+    share_order = placer.array<uint32_t>(entries + most_matched(clip));
+    by_spelling = placer.array<ControlKey>(rig.raw_count);
+    by_alias = placer.array<ControlKey>(rig.raw_count);
     slots = placer.array<uint16_t>(rig.gui_count);
   }
 };
@@ -44,8 +60,9 @@ void place_binding(Placer& placer, const Clip& clip, const Rig& rig, size_t entr
   const uint32_t channels = clip.channel_count, raws = rig.raw_count;
   binding.copies = placer.array<BoundCopy>(clip.changing_count).first(0);
   binding.constants = placer.array<BoundCopy>(channels - clip.changing_count).first(0);
-  binding.sums = placer.array<BoundSum>(channels + entries).first(0);
-  binding.terms = placer.array<BoundTerm>(channels + entries).first(0);
+  const size_t shares = entries + most_matched(clip);
+  binding.sums = placer.array<BoundSum>(channels + shares).first(0);
+  binding.terms = placer.array<BoundTerm>(channels + shares).first(0);
   binding.rows = placer.array<BoundRow>(rig.gui_to_raw.inputs.count).first(0);
   binding.mapped_controls = placer.array<uint16_t>(raws).first(0);
   binding.controls = placer.array<uint16_t>(raws).first(0);
@@ -85,18 +102,48 @@ struct Binder {
       scratch.is_used[c] = 1;
       bind_channel(c, target);
     }
-    for (size_t e = 0; e < matrix.count; ++e) {
-      const uint32_t source = channels.find(matrix[e].source);
-      const uint32_t target = target_of(matrix[e].control);
+    for (const MatrixEntry& entry : matrix) {
+      const uint32_t source = channels.find(entry.source);
+      const uint32_t target = target_of(entry.control);
       const bool there = source != kNone && target != kNone;
       binding.missing_entries += !there;
-      const bool free = there && scratch.driven_by[target] != kByChannel;
-      scratch.sources[e] = source;
-      scratch.targets[e] = free ? target : kNone;
-      if (!free) continue;
-      scratch.driven_by[target] = kByMatrix;
-      scratch.is_used[source] = 1;
+      if (there) add_share(source, target, entry.weight);
     }
+    match_names();
+  }
+
+  void add_share(uint32_t source, uint32_t target, float weight) {
+    if (scratch.driven_by[target] == kByChannel) return;
+    scratch.driven_by[target] = kByMatrix;
+    scratch.is_used[source] = 1;
+    append(scratch.shares, Share{source, target, weight});
+  }
+
+  /// Channels that drive nothing so far, in their order.
+  void match_names() {
+    ControlFinder finder(raw_names.list);
+    bool is_sorted = false;
+    const size_t most = scratch.shares.count + most_matched(clip);
+    for (uint32_t c = 0; c < clip.channel_count; ++c) {
+      if (scratch.is_used[c]) continue;
+      if (!is_sorted) finder.sort(scratch.by_spelling, scratch.by_alias);
+      is_sorted = true;
+      const ControlMatch match = finder.match(clip.name(c));
+      if (scratch.shares.count + match.count > most || is_taken(match)) continue;
+      for (uint32_t i = 0; i < match.count; ++i) {
+        add_share(c, match.shares[i].control, match.shares[i].weight);
+      }
+    }
+  }
+
+  /// Whether another channel drives a control alone. Expressions add up.
+  bool is_taken(const ControlMatch& match) const {
+    for (uint32_t i = 0; i < match.count; ++i) {
+      const uint8_t driven_by = scratch.driven_by[match.shares[i].control];
+      if (driven_by == kByChannel) return true;
+      if (driven_by != 0 && match.how != Match::kExpression) return true;
+    }
+    return false;
   }
 
   void bind_channel(uint32_t channel, uint32_t target) {
@@ -129,18 +176,19 @@ struct Binder {
                                   static_cast<uint32_t>(binding.terms.count)});
   }
 
-  void bind_matrix() {
-    const Span<uint32_t>&targets = scratch.targets, &order = scratch.entry_order;
-    for (uint32_t e = 0; e < order.count; ++e) order[e] = e;
+  void bind_shares() {
+    const Span<const Share> shares = scratch.shares;
+    const Span<uint32_t> order = scratch.share_order.first(shares.count);
+    for (uint32_t s = 0; s < order.count; ++s) order[s] = s;
     std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
-      return targets[a] != targets[b] ? targets[a] < targets[b] : a < b;
+      return shares[a].target != shares[b].target ? shares[a].target < shares[b].target : a < b;
     });
-    for (size_t i = 0; i < order.count && targets[order[i]] != kNone;) {
-      const uint32_t target = targets[order[i]];
+    for (size_t i = 0; i < order.count;) {
+      const uint32_t target = shares[order[i]].target;
       const size_t first_term = binding.terms.count;
-      for (; i < order.count && targets[order[i]] == target; ++i) {
-        const auto source = static_cast<uint16_t>(scratch.sources[order[i]]);
-        append(binding.terms, BoundTerm{source, 0, matrix[order[i]].weight});
+      for (; i < order.count && shares[order[i]].target == target; ++i) {
+        const Share& share = shares[order[i]];
+        append(binding.terms, BoundTerm{static_cast<uint16_t>(share.source), 0, share.weight});
       }
       add_sum(target, first_term);
     }
@@ -196,7 +244,7 @@ void fill_binding(const Clip& clip, const Rig& rig, Span<const MatrixEntry> matr
   binding.closures = find_closures(clip);
   Binder binder = {clip, rig, matrix, scratch, binding};
   binder.find_targets();
-  binder.bind_matrix();
+  binder.bind_shares();
   binder.bind_gui_controls();
   binder.list_controls();
 }

@@ -8,10 +8,11 @@
 // which the rig's own table maps to raw controls after sampling; or, as a source of the caller's
 // matrix, what the matrix says, for captures with names of their own. Names match without regard to
 // case, `.` matches `_`, and the prefix `CTRL_expressions.` may be missing. If several names match,
-// one of them has to be equal.
+// one of them has to be equal. A channel that drives nothing so far drives what its name means in other
+// spellings and vocabularies (match_controls.h), as entries behind those of the matrix do.
 //
 // The more direct way wins: a raw control that a channel names is driven by nothing else, and one
-// that the matrix drives is not driven by GUI controls.
+// that such entries drive is not driven by GUI controls.
 #pragma once
 
 #include "runtime/anim/closures.h"

@@ -292,7 +292,8 @@ typedef struct MienMatrixEntry {
 /* How to bind a clip. */
 typedef struct MienClipBindingDesc {
     size_t struct_size;
-    const MienMatrixEntry* matrix; /* for channels whose names the rig does not have; may be NULL */
+    const MienMatrixEntry* matrix; /* for channels whose names the rig does not have; may be NULL: those
+                                      that mien_rig_match() knows need none */
     size_t matrix_count;
     const MienAllocator* allocator;
 } MienClipBindingDesc;
@@ -302,9 +303,10 @@ MIEN_DEFAULT(MienClipBindingDesc, mien_clip_binding_desc_default)
  * drives the GUI control with its name, which is then mapped as by mien_rig_map_gui_to_raw(). If there
  * is none either, it drives the controls of its entries in the matrix, which are summed in the order of
  * the matrix. Names match without regard to case; `.` matches `_`; the prefix `CTRL_expressions.` may be
- * missing. If several names match, only an exact match counts. A raw control that a channel drives by
- * name is driven by nothing else, and one that the matrix drives is not driven by GUI controls. Names
- * without a match are not an error: see mien_clip_binding_info(). `clip` may be closed and `rig` may be
+ * missing. If several names match, only an exact match counts. A channel that drives nothing so far drives the
+ * controls that mien_rig_match() finds for its name, such as mouthSmile_L for mouthSmileLeft; these are summed
+ * behind those of the matrix. A raw control that a channel drives by name is driven by nothing else, and one that
+ * the matrix or mien_rig_match() drives is not driven by GUI controls. Names without a match are not an error: see mien_clip_binding_info(). `clip` may be closed and `rig` may be
  * destroyed afterwards. Destroy with mien_clip_binding_destroy().
  * Fails with MIEN_ERROR_INVALID_ARGUMENT if a weight is not finite, MIEN_ERROR_CLIP_LIMIT if channels
  * drive more than 4095 GUI controls. */

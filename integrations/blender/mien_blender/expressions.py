@@ -2,7 +2,7 @@
 """The sets of expressions of `mien export --bake`, on a rig: as shape keys of a copy, and as poses.
 
 The table, expression_sets.json, is made from that of the program when the add-on is built. Controls are found as the program
-finds them (integrations/program/gltf/control_names.h and expression_set.h).
+finds them, by mien_rig_match().
 """
 import json
 import os
@@ -12,61 +12,19 @@ import numpy as np
 
 from .binding import mien
 
-_LEFT = ("Left", "_left", "-left", " left", "_L", "_l", "-L", "-l", " L", " l", "L")
-_RIGHT = ("Right", "_right", "-right", " right", "_R", "_r", "-R", "-r", " R", " r", "R")
-
-
 def sets():
     """Names of the sets -> lists of (name, ways)."""
     with open(os.path.join(os.path.dirname(__file__), "expression_sets.json"), encoding="utf-8") as file:
         return json.load(file)
 
 
-def _folded(name):
-    return name.replace(".", "_").lower()
-
-
-def _spelled(name):
-    words, side = name.rpartition(".")[2], ""
-    for ends, mark in ((_LEFT, "<"), (_RIGHT, ">")):
-        for end in ends:
-            if not side and len(words) > len(end) and words.endswith(end):
-                words, side = words[:-len(end)], mark
-    return words.translate({ord(c): None for c in "_- "}).lower() + side
-
-
-class ControlNames:
-    """Raw controls of a rig by the names that people give them."""
-
-    def __init__(self, rig):
-        names = rig.names(mien.Kind.RAW_CONTROL)
-        self.known, parts, self.spellings = {}, {}, {}
-        for i, name in enumerate(names):
-            self.known.setdefault(_folded(name), i)
-            parts.setdefault(_folded(name.rpartition(".")[2]), i)
-            spelled = _spelled(name)
-            self.spellings[spelled] = None if spelled in self.spellings else i
-        for name, i in parts.items():
-            self.known.setdefault(name, i)
-        self.matrix = {}
-        for channel, control, weight in mien.arkit_matrix():
-            self.matrix.setdefault(channel, []).append((control, weight))
-
-    def find(self, name):
-        """Index of a control, or None."""
-        found = self.known.get(_folded(name))
-        return found if found is not None else self.spellings.get(_spelled(name))
-
-    def values(self, name, value):
-        """What a name of the table stands for: [(control, value)], or None if the rig lacks it."""
-        control = self.find(name)
-        if control is not None:
-            return [(control, value)]
-        left, right = self.find(name + "Left"), self.find(name + "Right")
-        if left is not None and right is not None:
-            return [(left, value), (right, value)]
-        found = [(self.find(control), weight * value) for control, weight in self.matrix.get(name, [])]
-        return found if found and all(control is not None for control, _ in found) else None
+def _values(rig, name, value):
+    """What a name of the table stands for on a rig: [(control, value)], or None if the rig lacks it."""
+    try:
+        _, shares = rig.match(name)
+    except mien.UnknownNameError:
+        return None
+    return [(control, weight * value) for control, weight in shares.items()]
 
 
 def _parse(way):
@@ -78,11 +36,12 @@ def _parse(way):
 
 def on_rig(rig, name):
     """Expressions of a set on a rig: [(name, plus, minus)] with lists of (control, value), and what is missing, as text."""
-    names, found, missing = ControlNames(rig), [], []
+    found, missing = [], []
     for expression, ways in sets()[name]:
         lacks = []
         for way in ways.split("|"):
-            sides = [[(control, names.values(control, value)) for control, value in side] for side in _parse(way)]
+            way = f"{expression} 1" if way == "=" else way
+            sides = [[(control, _values(rig, control, value)) for control, value in side] for side in _parse(way)]
             lacks.append([control for side in sides for control, values in side if values is None])
             if not lacks[-1]:
                 plus, minus = ([pair for _, values in side for pair in values] for side in sides)

@@ -9,11 +9,14 @@
 #include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "integrations/program/commands/author_images.h"
 #include "integrations/program/commands/mesh_view.h"
 #include "integrations/program/commands/options.h"
 #include "integrations/program/io/input.h"
+#include "integrations/program/io/matched_names.h"
+#include "integrations/program/io/nearest_name.h"
 #include "integrations/program/io/output.h"
 #include "integrations/program/io/text.h"
 #include "integrations/program/io/thread_pool.h"
@@ -35,7 +38,7 @@ struct AuthorCommand {
   std::string joints = "240", influences = "8", lods = "8", seed = "1", groups = "3", threads = "0";
   std::string symmetry = "auto", residual = "targets", metric = "depth", up = "y", front = "z";
   std::string overlaps = "0", lod_triangles = "0.5";
-  std::string report, images, crop, objects;
+  std::string report, images, crop, objects, names, preset;
   bool paper = false, no_neck_cut = false, mask_from_shapes = false, area_density = false;
   OutputFile output;
 };
@@ -81,6 +84,10 @@ MienAuthorDesc parse_options(const AuthorCommand& command) {
   if (command.no_neck_cut) desc.flags |= MIEN_AUTHOR_NO_NECK_CUT;
   if (command.mask_from_shapes) desc.flags |= MIEN_AUTHOR_MASK_FROM_SHAPES;
   if (command.area_density) desc.flags |= MIEN_AUTHOR_AREA_DENSITY;
+  if (!command.preset.empty()) {
+    parse_word("author --preset", command.preset);
+    desc.flags |= MIEN_AUTHOR_METAHUMAN_NAMES;
+  }
   if (parse_word("--residual", command.residual) == 1) desc.flags |= MIEN_AUTHOR_NO_TARGETS;
   if (parse_word("--metric", command.metric) == 1) desc.flags |= MIEN_AUTHOR_GROUP_IN_SPACE;
   desc.overlap_correctives = parse_count("--overlap-correctives", command.overlaps, 0, 10000);
@@ -349,6 +356,69 @@ void note_oddities(const AuthorCommand& command, const MeshFile& mesh, const Jso
   note_turned(command, mesh, report, session);
 }
 
+/// Gives shapes the names of --names, and refuses two with one name.
+void rename_shapes(const AuthorCommand& command, MeshFile& mesh) {
+  const NamesFile names(command.names);
+  const char* const what = "cannot name controls";
+  std::vector<std::string> known;
+  for (const MeshShape& shape : mesh.shapes) known.push_back(shape.name);
+  for (const auto& [name, shares] : names.names()) {
+    const auto found = std::find(known.begin(), known.end(), name);
+    const std::string where = names.shown() + ", " + one_line(name);
+    if (found == known.end()) {
+      fail(kInvalid, what, where, "there is no shape of this name",
+           nearest_question(name, known, "names are those of the shapes of MESH"));
+    }
+    if (shares.size() != 1 || shares[0].weight != 1) {
+      fail(kInvalid, what, where, "a shape becomes one control", "give one name");
+    }
+    mesh.shapes[static_cast<size_t>(found - known.begin())].name = shares[0].control;
+  }
+  std::set<std::string> seen;
+  for (const MeshShape& shape : mesh.shapes) {
+    if (seen.insert(shape.name).second || names.empty()) continue;
+    fail(kInvalid, what, names.shown(), "two shapes are named \"" + one_line(shape.name) + "\"",
+         "give each its own name");
+  }
+}
+
+/// Names of controls as MetaHuman heads have them, for shapes that mean one of theirs. Others keep their names.
+void name_as_metahuman(MeshFile& mesh, const Session& session) {
+  std::set<std::string> taken;
+  for (const MeshShape& shape : mesh.shapes) taken.insert(shape.name);
+  size_t count = 0;
+  for (MeshShape& shape : mesh.shapes) {
+    const std::string name = metahuman_name(shape.name);
+    if (name.empty() || !taken.insert(name).second) continue;
+    shape.name = name;
+    ++count;
+  }
+  if (mesh.shapes.empty()) return;
+  note(session, std::to_string(count) + " of " + std::to_string(mesh.shapes.size()) +
+                    " shapes have a counterpart among MetaHuman's raw controls, and its name");
+}
+
+/// What names of shapes mean elsewhere, for the report; a note tells what is unknown.
+Json usual_names(const MeshFile& mesh, const Session& session) {
+  Json usual = Json::object();
+  std::string unknown;
+  size_t unknown_count = 0;
+  for (const MeshShape& shape : mesh.shapes) {
+    const std::string name = usual_name(shape.name);
+    usual[shape.name] = name.empty() ? Json() : Json(name);
+    if (!name.empty()) continue;
+    if (++unknown_count <= 8) unknown += (unknown.empty() ? "" : ", ") + one_line(shape.name);
+  }
+  if (unknown_count > 8) unknown += ", ...";
+  if (unknown_count > 0) {
+    note(session,
+         std::to_string(unknown_count) + " of " + std::to_string(mesh.shapes.size()) +
+             " shapes have names that no standard has, so only the same names drive them: " +
+             unknown + "; to give them others, use --names");
+  }
+  return usual;
+}
+
 /// A folder for images, made if it is missing, and removed again if nothing was put into it.
 class ImageFolder {
  public:
@@ -405,11 +475,14 @@ void run(const AuthorCommand& command, const Session& session) {
   auto interrupt = std::make_unique<EndOnInterrupt>();
   MeshFile file = read_mesh_file(command.mesh);
   if (!command.shapes.empty()) file.shapes = read_shapes(command.shapes, file);
+  if (!command.names.empty()) rename_shapes(command, file);
+  if (!command.preset.empty()) name_as_metahuman(file, session);
   if (!command.crop.empty() || !command.objects.empty()) keep_faces(command, crop, file);
   // glTF is in meters.
   if (command.unit.empty()) desc.unit = file.in_meters ? 100 : 1;
 
   Made made = make_rig(command, desc, file, session);
+  made.report["names"] = usual_names(file, session);
   note_oddities(command, file, made.report, session);
   std::vector<AuthorImage> made_images;
   if (!command.images.empty()) made_images = draw_images(command, desc, file, made, session);
@@ -447,6 +520,16 @@ Command add_author_command(CLI::App& app, const Session& session) {
           "Expressions: a folder of OBJ or .target files, an .mshp, or a GLB\n(default: the "
           "morph targets of MESH)")
       ->type_name("PATH");
+  author
+      ->add_option("--preset", options->preset,
+                   "metahuman: names of joints and controls as MetaHuman heads have\n"
+                   "them, where they have a counterpart, so that their animation plays")
+      ->type_name("NAME");
+  author
+      ->add_option("--names", options->names,
+                   "JSON with other names for shapes: {\"smirk\": \"mouthSmileLeft\"}; the\n"
+                   "report lists what each name means in ARKit")
+      ->type_name("FILE");
   author->add_option("--joints", options->joints, "Facial joints (default: 240)")->type_name("N");
   author
       ->add_option("--influences", options->influences,

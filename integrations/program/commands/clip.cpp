@@ -8,10 +8,10 @@
 
 #include "integrations/program/commands/baked_rig.h"
 #include "integrations/program/commands/options.h"
-#include "integrations/program/gltf/expression_set.h"
 #include "integrations/program/io/clip_file.h"
 #include "integrations/program/io/input.h"
 #include "integrations/program/io/json_writer.h"
+#include "integrations/program/io/matched_names.h"
 #include "integrations/program/io/output.h"
 #include "integrations/program/io/rig_file.h"
 #include "integrations/program/io/take.h"
@@ -170,7 +170,7 @@ std::vector<float> steps_on_rig(const Clip& clip, const std::string& path, float
     fail(kInvalid, "cannot measure steps", path, "the baked file has no geometry",
          "bake it with its geometry, or give the DNA file");
   }
-  const std::vector<MienMatrixEntry> matrix = gltf::arkit_matrix();
+  const std::vector<MienMatrixEntry> matrix = NamesFile().matrix();
   auto desc = sized<MienClipBindingDesc>();
   desc.matrix = matrix.data();
   desc.matrix_count = matrix.size();

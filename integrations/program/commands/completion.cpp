@@ -26,6 +26,7 @@ struct CompletedCommand {
 
 /// Words that an option offers in a command.
 Words values_of(const std::string& command, const std::string& option) {
+  if (option == "--names" && command != "info") return {};  // a file
   const Words& own = option_words(command + " " + option);
   Words words = own.empty() ? option_words(option) : own;
   if (command == "bench" && option == "--isa") words.push_back("all");
@@ -45,8 +46,8 @@ void add_options(const CLI::App* command, CompletedCommand& words) {
     entry.takes_value = option->get_expected_max() > 0 && option->get_type_size() > 0;
     if (entry.takes_value) entry.values = values_of(words.name, entry.names.back());
     const std::string& last = entry.names.back();
-    entry.takes_file =
-        last == "--output" || last == "--input" || last == "--frames" || last == "--animation";
+    entry.takes_file = last == "--output" || last == "--input" || last == "--frames" ||
+                       last == "--animation" || (last == "--names" && entry.values.empty());
     const auto same = [&](const CompletedOption& other) { return other.names == entry.names; };
     if (std::any_of(words.options.begin(), words.options.end(), same)) continue;
     words.options.push_back(entry);

@@ -9,7 +9,6 @@
 #include "integrations/program/commands/attachments.h"
 #include "integrations/program/commands/exported_rig.h"
 #include "integrations/program/gltf/bake_skeleton.h"
-#include "integrations/program/gltf/control_names.h"
 #include "integrations/program/gltf/expression_bake.h"
 #include "integrations/program/gltf/expression_file.h"
 #include "integrations/program/gltf/glb_writer.h"
@@ -20,6 +19,7 @@
 #include "integrations/program/io/clip_file.h"
 #include "integrations/program/io/controls.h"
 #include "integrations/program/io/json_writer.h"
+#include "integrations/program/io/matched_names.h"
 #include "integrations/program/io/nearest_name.h"
 #include "integrations/program/io/output.h"
 #include "integrations/program/io/text.h"
@@ -30,7 +30,7 @@ namespace {
 
 struct ExportOptions {
   OutputFile output;
-  std::string rig, format, lod = "0", animation, clip, rate, mouth_close, bake;
+  std::string rig, format, lod = "0", animation, clip, rate, mouth_close, bake, names;
   std::vector<std::string> authors;  // of a VRM
   std::vector<std::string> settings;
   GlbOptions glb;
@@ -136,6 +136,9 @@ void check_combination(const ExportOptions& options, Format format) {
   }
   if (options.correctives && options.bake.empty()) {
     fail_usage("--correctives", "nothing is baked", "add --bake arkit");
+  }
+  if (!options.names.empty() && options.bake.empty()) {
+    fail_usage("--names " + options.names, "nothing is baked", "add --bake arkit");
   }
   if (!options.residuals.path.empty() && options.bake.empty()) {
     fail_usage("--residuals", "nothing is baked", "add --bake arkit");
@@ -326,7 +329,8 @@ std::string cache_bytes(ExportedRig& face, const std::vector<Frame>& frames, dou
 std::string baked_bytes(ExportedRig& face, const Frame& still, const std::vector<Frame>& frames,
                         double rate, Format format, const ExportOptions& options,
                         const Session& session) {
-  const gltf::RigExpressions set = gltf::find_expressions(*face.source, parse_sets(options));
+  MatchedNames names(face.rig.get(), NamesFile(options.names), kCannotExport);
+  const gltf::RigExpressions set = gltf::find_expressions(parse_sets(options), names);
   const bool is_posed = !options.settings.empty() || !frames.empty();
   if (is_posed && !set.by_name()) {
     fail(kInvalid, kCannotExport, face.file.shown,
@@ -336,6 +340,7 @@ std::string baked_bytes(ExportedRig& face, const Frame& still, const std::vector
   gltf::RigScene scene = gltf::make_still_scene(*face.source, face.scene_options(options.glb));
   note_losses(face, scene.losses, session);
   note_missing(face, set.missing, session);
+  names.note_matched(face.file.shown, session);
   gltf::add_bake_skeleton(*face.source, scene);
   gltf::BakeReport report;
   {
@@ -383,16 +388,11 @@ std::vector<Frame> clip_frames(const ExportOptions& options, const MienRig* rig,
                                const Session& session) {
   const ClipFile clip = open_clip_file(options.clip);
   rate = double(clip.info.rate_numerator) / clip.info.rate_denominator;
-  const gltf::ControlNames names(rig, MIEN_KIND_RAW_CONTROL);
-  std::vector<uint32_t> controls;
+  std::vector<std::vector<MienControlShare>> controls;  // of each channel
   std::string missing;
   for (const std::string& channel : channel_names(clip)) {
-    uint32_t control = gltf::kNone;
-    if (!names.find(channel, control)) {
-      control = gltf::kNone;
-      missing += (missing.empty() ? "" : ", ") + one_line(channel);
-    }
-    controls.push_back(control);
+    controls.push_back(match_name(rig, channel).shares);
+    if (controls.back().empty()) missing += (missing.empty() ? "" : ", ") + one_line(channel);
   }
   if (!missing.empty()) {
     note(session,
@@ -403,7 +403,9 @@ std::vector<Frame> clip_frames(const ExportOptions& options, const MienRig* rig,
   for_each_frame(clip, [&](uint32_t, const float* values) {
     Frame frame;
     for (size_t c = 0; c < controls.size(); ++c) {
-      if (controls[c] != gltf::kNone) frame.raw.push_back({controls[c], values[c]});
+      for (const MienControlShare& share : controls[c]) {
+        frame.raw.push_back({share.control, share.weight * values[c]});
+      }
     }
     frames.push_back(std::move(frame));
   });
@@ -538,6 +540,11 @@ Command add_export_command(CLI::App& app, const Session& session) {
           "several with commas. A .vrm file has vrm if nothing is named. Prints\n"
           "the error compared with the full rig")
       ->type_name("SET");
+  command
+      ->add_option("--names", options->names,
+                   "With --bake: JSON with meanings of names on this rig, before those that Mien\n"
+                   "knows: {\"mouthSmileLeft\": \"smirk_L\"}; what was matched is printed")
+      ->type_name("FILE");
   command
       ->add_option("--residuals", options->residuals.path,
                    "With --bake: write these errors as JSON")

@@ -28,6 +28,7 @@ const OptionWords kOptionWords[] = {
     {"--arithmetic", {"fast", "portable"}},
     {"--preset",
      {"tiny", "small", "medium", "large", "body", "metahuman-head", "metahuman-body", "archetype"}},
+    {"author --preset", {"metahuman"}},
     {"--version", {"2.1", "2.2", "2.3", "2.4", "2.5", "2.6", "2.7", "2.8"}},
     {"--unknown", {"keep", "drop"}},
     {"--format", {"glb", "obj", "vrm", "usda"}},

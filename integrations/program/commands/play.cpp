@@ -21,7 +21,7 @@ namespace mien::cli {
 namespace {
 
 struct PlayOptions {
-  std::string scene, rig, rate, seconds, seed, stages;
+  std::string scene, rig, rate, seconds, seed, stages, names;
   GlbOptions glb;
   std::vector<std::string> outputs;
   StripOptions strip;  // with --lod, which a GLB has as well
@@ -134,6 +134,7 @@ void run(const PlayOptions& options, const Session& session) {
   }
   Script script = parse_script(read_json(options.scene, "cannot read scene"),
                                shown_name(options.scene), !options.real_time.live.empty());
+  const NamesFile names(options.names);
   if (!options.seed.empty()) script.seed = parse_number("--seed", options.seed, UINT64_MAX);
   const double rate = rate_option.known() ? rate_option.hertz() : script.rate;
   double seconds =
@@ -187,7 +188,8 @@ void run(const PlayOptions& options, const Session& session) {
     real_time = std::make_unique<RealTime>(options.real_time, rig, session);
   }
   const StreamScript stream = real_time ? real_time->stream() : StreamScript();
-  Performance performance(script, rig, meshes, stream, session);
+  Performance performance(script, rig, meshes, stream, names, session);
+  performance.curves().note_matched(script.shown, session);
   Recording recording;
   recording.rate = rate;
   recording.captions = find_captions(script);
@@ -262,6 +264,10 @@ Command add_play_command(CLI::App& app, const Session& session) {
       ->expected(1)
       ->take_all();
   play->add_flag("--force", options->force, "Replace even an input or a read-only file");
+  play->add_option("--names", options->names,
+                   "JSON with meanings of names on this rig, before those that Mien\nknows: "
+                   "{\"smileL\": \"mouthSmile_L\"}")
+      ->type_name("FILE");
   play->add_option("--rate", options->rate,
                    "Frames per second (default: the scene's, otherwise 60)")
       ->type_name("R");
@@ -348,9 +354,9 @@ Command add_play_command(CLI::App& app, const Session& session) {
       "{\"generator\": \"gaze\"} turns the eyes to a point given by the variables gaze.x, gaze.y "
       "and "
       "gaze.z: meters to the left, up and to the front of the point between the eyes.\n"
-      "Paths of clips are relative to the folder of the scene. On rigs without ARKit names, "
-      "channels "
-      "with ARKit names drive the controls in the table of docs/face-capture.md.\n\n"
+      "Paths of clips are relative to the folder of the scene. Names that the rig spells "
+      "otherwise, "
+      "or has other words for, are matched as docs/face-capture.md says; a note lists them.\n\n"
       "Examples:\n"
       "  mien play scene.json head.dna -o frames.json -o curves.svg\n"
       "  mien play scene.json head.dna | mien eval head.dna --input -\n"

@@ -5,7 +5,6 @@
 #include <set>
 #include <sstream>
 
-#include "integrations/program/gltf/control_names.h"
 #include "integrations/program/gltf/expression_tables.h"
 
 namespace mien::gltf {
@@ -35,55 +34,30 @@ Expression parse_row(const ExpressionRow& row) {
   Expression expression{row.name, {}};
   std::istringstream ways(row.ways);
   std::string way;
-  while (std::getline(ways, way, '|')) expression.ways.push_back(parse_way(way));
+  while (std::getline(ways, way, '|')) {
+    expression.ways.push_back(way == "=" ? ExpressionWay{{{row.name, 1}}, {}} : parse_way(way));
+  }
   if (expression.ways.empty()) expression.ways.emplace_back();  // the neutral face
   return expression;
 }
 
-std::string to_text(const MienStringView& view) { return {view.data, view.count}; }
-
-/// Finds controls of one rig.
-struct Finder {
-  ControlNames names;
-  std::vector<MienMatrixEntry> matrix = arkit_matrix();
-
-  explicit Finder(const RigSource& source) : names(source.rig(), MIEN_KIND_RAW_CONTROL) {}
-
-  /// Adds what a control stands for; false if the rig lacks it.
-  bool add(const NamedValue& value, std::vector<ControlValue>& out) const {
-    uint32_t control = 0;
-    if (names.find(value.control, control)) {
-      out.push_back({control, value.value});
-      return true;
+/// Adds what controls stand for; false if the rig lacks some.
+bool add_all(const std::vector<NamedValue>& values, cli::MatchedNames& names,
+             std::vector<ControlValue>& out, std::vector<std::string>& missing) {
+  bool complete = true;
+  for (const NamedValue& value : values) {
+    const cli::MatchedName match = names.find(value.control);
+    for (const MienControlShare& share : match.shares) {
+      out.push_back({share.control, share.weight * value.value});
     }
-    // One expression of ARKit, two of rigs that have it for each side.
-    uint32_t right = 0;
-    if (names.find(value.control + "Left", control) && names.find(value.control + "Right", right)) {
-      out.push_back({control, value.value});
-      out.push_back({right, value.value});
-      return true;
-    }
-    bool found = false;
-    for (const MienMatrixEntry& entry : matrix) {
-      if (to_text(entry.channel) != value.control) continue;
-      if (!names.find(to_text(entry.control), control)) return false;
-      out.push_back({control, entry.weight * value.value});
-      found = true;
-    }
-    return found;
+    if (match.found()) continue;
+    complete = false;
+    const std::string usual = cli::usual_name(value.control);
+    const std::string& name = usual.empty() ? value.control : usual;
+    missing.push_back(name);
   }
-
-  bool add_all(const std::vector<NamedValue>& values, std::vector<ControlValue>& out,
-               std::vector<std::string>& missing) const {
-    bool complete = true;
-    for (const NamedValue& value : values) {
-      if (add(value, out)) continue;
-      complete = false;
-      missing.push_back(value.control);
-    }
-    return complete;
-  }
-};
+  return complete;
+}
 
 /// Without those that came before; a file may have many.
 std::vector<std::string> distinct(const std::vector<std::string>& names) {
@@ -130,14 +104,6 @@ ExpressionSet expression_set(const std::string& name, MouthClose mouth_close) {
   return set;
 }
 
-std::vector<MienMatrixEntry> arkit_matrix() {
-  size_t count = 0;  // neither call can fail
-  (void)mien_arkit_matrix(nullptr, 0, &count);
-  std::vector<MienMatrixEntry> entries(count);
-  (void)mien_arkit_matrix(entries.data(), count, &count);
-  return entries;
-}
-
 bool RigExpressions::by_name() const {
   return std::all_of(expressions.begin(), expressions.end(),
                      [](const RigExpression& expression) { return expression.control != kNone; });
@@ -150,8 +116,7 @@ size_t RigExpressions::find(const std::string& name) const {
   return static_cast<size_t>(at - expressions.begin());
 }
 
-RigExpressions find_expressions(const RigSource& source, const ExpressionSet& set) {
-  const Finder finder(source);
+RigExpressions find_expressions(const ExpressionSet& set, cli::MatchedNames& names) {
   RigExpressions result;
   for (const Expression& expression : set) {
     std::vector<std::string> missing;  // of the first way
@@ -160,8 +125,8 @@ RigExpressions find_expressions(const RigSource& source, const ExpressionSet& se
     for (const ExpressionWay& way : expression.ways) {
       made = {expression.name, {}, {}, kNone};
       std::vector<std::string> lacks;
-      const bool has_plus = finder.add_all(way.plus, made.plus, lacks);
-      const bool has_minus = finder.add_all(way.minus, made.minus, lacks);
+      const bool has_plus = add_all(way.plus, names, made.plus, lacks);
+      const bool has_minus = add_all(way.minus, names, made.minus, lacks);
       complete = has_plus && has_minus;
       if (complete) break;
       if (missing.empty()) missing = distinct(lacks);
@@ -172,7 +137,8 @@ RigExpressions find_expressions(const RigSource& source, const ExpressionSet& se
       result.missing.push_back(text + ")");
       continue;
     }
-    if (!finder.names.find(expression.name, made.control)) made.control = kNone;
+    const cli::MatchedName own = names.find(expression.name);
+    made.control = own.is_one() ? own.shares[0].control : kNone;
     result.expressions.push_back(std::move(made));
   }
   if (result.expressions.empty()) {

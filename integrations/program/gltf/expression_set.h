@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Sets of expressions that other programs expect, as values of controls, and these controls on a rig.
 //
-// A control is found by its name (control_names.h). Names of ARKit expressions that are no controls of the rig
-// stand for the raw controls of heads that name them in the other usual way (mien_arkit_matrix()), so that
-// one table serves both.
+// A control is found by its name or by what the name means on the rig (mien_rig_match()), so that one table
+// serves rigs with names of ARKit, of MetaHuman's raw controls, and others.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "integrations/program/gltf/rig_source.h"
+#include "integrations/program/io/matched_names.h"
 
 namespace mien::gltf {
 
@@ -48,9 +48,6 @@ ExpressionSet expression_set(const std::string& name, MouthClose mouth_close);
 /// The 52 ARKit expressions, in the order of the ARKit documentation.
 const std::vector<std::string>& arkit_names();
 
-/// mien_arkit_matrix().
-std::vector<MienMatrixEntry> arkit_matrix();
-
 struct ControlValue {
   uint32_t control;  // raw
   float value;
@@ -76,6 +73,6 @@ struct RigExpressions {
 };
 
 /// Throws ExportError if the rig has none of the expressions.
-RigExpressions find_expressions(const RigSource& source, const ExpressionSet& set);
+RigExpressions find_expressions(const ExpressionSet& set, cli::MatchedNames& names);
 
 }  // namespace mien::gltf

@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "integrations/program/io/failure.h"
+#include "integrations/program/io/matched_names.h"
 #include "integrations/program/io/nearest_name.h"
 #include "integrations/program/io/rig_file.h"
 
@@ -84,6 +85,18 @@ Control find_control(const MienRig* rig, const std::string& name, const std::str
     }
     const uint32_t count = rig_count(rig, kind);
     for (uint32_t i = 0; i < count; ++i) nearest.offer(rig_name(rig, kind, i));
+  }
+  const MatchedName match = match_name(rig, name);
+  if (match.is_one()) {
+    const uint32_t index = match.shares[0].control;
+    return {MIEN_KIND_RAW_CONTROL, index, rig_name(rig, MIEN_KIND_RAW_CONTROL, index)};
+  }
+  if (match.found()) {
+    fail(kInvalid, what, where,
+         "\"" + name + "\" is " + std::to_string(match.shares.size()) +
+             " controls of this rig, the first is " +
+             rig_name(rig, MIEN_KIND_RAW_CONTROL, match.shares[0].control),
+         "give one of them");
   }
   fail(kInvalid, what, where, "no raw or GUI control is named \"" + name + "\"",
        nearest.question("'mien info RIG --names raw,gui' lists the names"));

@@ -7,9 +7,9 @@
 #include <thread>
 #include <unordered_map>
 
-#include "integrations/program/gltf/expression_set.h"
 #include "integrations/program/io/controls.h"
 #include "integrations/program/io/failure.h"
+#include "integrations/program/io/matched_names.h"
 #include "integrations/program/io/rig_file.h"
 #include "integrations/program/io/text.h"
 #include "integrations/program/live/live_link_face.h"
@@ -75,7 +75,7 @@ void LiveInput::bind(const MienRig* rig, const cli::Session& session) {
   cli::check(mien_clip_build(&desc, &built, &error), &error, kCannot, to_text(address_));
   const cli::Clip clip(built);
 
-  const std::vector<MienMatrixEntry> matrix = gltf::arkit_matrix();
+  const std::vector<MienMatrixEntry> matrix = cli::NamesFile().matrix();
   auto how = cli::sized<MienClipBindingDesc>();
   how.matrix = matrix.data();
   how.matrix_count = matrix.size();

@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <iterator>
 
-#include "integrations/program/gltf/expression_set.h"
 #include "integrations/program/io/failure.h"
 #include "integrations/program/io/frame_rate.h"
 #include "integrations/program/io/nearest_name.h"
@@ -20,14 +19,12 @@ namespace {
 
 constexpr const char* kCannot = "cannot play scene";
 
-// By the names of ARKit and by those of heads that name sides by a letter.
-const NamedValues kBlinkControls = {
-    {"eyeBlinkLeft", 1}, {"eyeBlinkRight", 1}, {"eyeBlinkL", 1}, {"eyeBlinkR", 1}};
+const NamedValues kBlinkControls = {{"eyeBlinkLeft", 1}, {"eyeBlinkRight", 1}};
 const NamedValues kBreathControls = {{"noseNostrilDilateL", 0.3f}, {"noseNostrilDilateR", 0.3f}};
-const NamedValues kSquintControls = {{"eyeSquintLeft", 0.8f},   {"eyeSquintRight", 0.8f},
-                                     {"browDownLeft", 0.7f},    {"browDownRight", 0.7f},
-                                     {"eyeSquintInnerL", 0.8f}, {"eyeSquintInnerR", 0.8f},
-                                     {"browDownL", 0.7f},       {"browDownR", 0.7f}};
+const NamedValues kSquintControls = {{"eyeSquintLeft", 0.8f},
+                                     {"eyeSquintRight", 0.8f},
+                                     {"browDownLeft", 0.7f},
+                                     {"browDownRight", 0.7f}};
 const char* const kGazeVariables[] = {"gaze.x", "gaze.y", "gaze.z", "head.left", "head.up"};
 const std::vector<std::string> kVariables = {"gaze.x",    "gaze.y",  "gaze.z", "head.left",
                                              "head.turn", "head.up", "pupil",  "breath"};
@@ -48,8 +45,9 @@ void checked(MienStatus status, const MienError& error, const std::string& where
 }  // namespace
 
 Performance::Performance(const Script& script, const MienRig* rig, const MienDeformer* deformer,
-                         const StreamScript& stream, const Session& session)
-    : script_(script), stream_(stream), rig_(rig), session_(session), curves_(rig) {
+                         const StreamScript& stream, const NamesFile& names, const Session& session)
+    : script_(script), stream_(stream), rig_(rig), session_(session), names_(names),
+      curves_(rig, names) {
   MienFloatView initial{};
   check(mien_rig_initial_raw_controls(rig, &initial), nullptr, kCannot, script.shown);
   initial_.assign(initial.data, initial.data + initial.count);
@@ -80,7 +78,7 @@ const Performance::BoundClip& Performance::clip(const std::string& path, const s
   const std::filesystem::path folder = std::filesystem::path(script_.shown).parent_path();
   BoundClip bound;
   bound.file = open_clip_file((folder / path).string());
-  const std::vector<MienMatrixEntry> matrix = gltf::arkit_matrix();
+  const std::vector<MienMatrixEntry> matrix = names_.matrix();
   auto desc = sized<MienClipBindingDesc>();
   desc.matrix = matrix.data();
   desc.matrix_count = matrix.size();

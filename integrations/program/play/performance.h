@@ -49,9 +49,9 @@ struct GuardFrame {
 class Performance {
  public:
   /// `deformer` is where guards and eyes are measured; it may be null if the scene has none. `stream` is for
-  /// a live layer.
+  /// a live layer. `names` go before those that the library knows.
   Performance(const Script& script, const MienRig* rig, const MienDeformer* deformer,
-              const StreamScript& stream, const Session& session);
+              const StreamScript& stream, const NamesFile& names, const Session& session);
 
   const RigCurves& curves() const { return curves_; }
   /// "talk", ..., "reactions", "guards", "antagonists", "limits"
@@ -107,6 +107,7 @@ class Performance {
   const StreamScript& stream_;
   const MienRig* rig_;
   const Session& session_;
+  const NamesFile& names_;
   RigCurves curves_;
   std::map<std::string, BoundClip> clips_;
   std::deque<CurveValues> pose_values_;  // where poses point to

@@ -30,7 +30,8 @@ bool is_variable_name(const std::string& name) {
 
 }  // namespace
 
-RigCurves::RigCurves(const MienRig* rig) {
+RigCurves::RigCurves(const MienRig* rig, const NamesFile& names)
+    : rig_(rig), matched_(rig, names, kCannot) {
   for (uint32_t i = 0; i < rig_count(rig, MIEN_KIND_RAW_CONTROL); ++i) {
     controls_.push_back(rig_name(rig, MIEN_KIND_RAW_CONTROL, i));
     by_name_.emplace(controls_.back(), i);
@@ -57,46 +58,82 @@ uint16_t RigCurves::variable(const std::string& name) {
   return static_cast<uint16_t>(controls_.size() + index);
 }
 
-uint16_t RigCurves::curve(const std::string& name, const std::string& where) {
-  const std::vector<size_t> found = find_controls(name);
-  if (found.size() > 1) {
-    fail(kInvalid, kCannot, where,
-         "\"" + one_line(name) + "\" is ambiguous: " + controls_[found[0]] + " or " +
-             controls_[found[1]],
-         "give the full name");
-  }
-  if (!found.empty()) return static_cast<uint16_t>(found[0]);
-  if (is_variable_name(name)) return variable(name);
+void RigCurves::fail_unknown(const std::string& name, const std::string& where) const {
   fail(kInvalid, kCannot, where, "no raw control is named \"" + one_line(name) + "\"",
        nearest_question(name, controls_, kHowToList));
 }
 
-CurveValues RigCurves::curves(const NamedValues& values, const std::string& where) {
-  std::vector<std::pair<uint16_t, float>> sorted;
-  for (const auto& [name, value] : values) sorted.emplace_back(curve(name, where), value);
-  std::sort(sorted.begin(), sorted.end());
-  CurveValues found;
-  for (const auto& [curve, value] : sorted) {
-    if (!found.curves.empty() && found.curves.back() == curve) {
-      const size_t variable = curve - std::min<size_t>(curve, controls_.size());
-      const std::string& name = curve < controls_.size() ? controls_[curve] : variables_[variable];
-      fail(kInvalid, kCannot, where, "\"" + name + "\" is listed twice", "leave one of them out");
+std::vector<MienControlShare> RigCurves::find_shares(const std::string& name,
+                                                     const std::string& where) {
+  if (!matched_.is_given(name)) {
+    const std::vector<size_t> found = find_controls(name);
+    if (found.size() > 1) {
+      fail(kInvalid, kCannot, where,
+           "\"" + one_line(name) + "\" is ambiguous: " + controls_[found[0]] + " or " +
+               controls_[found[1]],
+           "give the full name");
     }
+    if (!found.empty()) return {{static_cast<uint32_t>(found[0]), 1}};
+    if (is_variable_name(name)) return {};
+  }
+  return matched_.find(name).shares;
+}
+
+uint16_t RigCurves::curve(const std::string& name, const std::string& where) {
+  const std::vector<MienControlShare> found = find_shares(name, where);
+  if (found.size() > 1) {
+    fail(kInvalid, kCannot, where,
+         "\"" + one_line(name) + "\" is " + std::to_string(found.size()) +
+             " controls of this rig: " + controls_[found[0].control] + ", " +
+             controls_[found[1].control] + (found.size() > 2 ? ", ..." : ""),
+         "give one of them");
+  }
+  if (!found.empty()) return static_cast<uint16_t>(found[0].control);
+  if (is_variable_name(name)) return variable(name);
+  fail_unknown(name, where);
+}
+
+CurveValues RigCurves::curves(const NamedValues& values, const std::string& where) {
+  struct Sum {
+    float value = 0;
+    bool is_alone = false;  // a name that is this control alone
+  };
+  std::map<uint16_t, Sum> sums;
+  for (const auto& [name, value] : values) {
+    std::vector<MienControlShare> shares = find_shares(name, where);
+    if (shares.empty() && !is_variable_name(name)) fail_unknown(name, where);
+    if (shares.empty()) shares = {{variable(name), 1}};
+    const bool is_alone = shares.size() == 1 && shares[0].weight == 1;
+    for (const MienControlShare& share : shares) {
+      const auto curve = static_cast<uint16_t>(share.control);
+      Sum& sum = sums[curve];
+      if (is_alone && sum.is_alone) {
+        const std::string& twice =
+            curve < controls_.size() ? controls_[curve] : variables_[curve - controls_.size()];
+        fail(kInvalid, kCannot, where, "\"" + twice + "\" is listed twice",
+             "leave one of them out");
+      }
+      sum.value += share.weight * value;
+      sum.is_alone |= is_alone;
+    }
+  }
+  CurveValues found;
+  for (const auto& [curve, sum] : sums) {
     found.curves.push_back(curve);
-    found.values.push_back(value);
+    found.values.push_back(sum.value);
   }
   return found;
 }
 
 CurveValues RigCurves::present(const NamedValues& values) const {
-  std::vector<std::pair<uint16_t, float>> sorted;
+  std::map<uint16_t, float> first;
   for (const auto& [name, value] : values) {
-    const std::vector<size_t> found = find_controls(name);
-    if (!found.empty()) sorted.emplace_back(static_cast<uint16_t>(found[0]), value);
+    for (const MienControlShare& share : match_name(rig_, name).shares) {
+      first.emplace(static_cast<uint16_t>(share.control), share.weight * value);
+    }
   }
-  std::sort(sorted.begin(), sorted.end());
   CurveValues found;
-  for (const auto& [curve, value] : sorted) {
+  for (const auto& [curve, value] : first) {
     found.curves.push_back(curve);
     found.values.push_back(value);
   }
@@ -123,7 +160,7 @@ std::vector<std::string> RigCurves::as_patterns(const std::string& pattern) cons
 }
 
 std::vector<float> RigCurves::mask(const std::vector<std::string>& patterns, bool invert,
-                                   const std::string& where) const {
+                                   const std::string& where) {
   std::vector<float> mask(controls_.size(), invert ? 1.0f : 0.0f);
   for (const std::string& pattern : patterns) {
     bool matches = false;
@@ -131,6 +168,11 @@ std::vector<float> RigCurves::mask(const std::vector<std::string>& patterns, boo
       if (!matches_pattern(pattern, controls_[i])) continue;
       matches = true;
       mask[i] = invert ? 0.0f : 1.0f;
+    }
+    for (const MienControlShare& share :
+         matches ? std::vector<MienControlShare>() : find_shares(pattern, where)) {
+      matches = true;
+      mask[share.control] = invert ? 0.0f : 1.0f;
     }
     if (matches) continue;
     fail(kInvalid, kCannot, where, "no raw control matches \"" + one_line(pattern) + "\"",

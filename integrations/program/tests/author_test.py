@@ -340,6 +340,35 @@ class AuthorTest(ProgramTest):
         self.assertRegex(said, r"halves of the face differ by \d+\.\d % .*--front")
         self.assertEqual(run("author", aside, "--joints", "30", "--front", "x", *options).stderr, "")
 
+    def test_shapes_get_other_names_and_what_they_mean_is_reported(self):
+        options = ["--joints", "10", "--lods", "1", "--report", path("names.json"), "-o", path("named.dna")]
+        write("other.json", b'{"smile": "AU12_L"}')
+        self.ok("author", path("head.glb"), *options, "--names", path("other.json"))
+        self.assertEqual(sorted(self.names("named.dna", "raw")), ["AU12_L", "jawOpen"])
+        self.assertEqual(json.loads(read("names.json"))["names"], {"AU12_L": "mouthSmileLeft", "jawOpen": "jawOpen"})
+        write("other.json", b'{"smile": "wobble"}')
+        done = self.ok("author", path("head.glb"), *options, "--names", path("other.json"))
+        self.assertIn("1 of 2 shapes have names that no standard has", done.stderr)
+        self.assertIsNone(json.loads(read("names.json"))["names"]["wobble"])
+        os.remove(path("named.dna"))
+        os.remove(path("names.json"))
+        for wrong, says in ((b'{"smirk": "a"}', 'did you mean "smile"?'), (b'{"smile": "jawOpen"}', "two shapes are named"),
+                            (b'{"smile": {"a": 1, "b": 1}}', "a shape becomes one control")):
+            write("other.json", wrong)
+            self.fails(INVALID, "author", path("head.glb"), *options, "--names", path("other.json"), says=says)
+
+    def test_names_of_metahuman_heads(self):
+        options = ["--joints", "10", "--lods", "1", "-o", path("meta.dna"), "--preset", "metahuman"]
+        write("other.json", b'{"smile": "mouthSmile_L"}')
+        done = self.ok("author", path("head.glb"), *options, "--names", path("other.json"))
+        self.assertIn("2 of 2 shapes have a counterpart", done.stderr)
+        self.assertEqual(sorted(self.names("meta.dna", "raw")),
+                         ["CTRL_expressions.jawOpen", "CTRL_expressions.mouthCornerPullL"])
+        joints = self.names("meta.dna", "joints")
+        for joint in ("spine_05", "neck_01", "head", "FACIAL_C_FacialRoot"):
+            self.assertIn(joint, joints)
+        self.fails(USAGE, "author", path("head.glb"), *options[:-1], "unreal", says="metahuman")
+
     def test_the_report_has_every_figure_of_the_joint_groups_and_weights(self):
         report = self.author(path("head.glb"), "--joints", "40", "--lods", "2")
         groups = report["joint_groups"]

@@ -684,6 +684,29 @@ class ExpressionSets(ExportTest):
         done = self.ok("export", path("spelled.dna"), "-o", path("set.glb"), "--bake", "arkit,visemes",
                        "--residuals", path("loss.json"))
         self.assertEqual(json.loads(read("loss.json"))["missing"], [], done.stderr)
+        self.assertIn("mouthSmileLeft is mouthSmile_L", done.stderr)
+
+        # Scenes and settings find them too.
+        scene = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..", "examples", "scene.json")
+        done = self.ok("play", scene, path("spelled.dna"), "-o", path("frames.csv"), "--seconds", "0.5")
+        self.assertIn(b"mouthRollUpper", read("frames.csv").splitlines()[0])
+        self.assertIn("cheekSquintRight is cheekSquint_r", done.stderr)
+        self.ok("export", path("spelled.dna"), "-o", path("smile.obj"), "--set", "AU12_L=0.5")
+        self.fails(INVALID, "export", path("spelled.dna"), "-o", path("no.obj"), "--set", "AU12=0.5",
+                   says="is 2 controls of this rig")
+
+        # What a file says goes first.
+        write("names.json", b'{"jawOpen": {"jaw_open": 0.5}}')
+        self.ok("export", path("spelled.dna"), "-o", path("half.glb"), "--bake", "arkit", "--names", path("names.json"),
+                "--residuals", path("half.json"))
+        write("names.json", b'{"jawOpen": "jaw_opem"}')
+        for command in (("export", path("spelled.dna"), "-o", path("no.glb"), "--bake", "arkit"),
+                        ("play", scene, path("spelled.dna"), "-o", path("no.csv"))):
+            self.fails(INVALID, *command, "--names", path("names.json"), says='did you mean "jaw_open"?')
+        for wrong in (b"[]", b'{"a": 1}', b'{"a": {}}', b'{"a": {"jaw_open": "1"}}', b'{"a": {"jaw_open": 1e9}}'):
+            write("names.json", wrong)
+            self.fails(INVALID, "export", path("spelled.dna"), "-o", path("no.glb"), "--bake", "arkit",
+                       "--names", path("names.json"), says="names.json")
 
     def test_closures_of_speech_close_the_lips(self):
         # PP and 21_p press the lips: nothing opens them.

@@ -16,7 +16,7 @@ from ._api import (Arithmetic, AuthorFlags, BakedCheck, BakedInfo, BlendMode, Bo
                    ClipInfo, ClipPlayerInfo, Compose, CoordinateSystem, DeformerInfo, Direction,
                    DnaField, DnaInfo, DnaLayer, FaceWinding, FieldType, FileAccess, Finding,
                    Generate, Generator, Guard, InstanceStatistics, Interpolation, Isa, Kind, Layer,
-                   LayerGroup, LayerSource, Looping, MeshAxis, MixerInfo, MixInfo, MlMasks, Normals,
+                   LayerGroup, LayerSource, Looping, MeshAxis, MixerInfo, MixInfo, MlMasks, NameMatch, Normals,
                    Preset, Retrigger, Reuse, RigInfo, RigStatistics, RotationOutput, RotationRule,
                    RotationSequence, RotationUnit, Severity, SolverStackInfo, Stage, Status,
                    Storage, Symmetry, Transition, TranslationUnit, UnknownLayers, Weights)
@@ -38,7 +38,7 @@ from .mix_parts import (NO_CONTROL, Antagonists, CustomGuard, Landmark, MixLayer
 from .mix_view import GuardInfo
 from .mixer import GuardState, MixEvent, Mixer, step_mixers
 from .rig import Rig
-from .rig_view import isa_available, isa_name
+from .rig_view import control_name, isa_available, isa_name
 from .solve import (NO_JOINT, AimSolver, CopySolver, CustomSolver, SolverPose, SolverStack,
                     SolverState, SpaceSolver, SpringSolver, TwistSolver, step_states)
 
@@ -49,7 +49,7 @@ __all__ = [
     "AuthorBone", "AuthoredRig", "AuthorError", "AuthorFlags", "author_rig", "Baked",
     "BakedCheck", "BakedInfo", "Batch", "BlendMode", "BoneKind", "BusyError", "Clip", "ClipBinding",
     "ClipChannel", "ClipError", "ClipEvent", "ClipInfo", "ClipPlayer", "ClipPlayerInfo",
-    "ClosedError", "Compose", "coordinate_system", "coordinate_system_names",
+    "ClosedError", "Compose", "control_name", "coordinate_system", "coordinate_system_names",
     "CoordinateSystem", "CopySolver", "CustomGuard", "CustomSolver", "deform_batch", "Deformer",
     "DeformerInfo", "DeformerInstance", "Direction", "Dna", "DnaError", "DnaField", "DnaInfo",
     "DnaLayer", "Error", "FaceWinding", "FieldType", "FileAccess", "FileError", "Finding",
@@ -57,7 +57,7 @@ __all__ = [
     "InstanceStatistics", "Interpolation", "Isa", "isa_available", "isa_name", "Kind",
     "Landmark", "Layer", "LayerGroup", "LayerSource", "library_path", "Looping", "Mesh", "MeshAxis", "Mix",
     "Mixer", "MixerInfo", "MixError", "MixEvent", "MixInfo", "MixLayer", "MlMasks", "NO_CONTROL",
-    "NO_JOINT", "Normals", "OutOfMemoryError", "OutOfRangeError", "Preset", "Reaction",
+    "NameMatch", "NO_JOINT", "Normals", "OutOfMemoryError", "OutOfRangeError", "Preset", "Reaction",
     "Retrigger", "Reuse", "Rig", "RigInfo", "RigStatistics", "RotationOutput", "RotationRule",
     "RotationSequence", "RotationUnit", "Severity", "SolverPose", "SolverStack",
     "SolverStackInfo", "SolverState", "SpaceSolver", "SpringSolver", "Stage", "Status",

@@ -38,6 +38,7 @@ MIEN_TICKS_PER_SECOND = 705600000
 MIEN_NO_MESH = 4294967295
 MIEN_NO_CONTROL = 65535
 MIEN_NO_JOINT = 65535
+MIEN_MOST_SHARES = 16
 
 
 class Status(IntEnum):
@@ -553,6 +554,22 @@ class Transition(IntEnum):
     CUT = 2
 
 
+class NameMatch(IntEnum):
+    """How a name was matched."""
+
+    NONE = 0
+    #: the control has this name
+    AS_WRITTEN = 1
+    #: the same letters and side
+    SPELLING = 2
+    #: another word for the same control
+    ALIAS = 3
+    #: the controls of the left and the right side
+    BOTH_SIDES = 4
+    #: an expression that is several controls
+    EXPRESSION = 5
+
+
 class Preset(IntEnum):
     """Kinds of generated rigs."""
 
@@ -644,6 +661,9 @@ class AuthorFlags(IntFlag):
     NO_TARGETS = 16
     #: group by distance in space, not in depth: for comparison
     GROUP_IN_SPACE = 32
+    #: names of bones as MetaHuman heads have them, where they have a counterpart: neck_01,
+    #: FACIAL_C_Jaw; not of the caller's bones
+    METAHUMAN_NAMES = 64
 
 
 class Match(IntEnum):
@@ -2505,6 +2525,15 @@ class MienSolverInput(Structure):
     row_count: Any
     lod: Any
     is_reset: Any
+
+
+class MienControlShare(Structure):
+    _fields_ = [
+        ("control", c_uint32),
+        ("weight", c_float),
+    ]
+    control: Any
+    weight: Any
 
 
 class MienGenerateDesc(Structure):
@@ -4496,6 +4525,14 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
         (Status.INVALID_ARGUMENT,
          "MienSolverStackDesc.check_writes was 0"),
     ),
+    "mien_rig_match": (
+        (Status.NAME,
+         "the name means nothing on this rig, or in step 1 or 2 several controls"),
+    ),
+    "mien_control_name": (
+        (Status.NAME,
+         "the name is not in the table"),
+    ),
     "mien_dna_generate": (
         (Status.INVALID_ARGUMENT,
          "an argument is outside its range"),
@@ -5287,6 +5324,9 @@ FUNCTIONS: Tuple[Tuple[str, Any, Tuple[Any, ...]], ...] = (
     ("mien_solver_state_outputs", c_int32, (MienSolverState, c_uint32, POINTER(MienFloatView))),
     ("mien_solver_state_transforms", c_int32, (MienSolverState, POINTER(MienFloatView))),
     ("mien_solver_state_undeclared", c_int32, (MienSolverState, POINTER(MienStringView))),
+    ("mien_rig_match", c_int32, (MienRig, c_char_p, c_size_t, POINTER(MienControlShare), c_size_t,
+     c_void_p, c_void_p)),
+    ("mien_control_name", c_int32, (c_char_p, c_size_t, c_void_p, c_size_t, c_void_p)),
 )
 
 
@@ -5468,6 +5508,8 @@ class Library:
     mien_solver_state_outputs: Any
     mien_solver_state_transforms: Any
     mien_solver_state_undeclared: Any
+    mien_rig_match: Any
+    mien_control_name: Any
 
     def __init__(self, library: ctypes.CDLL) -> None:
         for name, result, parameters in FUNCTIONS:

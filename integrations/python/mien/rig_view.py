@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import ctypes
-from typing import Any, Callable, Dict, List
+from typing import Any, Callable, Dict, List, Tuple
 
 from . import _api
-from ._api import Kind, RigInfo, RigStatistics, RotationOutput, Status
+from ._api import Kind, NameMatch, RigInfo, RigStatistics, RotationOutput, Status
 from ._library import lib
 from ._memory import Closable, Floats, Indices, RigHandle, array_over, uint32
 from .errors import UnknownNameError, fail, raises
@@ -22,6 +22,19 @@ def isa_available(isa: int) -> bool:
 def isa_name(isa: int) -> str:
     """"avx2" for Isa.AVX2."""
     return str(lib.mien_isa_name(uint32(isa, "isa")).decode())
+
+
+@raises("mien_control_name")
+def control_name(name: str) -> str:
+    """The usual name of a control: "mouthSmileLeft" for "AU12_L". UnknownNameError if Mien knows none."""
+    encoded = name.encode("utf-8", "surrogateescape")
+    out, count = ctypes.create_string_buffer(256), ctypes.c_size_t()
+    status = lib.mien_control_name(encoded, len(encoded), out, len(out), _byref(count))
+    if status == Status.NAME:
+        raise UnknownNameError(f"{name!r} is not in the table of names", status)
+    if status:
+        fail(status, repr(name))
+    return out.raw[:count.value].decode()
 
 
 class RigView(Closable):
@@ -79,6 +92,21 @@ class RigView(Closable):
         if status:
             fail(status, f"{name!r} of kind {kind}")
         return found.value
+
+    @raises("mien_rig_match")
+    def match(self, name: str) -> Tuple[NameMatch, Dict[int, float]]:
+        """What a name of another tool means on this rig: how it was matched, and raw controls with their
+        weights. "AU12" is both smiles. UnknownNameError if it means nothing."""
+        encoded = name.encode("utf-8", "surrogateescape")
+        shares = (_api.MienControlShare * _api.MIEN_MOST_SHARES)()
+        count, how = ctypes.c_size_t(), ctypes.c_uint32()
+        status = lib.mien_rig_match(self._open(), encoded, len(encoded), shares, len(shares),
+                                    _byref(count), _byref(how))
+        if status == Status.NAME:
+            raise UnknownNameError(f"{name!r} means no raw control of the rig", status)
+        if status:
+            fail(status, repr(name))
+        return NameMatch(how.value), {s.control: s.weight for s in shares[:count.value]}
 
     def raw_control(self, name: str) -> int:
         """Index of a raw control, cached."""

@@ -169,6 +169,15 @@ class Numbers(unittest.TestCase):
         with self.assertRaises((TypeError, AttributeError)):
             self.rig.find(mien.Kind.JOINT, 3)
 
+    def test_names_of_other_tools(self):
+        for name in ("", "nobody", "x" * 100000, "CTRL_\udcff", "a\0b"):
+            for use in (self.rig.match, mien.control_name):
+                with self.assertRaises(mien.UnknownNameError):
+                    use(name)
+        self.assertEqual(mien.control_name("AU12_L"), "mouthSmileLeft")
+        name = self.rig.names(mien.Kind.RAW_CONTROL)[0]
+        self.assertEqual(self.rig.match(name.upper()), (mien.NameMatch.AS_WRITTEN, {0: 1.0}))
+
     def test_descriptions(self):
         dna = dna_of()
         for use in (lambda: mien.Rig(dna, isa=99), lambda: mien.Rig(dna, rotation=2),

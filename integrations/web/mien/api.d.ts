@@ -539,6 +539,22 @@ export declare const Transition: {
 };
 export type Transition = (typeof Transition)[keyof typeof Transition];
 
+/** How a name was matched. */
+export declare const NameMatch: {
+  readonly NONE: 0;
+  /** the control has this name */
+  readonly AS_WRITTEN: 1;
+  /** the same letters and side */
+  readonly SPELLING: 2;
+  /** another word for the same control */
+  readonly ALIAS: 3;
+  /** the controls of the left and the right side */
+  readonly BOTH_SIDES: 4;
+  /** an expression that is several controls */
+  readonly EXPRESSION: 5;
+};
+export type NameMatch = (typeof NameMatch)[keyof typeof NameMatch];
+
 /** Kinds of generated rigs. */
 export declare const Preset: {
   /** small enough to read */
@@ -630,6 +646,10 @@ export declare const AuthorFlags: {
   readonly NO_TARGETS: 16;
   /** group by distance in space, not in depth: for comparison */
   readonly GROUP_IN_SPACE: 32;
+  /**
+   * names of bones as MetaHuman heads have them, where they have a counterpart: neck_01, FACIAL_C_Jaw; not of the caller's bones
+   */
+  readonly METAHUMAN_NAMES: 64;
 };
 export type AuthorFlags = number;
 
@@ -1206,7 +1226,9 @@ export interface MatrixEntry {
 
 /** How to bind a clip. */
 export interface ClipBindingDesc {
-  /** for channels whose names the rig does not have; may be NULL */
+  /**
+   * for channels whose names the rig does not have; may be NULL: those that mien_rig_match() knows need none
+   */
   matrix?: readonly MatrixEntry[];
   matrixCount?: number;
 }
@@ -1770,6 +1792,12 @@ export interface SolverInput {
    * the character was teleported, so springs come to rest and space switches do not ease
    */
   isReset?: boolean;
+}
+
+/** A raw control, and its share: at value v of the name it gets weight * v. */
+export interface ControlShare {
+  readonly control: number;
+  readonly weight: number;
 }
 
 /** What to generate. */
@@ -2742,9 +2770,10 @@ export interface Exports {
    * drives the GUI control with its name, which is then mapped as by mien_rig_map_gui_to_raw(). If there
    * is none either, it drives the controls of its entries in the matrix, which are summed in the order of
    * the matrix. Names match without regard to case; `.` matches `_`; the prefix `CTRL_expressions.` may be
-   * missing. If several names match, only an exact match counts. A raw control that a channel drives by
-   * name is driven by nothing else, and one that the matrix drives is not driven by GUI controls. Names
-   * without a match are not an error: see mien_clip_binding_info(). `clip` may be closed and `rig` may be
+   * missing. If several names match, only an exact match counts. A channel that drives nothing so far drives the
+   * controls that mien_rig_match() finds for its name, such as mouthSmile_L for mouthSmileLeft; these are summed
+   * behind those of the matrix. A raw control that a channel drives by name is driven by nothing else, and one that
+   * the matrix or mien_rig_match() drives is not driven by GUI controls. Names without a match are not an error: see mien_clip_binding_info(). `clip` may be closed and `rig` may be
    * destroyed afterwards. Destroy with mien_clip_binding_destroy().
    * Fails with MIEN_ERROR_INVALID_ARGUMENT if a weight is not finite, MIEN_ERROR_CLIP_LIMIT if channels
    * drive more than 4095 GUI controls.
@@ -3072,6 +3101,23 @@ export interface Exports {
    * Fails with MIEN_ERROR_INVALID_ARGUMENT if MienSolverStackDesc.check_writes was 0.
    */
   mien_solver_state_undeclared(solver_state: number, out_name: number): number;
+  /**
+   * Finds the raw controls that a name means on a rig. Takes time in proportion to the number of raw controls: for
+   * loading, not for every frame. Allocates nothing. Writes as many shares as fit; `out_count` is the
+   * total number, at most MIEN_MOST_SHARES, each of another control. `out_shares` may be NULL if `capacity` is 0.
+   * `out_match` is one of MIEN_NAME_MATCH_....
+   * Fails with MIEN_ERROR_NAME if the name means nothing on this rig, or in step 1 or 2 several controls.
+   * See docs/face-capture.md, 2 "Names".
+   */
+  mien_rig_match(rig: number, name: number, name_count: number, out_shares: number, capacity: number, out_count: number, out_match: number): number;
+  /**
+   * Gives the usual name of a control: that of ARKit, such as mouthSmileLeft for AU12_L and mouthCornerPullL; where ARKit
+   * has none, that of MetaHuman's raw controls. A name without a side stays without: mouthSmile. Writes as many bytes as
+   * fit, without a null; `out_count` is the total number. `out_name` may be NULL if `capacity` is 0.
+   * Fails with MIEN_ERROR_NAME if the name is not in the table.
+   * See docs/face-capture.md, 2 "Names".
+   */
+  mien_control_name(name: number, name_count: number, out_name: number, capacity: number, out_count: number): number;
   /**
    * Generates a rig and opens it: a file of version 2.8, unless the preset states another one, with all layers
    * of its version, behavior of realistic size and sparsity, and simple geometry. Close with

@@ -283,6 +283,15 @@ export const Transition = Object.freeze({
   CUT: 2,
 });
 
+export const NameMatch = Object.freeze({
+  NONE: 0,
+  AS_WRITTEN: 1,
+  SPELLING: 2,
+  ALIAS: 3,
+  BOTH_SIDES: 4,
+  EXPRESSION: 5,
+});
+
 export const Preset = Object.freeze({
   TINY: 0,
   SMALL: 1,
@@ -333,6 +342,7 @@ export const AuthorFlags = Object.freeze({
   AREA_DENSITY: 8,
   NO_TARGETS: 16,
   GROUP_IN_SPACE: 32,
+  METAHUMAN_NAMES: 64,
 });
 
 export const Match = Object.freeze({
@@ -887,6 +897,10 @@ export const layouts = {
     lod: [8, "u32"],
     isReset: [12, "bool"],
   } },
+  ControlShare: { size: 8, sized: false, fields: {
+    control: [0, "u32"],
+    weight: [4, "f32"],
+  } },
   GenerateDesc: { size: 32, sized: true, fields: {
     preset: [4, "u32"],
     flags: [8, "u32"],
@@ -1094,6 +1108,8 @@ export const calls = {
   mien_solver_state_step: "pppI",
   mien_solver_state_step_batch: "pppuI",
   mien_solver_state_outputs: "pup",
+  mien_rig_match: "ppupupp",
+  mien_control_name: "pupup",
   mien_document_child_name: "ppupp",
   mien_document_read_floats: "ppUUpp",
   mien_document_read_integers: "ppUUpp",

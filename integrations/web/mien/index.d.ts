@@ -10,7 +10,7 @@
 // read them again in each frame, and copy with slice() what you keep. Failures throw a MienError. Descriptions
 // of options, units and formulas are those of mien.h, in api.d.ts.
 import type {
-  MatrixEntry, BatchDesc, ClipBindingDesc, ClipChannel, ClipDesc, ClipEvent, ClipInfo, ClipPlayerDesc, ClipPlayerInfo,
+  ControlShare, NameMatch, MatrixEntry, BatchDesc, ClipBindingDesc, ClipChannel, ClipDesc, ClipEvent, ClipInfo, ClipPlayerDesc, ClipPlayerInfo,
   CoordinateSystem, DeformerDesc, DeformerInfo, DeformerInstanceDesc, DnaDesc, DnaField, DnaInfo, DnaLayer,
   Exports, Finding, GazeDesc, GazeInfo, GazeRest, GazeTarget, GenerateDesc, GuardState, InstanceStatistics, Isa, Kind, Mesh,
   MixDesc, MixGuardInfo, MixInfo, MixReaction, MixStroke, MixerDesc, MixerInfo, Normals, PlayDesc, Preset, Reuse,
@@ -140,6 +140,8 @@ export class Mien {
   /** For ClipBindingDesc.matrix: binds clips with the names of ARKit to rigs that name raw controls in the other
    * usual way, eyeBlinkL for eyeBlinkLeft. */
   arkitMatrix(): MatrixEntry[];
+  /** The usual name of a control, "mouthSmileLeft" for "AU12_L"; undefined: not in the table of names. */
+  controlName(name: string): string | undefined;
   /** A response to a light in the eyes. Its five poses: lids closed; squint and lowered brows; gaze turned away;
    * narrow pupils; head turned away. An empty one leaves its part out. */
   glare(poses: readonly Pose[]): Reaction;
@@ -238,6 +240,8 @@ export interface Rig extends Handle {
   find(kind: Kind, name: string): number | undefined;
   /** Index of exactly this name; throws if there is none. */
   indexOf(kind: Kind, name: string): number;
+  /** What a name of another tool means on this rig, "AU12_L" or "mouthSmileLeft" for "mouthSmile_L"; undefined: nothing. */
+  match(name: string): { how: NameMatch; shares: ControlShare[] } | undefined;
   /** Joints, blend shape channels, animated maps, meshes or RBF solvers of a LOD. */
   lodIndices(kind: Kind, lod: number): Uint16Array;
   /** Joint values that evaluation may change at a LOD. */

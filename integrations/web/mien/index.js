@@ -7,7 +7,7 @@ import { coordinateSystemNames, Dna, validate } from "./dna.js";
 import { errorOf } from "./errors.js";
 import { Memory } from "./memory.js";
 import { glare, Mix } from "./mix.js";
-import { isBaked, Rig } from "./rig.js";
+import { controlName, isBaked, Rig } from "./rig.js";
 import { canShare, machineThreads } from "./threads.js";
 
 export * from "./api.js";
@@ -154,6 +154,10 @@ export class Mien {
   /** For rigs that name raw controls in the other usual way than ARKit does. */
   arkitMatrix() {
     return arkitMatrix(this.#memory);
+  }
+
+  controlName(name) {
+    return controlName(this.#memory, name);
   }
 
   glare(poses) {

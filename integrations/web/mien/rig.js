@@ -1,15 +1,30 @@
 // SPDX-License-Identifier: MIT
 // A rig, the characters that it evaluates, and batches of them.
-import { Kind, Stage, Status } from "./api.js";
+import { Kind, layouts, Stage, Status } from "./api.js";
 import { Deformer } from "./deformer.js";
 import { errorOf } from "./errors.js";
 import { Handle, makeHandle } from "./handle.js";
 import { findAntagonists, findMask, Mix } from "./mix.js";
 
 const MAGIC = "MIENBAKE";
+const MOST_SHARES = 16;
 
 export function isBaked(bytes) {
   return bytes.length >= 8 && String.fromCharCode(...bytes.subarray(0, 8)) === MAGIC;
+}
+
+/** The usual name of a control; undefined if the table of names does not have it. */
+export function controlName(memory, name) {
+  return memory.withScratch((scratch) => {
+    const room = 256;
+    const [text, length] = scratch.text(name);
+    const out = scratch.take(room);
+    const count = scratch.take(4);
+    const status = memory.exports.mien_control_name(text, length, out, room, count);
+    if (status === Status.NAME) return undefined;
+    memory.check(status, 0, "mien_control_name");
+    return memory.text(out, memory.data.getUint32(count, true));
+  });
 }
 
 export class Rig extends Handle {
@@ -117,6 +132,24 @@ export class Rig extends Handle {
       const [text, count] = scratch.text(name);
       memory.check(memory.exports.mien_rig_find_n(this.handle, kind, text, count, out), 0, `there is no "${name}"`);
       return memory.data.getUint32(out, true);
+    });
+  }
+
+  match(name) {
+    const { memory } = this;
+    const { size } = layouts.ControlShare;
+    return memory.withScratch((scratch) => {
+      const shares = scratch.take(MOST_SHARES * size);
+      const out = scratch.take(8);
+      const [text, length] = scratch.text(name);
+      const status = memory.exports.mien_rig_match(this.handle, text, length, shares, MOST_SHARES, out, out + 4);
+      if (status === Status.NAME) return undefined;
+      memory.check(status, 0, "mien_rig_match");
+      const count = memory.data.getUint32(out, true);
+      return {
+        how: memory.data.getUint32(out + 4, true),
+        shares: Array.from({ length: count }, (_, i) => memory.read("ControlShare", shares + i * size)),
+      };
     });
   }
 

@@ -9,7 +9,7 @@ import { Worker } from "node:worker_threads";
 import { api, Mien, packageFolder, project, sameBits } from "./support.mjs";
 
 const {
-  ArgumentError, BakedCheck, BakedError, ClipError, DnaError, FieldType, Isa, Kind, Layer, MienError, Normals, Preset,
+  ArgumentError, BakedCheck, BakedError, ClipError, DnaError, FieldType, Isa, Kind, Layer, NameMatch, MienError, Normals, Preset,
   Stage, Status, TICKS_PER_SECOND, UnsupportedError,
 } = api;
 const tiny = join(project, "tests/golden/tiny.dna");
@@ -63,6 +63,15 @@ test("controls are set by name, and by the end of a name", () => {
   assert.equal(Object.keys(face.controls).length, 52);
   assert.equal(Object.values(face.controls).filter((value) => value !== 0).length, 2);
   face.dispose();
+});
+
+test("names of other tools are matched", () => {
+  const smile = head.find(Kind.RAW_CONTROL, "mouthSmileLeft");
+  assert.deepEqual(head.match("AU12_L"), { how: NameMatch.ALIAS, shares: [{ control: smile, weight: 1 }] });
+  assert.equal(head.match("AU12").shares.length, 2);
+  assert.equal(head.match("nobody"), undefined);
+  assert.equal(mien.controlName("mouthCornerPullL"), "mouthSmileLeft");
+  assert.equal(mien.controlName("nobody"), undefined);
 });
 
 test("a name that the rig lacks throws and changes nothing", () => {

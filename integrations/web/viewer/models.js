@@ -50,18 +50,27 @@ export class RigModel {
     else if (this.hasGui) this.face.mapRawToGui();
   }
 
-  /** Raw controls by name; names that the rig lacks are returned. */
+  /** Raw controls by their names or by names that mean them on this rig; those that mean nothing are returned. */
   setPose(pose) {
     const missing = [];
-    this.face.rawControls.set(this.rig.initialRawControls);
+    const raw = this.face.rawControls;
+    raw.set(this.rig.initialRawControls);
     for (const [name, value] of Object.entries(pose)) {
-      const index = this.rig.find(Kind.RAW_CONTROL, name);
-      if (index === undefined) missing.push(name);
-      else this.face.rawControls[index] = value;
+      const match = this.rig.match(name);
+      if (!match) missing.push(name);
+      const alone = match?.shares.length === 1;
+      for (const { control, weight } of match?.shares ?? []) {
+        raw[control] = alone ? weight * value : Math.min(1, raw[control] + weight * value);
+      }
     }
     if (this.hasGui) this.face.mapRawToGui();
     this.arkit?.reset();
     return missing;
+  }
+
+  /** Whether a name means something on this rig. */
+  has(name) {
+    return this.rig.match(name) !== undefined;
   }
 
   pose() {
@@ -130,13 +139,14 @@ export class RigModel {
 
 /** A GLB file: its morph targets by name. */
 export class GlbModel {
-  static async open(bytes) {
+  static async open(mien, bytes) {
     const { GLTFLoader } = await import("three/addons/loaders/GLTFLoader.js");
     const buffer = bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength);
-    return new GlbModel(await new GLTFLoader().parseAsync(buffer, ""));
+    return new GlbModel(mien, await new GLTFLoader().parseAsync(buffer, ""));
   }
 
-  constructor({ scene }) {
+  constructor(mien, { scene }) {
+    this.mien = mien;
     this.object = scene;
     this.times = null;
     this.targets = new Map();
@@ -148,6 +158,8 @@ export class GlbModel {
       }
     });
     this.list = [...this.targets.keys()];
+    // By their usual names, so that mouthSmile_L is mouthSmileLeft here too.
+    this.usual = new Map(this.list.map((name, i) => [mien.controlName(name), i]));
     // As the file has them.
     this.current = Float32Array.from(this.list, (name) => {
       const [mesh, target] = this.targets.get(name)[0];
@@ -172,10 +184,20 @@ export class GlbModel {
     this.current[index] = value;
   }
 
+  #indexOf(name) {
+    const index = this.list.indexOf(name.slice(name.lastIndexOf(".") + 1));
+    const usual = index < 0 ? this.mien.controlName(name) : undefined;
+    return usual === undefined ? index : this.usual.get(usual) ?? -1;
+  }
+
+  has(name) {
+    return this.#indexOf(name) >= 0;
+  }
+
   setPose(pose) {
     this.current.fill(0);
     return Object.entries(pose).filter(([name, value]) => {
-      const index = this.list.indexOf(name.slice(name.lastIndexOf(".") + 1));
+      const index = this.#indexOf(name);
       if (index >= 0) this.current[index] = value;
       return index < 0;
     }).map(([name]) => name);

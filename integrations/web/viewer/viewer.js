@@ -73,7 +73,7 @@ async function openModel(name, bytes) {
   };
   const isGlb = bytes.length >= 4 && String.fromCharCode(...bytes.subarray(0, 4)) === "glTF";
   if (!isGlb) await loadModule();
-  const made = isGlb ? await GlbModel.open(bytes) : await RigModel.open(mien, bytes, options);
+  const made = isGlb ? await GlbModel.open(mien, bytes) : await RigModel.open(mien, bytes, options);
   stop();
   heat.end();
   model?.dispose();
@@ -229,8 +229,7 @@ function afterUpdate() {
 
 function showPresets() {
   const buttons = Object.entries(PRESETS).map(([name, values]) => {
-    const known = new Set(model.names("raw").map((control) => control.slice(control.lastIndexOf(".") + 1)));
-    const found = Object.fromEntries(Object.entries(values).filter(([control]) => known.has(control)));
+    const found = Object.fromEntries(Object.entries(values).filter(([control]) => model.has(control)));
     // A preset of which the rig has next to nothing would look like another expression.
     if (Object.keys(found).length === 0) return null;
     const button = document.createElement("button");

@@ -23,6 +23,8 @@ pub const MIEN_NO_MESH: u32 = 4294967295;
 pub const MIEN_NO_CONTROL: u32 = 65535;
 /// Value of a joint index that means no joint.
 pub const MIEN_NO_JOINT: u32 = 65535;
+/// The largest number of shares of a name.
+pub const MIEN_MOST_SHARES: u32 = 16;
 
 // enum MienStatusCode
 pub const MIEN_OK: MienStatus = 0;
@@ -404,6 +406,19 @@ pub const MIEN_TRANSITION_CROSSFADE: u32 = 1;
 /// Immediate; `transition_ticks` is not used.
 pub const MIEN_TRANSITION_CUT: u32 = 2;
 
+// enum MienNameMatch
+pub const MIEN_NAME_MATCH_NONE: u32 = 0;
+/// The control has this name.
+pub const MIEN_NAME_MATCH_AS_WRITTEN: u32 = 1;
+/// The same letters and side.
+pub const MIEN_NAME_MATCH_SPELLING: u32 = 2;
+/// Another word for the same control.
+pub const MIEN_NAME_MATCH_ALIAS: u32 = 3;
+/// The controls of the left and the right side.
+pub const MIEN_NAME_MATCH_BOTH_SIDES: u32 = 4;
+/// An expression that is several controls.
+pub const MIEN_NAME_MATCH_EXPRESSION: u32 = 5;
+
 // enum MienPreset
 /// Small enough to read.
 pub const MIEN_PRESET_TINY: u32 = 0;
@@ -478,6 +493,9 @@ pub const MIEN_AUTHOR_AREA_DENSITY: u32 = 8;
 pub const MIEN_AUTHOR_NO_TARGETS: u32 = 16;
 /// Group by distance in space, not in depth: for comparison.
 pub const MIEN_AUTHOR_GROUP_IN_SPACE: u32 = 32;
+/// Names of bones as MetaHuman heads have them, where they have a counterpart: `neck_01`,
+/// FACIAL\_C\_Jaw; not of the caller's bones.
+pub const MIEN_AUTHOR_METAHUMAN_NAMES: u32 = 64;
 
 // enum MienMatch
 /// The nearest place in space.
@@ -1804,7 +1822,8 @@ impl Default for MienMatrixEntry {
 #[derive(Clone, Copy)]
 pub struct MienClipBindingDesc {
     pub struct_size: usize,
-    /// For channels whose names the rig does not have; may be NULL.
+    /// For channels whose names the rig does not have; may be NULL: those that `mien_rig_match()`
+    /// knows need none.
     pub matrix: *const MienMatrixEntry,
     pub matrix_count: usize,
     pub allocator: *const MienAllocator,
@@ -2742,6 +2761,22 @@ pub struct MienSolverInput {
 }
 
 impl Default for MienSolverInput {
+    /// All zero.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        unsafe { zeroed() }
+    }
+}
+
+/// A raw control, and its share: at value v of the name it gets weight \* v.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienControlShare {
+    pub control: u32,
+    pub weight: f32,
+}
+
+impl Default for MienControlShare {
     /// All zero.
     fn default() -> Self {
         // SAFETY: numbers, pointers and optional functions may be zero.
@@ -4048,10 +4083,13 @@ extern "C" {
     /// `mien_rig_map_gui_to_raw()`. If there is none either, it drives the controls of its entries
     /// in the matrix, which are summed in the order of the matrix. Names match without regard to
     /// case; `.` matches `_`; the prefix `CTRL_expressions.` may be missing. If several names
-    /// match, only an exact match counts. A raw control that a channel drives by name is driven by
-    /// nothing else, and one that the matrix drives is not driven by GUI controls. Names without a
-    /// match are not an error: see `mien_clip_binding_info()`. `clip` may be closed and `rig` may
-    /// be destroyed afterwards. Destroy with `mien_clip_binding_destroy()`.
+    /// match, only an exact match counts. A channel that drives nothing so far drives the controls
+    /// that `mien_rig_match()` finds for its name, such as mouthSmile\_L for mouthSmileLeft; these
+    /// are summed behind those of the matrix. A raw control that a channel drives by name is
+    /// driven by nothing else, and one that the matrix or `mien_rig_match()` drives is not driven
+    /// by GUI controls. Names without a match are not an error: see `mien_clip_binding_info()`.
+    /// `clip` may be closed and `rig` may be destroyed afterwards. Destroy with
+    /// `mien_clip_binding_destroy()`.
     ///
     /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if a weight is not finite, `MIEN_ERROR_CLIP_LIMIT`
     /// if channels drive more than 4095 GUI controls.
@@ -4429,6 +4467,28 @@ extern "C" {
     ///
     /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if MienSolverStackDesc.`check_writes` was 0.
     pub fn mien_solver_state_undeclared(solver_state: *const MienSolverState, out_name: *mut MienStringView) -> MienStatus;
+
+    /// Finds the raw controls that a name means on a rig. Takes time in proportion to the number
+    /// of raw controls: for loading, not for every frame. Allocates nothing. Writes as many shares
+    /// as fit; `out_count` is the total number, at most `MIEN_MOST_SHARES`, each of another
+    /// control. `out_shares` may be NULL if `capacity` is 0. `out_match` is one of
+    /// `MIEN_NAME_MATCH_...`.
+    ///
+    /// Fails with `MIEN_ERROR_NAME` if the name means nothing on this rig, or in step 1 or 2
+    /// several controls.
+    ///
+    /// See docs/face-capture.md, 2 "Names".
+    pub fn mien_rig_match(rig: *const MienRig, name: *const c_char, name_count: usize, out_shares: *mut MienControlShare, capacity: usize, out_count: *mut usize, out_match: *mut u32) -> MienStatus;
+
+    /// Gives the usual name of a control: that of ARKit, such as mouthSmileLeft for AU12\_L and
+    /// mouthCornerPullL; where ARKit has none, that of MetaHuman's raw controls. A name without a
+    /// side stays without: mouthSmile. Writes as many bytes as fit, without a null; `out_count` is
+    /// the total number. `out_name` may be NULL if `capacity` is 0.
+    ///
+    /// Fails with `MIEN_ERROR_NAME` if the name is not in the table.
+    ///
+    /// See docs/face-capture.md, 2 "Names".
+    pub fn mien_control_name(name: *const c_char, name_count: usize, out_name: *mut c_char, capacity: usize, out_count: *mut usize) -> MienStatus;
 
     /// Generates a rig and opens it: a file of version 2.8, unless the preset states another one,
     /// with all layers of its version, behavior of realistic size and sparsity, and simple

@@ -148,6 +148,7 @@ fn structs_are_laid_out_as_in_c() {
             joint_count 20 state_bytes 24;
         MienSolverStateDesc 16 8: struct_size 0 allocator 8;
         MienSolverInput 24 8: row 0 row_count 8 lod 16 is_reset 20;
+        MienControlShare 8 4: control 0 weight 4;
         MienGenerateDesc 32 8: struct_size 0 preset 8 flags 12 seed 16 allocator 24;
         MienAuthorObject 24 8: name 0 first_face 16 face_count 20;
         MienAuthorShape 40 8: name 0 positions 16 position_count 24 displacements 32;

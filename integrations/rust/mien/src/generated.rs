@@ -849,6 +849,30 @@ impl Transition {
 
 numbers!(Transition, u32, [(0, "INERTIAL"), (1, "CROSSFADE"), (2, "CUT")]);
 
+/// How a name was matched.
+///
+/// A later library may give numbers that have no name here.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+#[repr(transparent)]
+pub struct NameMatch(pub u32);
+
+impl NameMatch {
+    /// `MIEN_NAME_MATCH_NONE` in C.
+    pub const NONE: Self = Self(0);
+    /// The control has this name.
+    pub const AS_WRITTEN: Self = Self(1);
+    /// The same letters and side.
+    pub const SPELLING: Self = Self(2);
+    /// Another word for the same control.
+    pub const ALIAS: Self = Self(3);
+    /// The controls of the left and the right side.
+    pub const BOTH_SIDES: Self = Self(4);
+    /// An expression that is several controls.
+    pub const EXPRESSION: Self = Self(5);
+}
+
+numbers!(NameMatch, u32, [(0, "NONE"), (1, "AS_WRITTEN"), (2, "SPELLING"), (3, "ALIAS"), (4, "BOTH_SIDES"), (5, "EXPRESSION")]);
+
 /// Kinds of generated rigs.
 ///
 /// A later library may give numbers that have no name here.
@@ -996,9 +1020,12 @@ impl AuthorFlags {
     pub const NO_TARGETS: Self = Self(16);
     /// Group by distance in space, not in depth: for comparison.
     pub const GROUP_IN_SPACE: Self = Self(32);
+    /// Names of bones as MetaHuman heads have them, where they have a counterpart: `neck_01`,
+    /// FACIAL\_C\_Jaw; not of the caller's bones.
+    pub const METAHUMAN_NAMES: Self = Self(64);
 }
 
-flags!(AuthorFlags, u32, [(1, "PAPER"), (2, "NO_NECK_CUT"), (4, "MASK_FROM_SHAPES"), (8, "AREA_DENSITY"), (16, "NO_TARGETS"), (32, "GROUP_IN_SPACE")]);
+flags!(AuthorFlags, u32, [(1, "PAPER"), (2, "NO_NECK_CUT"), (4, "MASK_FROM_SHAPES"), (8, "AREA_DENSITY"), (16, "NO_TARGETS"), (32, "GROUP_IN_SPACE"), (64, "METAHUMAN_NAMES")]);
 
 /// How positions of one mesh are found on another.
 ///
@@ -2398,6 +2425,12 @@ macro_rules! errors {
     };
     (mien_solver_state_undeclared) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if MienSolverStackDesc.`check_writes` was 0"
+    };
+    (mien_rig_match) => {
+        "- [`Status::NAME`](crate::Status::NAME) if the name means nothing on this rig, or in step 1 or 2 several controls"
+    };
+    (mien_control_name) => {
+        "- [`Status::NAME`](crate::Status::NAME) if the name is not in the table"
     };
     (mien_dna_generate) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\

@@ -90,7 +90,7 @@ pub use mix::{
 };
 pub use mixer::{GuardState, MixEvent, Mixer, PlayOptions, StreamSender};
 pub use report::{Finding, Report};
-pub use rig::{Rig, RigOptions};
+pub use rig::{control_name, Rig, RigOptions};
 pub use solve::{
     AimSolver, CopySolver, CustomSolver, Solver, SolverInput, SolverPose, SolverStack,
     SolverStackOptions, SolverState, SpaceSolver, SpringSolver, TwistSolver, NO_JOINT,

@@ -3,7 +3,7 @@
 use crate::convert::{bytes, empty_string, index, slice, utf8};
 use crate::error::{check, checked};
 use crate::{
-    Allocator, Arithmetic, Dna, Instance, Isa, Kind, MlMasks, Result, Reuse, RigInfo,
+    Allocator, Arithmetic, Dna, Instance, Isa, Kind, MlMasks, NameMatch, Result, Reuse, RigInfo,
     RigStatistics, RotationOutput, Storage,
 };
 use mien_sys as sys;
@@ -115,6 +115,37 @@ impl Rig {
             check(sys::mien_rig_name(self.raw(), kind.0, index(i), &mut out))?;
             Ok(bytes(out))
         }
+    }
+
+    /// What a name of another tool means on this rig: how it was matched, and raw controls with their weights.
+    /// `AU12` is both smiles. [`Status::NAME`](crate::Status::NAME) if it means nothing.
+    ///
+    /// # Errors
+    ///
+    #[doc = errors!(mien_rig_match)]
+    pub fn match_name(&self, name: impl AsRef<[u8]>) -> Result<(NameMatch, Vec<(usize, f32)>)> {
+        let name = name.as_ref();
+        let mut shares = vec![sys::MienControlShare::default(); sys::MIEN_MOST_SHARES as usize];
+        let (mut count, mut how) = (0, 0);
+        // SAFETY: a live handle, and room for as many shares as are told.
+        let status = unsafe {
+            sys::mien_rig_match(
+                self.raw(),
+                name.as_ptr().cast(),
+                name.len(),
+                shares.as_mut_ptr(),
+                shares.len(),
+                &mut count,
+                &mut how,
+            )
+        };
+        if status == sys::MIEN_ERROR_NAME {
+            let message = format!("\"{}\" means no raw control of the rig", utf8(name));
+            return Err(crate::Error::new(crate::Status::NAME, message));
+        }
+        check(status)?;
+        let found = shares.iter().take(count);
+        Ok((NameMatch(how), found.map(|s| (s.control as usize, s.weight)).collect()))
     }
 
     /// Number of the one with this very name, in O(log n); of equal names the first.
@@ -364,4 +395,36 @@ impl Isa {
         let name = unsafe { std::ffi::CStr::from_ptr(sys::mien_isa_name(self.0)) };
         name.to_str().unwrap_or("unknown")
     }
+}
+
+/// The usual name of a control: `mouthSmileLeft` for `AU12_L`. [`Status::NAME`](crate::Status::NAME) if the table of
+/// names does not have it.
+///
+/// ```
+/// assert_eq!(mien::control_name("AU12_L")?, "mouthSmileLeft");
+/// # Ok::<(), mien::Error>(())
+/// ```
+///
+/// # Errors
+///
+#[doc = errors!(mien_control_name)]
+pub fn control_name(name: impl AsRef<[u8]>) -> Result<String> {
+    let name = name.as_ref();
+    let (mut out, mut count) = ([0_u8; 256], 0);
+    // SAFETY: as many bytes as are told, on both sides.
+    let status = unsafe {
+        sys::mien_control_name(
+            name.as_ptr().cast(),
+            name.len(),
+            out.as_mut_ptr().cast(),
+            out.len(),
+            &mut count,
+        )
+    };
+    if status == sys::MIEN_ERROR_NAME {
+        let message = format!("\"{}\" is not in the table of names", utf8(name));
+        return Err(crate::Error::new(crate::Status::NAME, message));
+    }
+    check(status)?;
+    Ok(utf8(out.get(..count).unwrap_or_default()).into_owned())
 }
