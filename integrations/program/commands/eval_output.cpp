@@ -14,8 +14,6 @@ namespace mien::cli {
 
 namespace {
 
-using Layout = JsonWriter::Layout;
-
 struct OutputArray {
   const char* key;
   MienStatus (*view)(const MienInstance*, MienFloatView*);
@@ -108,18 +106,18 @@ class JsonOutput : public BaseWriter {
   explicit JsonOutput(Output& output) : BaseWriter(output), json_(output) {}
 
   void begin_file(const EvalHeading& heading, size_t) override {
-    json_.begin_object(Layout::kLines);
+    json_.begin_object(JsonWriter::Layout::kLines);
     write_heading(json_, heading);
     json_.key("frames");
-    json_.begin_array(Layout::kLines);
+    json_.begin_array(JsonWriter::Layout::kLines);
   }
 
   void write(size_t frame, uint32_t lod, const MienInstance* instance) override {
     if (!in_frame_ || frame != frame_) {
       end_frame();
-      json_.begin_object(Layout::kLines);
+      json_.begin_object(JsonWriter::Layout::kLines);
       json_.key("lods");
-      json_.begin_array(Layout::kLines);
+      json_.begin_array(JsonWriter::Layout::kLines);
       in_frame_ = true;
       frame_ = frame;
     }
