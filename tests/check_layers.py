@@ -49,7 +49,8 @@ GRAPH = {
     "author/document": ["runtime/base", "runtime/load/dna/format", "runtime/load/dna/check",
                         "runtime/load/dna/convert", "runtime/load/dna", "author/base", "author/mesh",
                         "author/fit"],
-    "author/rigging": ["author/base", "author/mesh", "author/place", "author/weights", "author/rig_dna"],
+    "author/rigging": ["runtime/base", "author/base", "author/mesh", "author/place", "author/weights", "author/fit",
+                       "author/rig_dna"],
     # The C interface: the headers; what both libraries read their arguments with; each of them. capi looks
     # up the instruction set that a caller asks for: its simd.
     "capi/include": ["capi/include/mien", "capi/include/mien_author"],

@@ -41,6 +41,12 @@ struct Affine {
   Vec3 shift;
 
   static Affine identity() { return {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {}}; }
+  bool operator==(const Affine& o) const {
+    const auto same = [](Vec3 a, Vec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; };
+    return same(shift, o.shift) && same(rows[0], o.rows[0]) && same(rows[1], o.rows[1]) &&
+           same(rows[2], o.rows[2]);
+  }
+  bool is_identity() const { return *this == identity(); }
   Vec3 turn(Vec3 v) const { return {dot(rows[0], v), dot(rows[1], v), dot(rows[2], v)}; }
   Vec3 operator()(Vec3 p) const { return turn(p) + shift; }
 };
@@ -52,6 +58,16 @@ inline Affine operator*(const Affine& a, const Affine& b) {
     out.rows[r] = b.rows[0] * a.rows[r].x + b.rows[1] * a.rows[r].y + b.rows[2] * a.rows[r].z;
   }
   out.shift = a(b.shift);
+  return out;
+}
+
+/// The inverse of a rigid motion.
+inline Affine inverse(const Affine& a) {
+  Affine out;
+  out.rows[0] = {a.rows[0].x, a.rows[1].x, a.rows[2].x};
+  out.rows[1] = {a.rows[0].y, a.rows[1].y, a.rows[2].y};
+  out.rows[2] = {a.rows[0].z, a.rows[1].z, a.rows[2].z};
+  out.shift = -out.turn(a.shift);
   return out;
 }
 

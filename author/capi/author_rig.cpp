@@ -11,7 +11,7 @@ static_assert(MIEN_ERROR_AUTHOR_MESH == int(Status::kAuthorMesh) &&
                   MIEN_ERROR_AUTHOR_REFUSED == int(Status::kAuthorRefused) &&
                   MIEN_ERROR_AUTHOR_CANCELED == int(Status::kAuthorCanceled),
               "status.h and mien.h number the same statuses");
-static_assert(MIEN_BONE_CHEST == int(author::BoneKind::kChest) &&
+static_assert(MIEN_BONE_TONGUE == int(author::BoneKind::kTongue) &&
                   MIEN_SYMMETRY_OFF == int(author::Symmetry::kOff),
               "the enums agree");
 
@@ -145,7 +145,7 @@ MienStatus check_options(const MienAuthorDesc& desc, MienError* error) {
     return give_error(error, MIEN_ERROR_INVALID_ARGUMENT, "MienAuthorDesc.name has over 200 bytes");
   }
   for (size_t b = 0; b < desc.bone_count; ++b) {
-    if (desc.bones[b].kind <= MIEN_BONE_CHEST && desc.bones[b].name.data) continue;
+    if (desc.bones[b].kind <= MIEN_BONE_TONGUE && desc.bones[b].name.data) continue;
     return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
                       "bone %zu has no name, or a kind that is not a MIEN_BONE_...", b);
   }

@@ -150,7 +150,7 @@ class CorrectiveFitter {
     for (int round = 0; round < 2; ++round) {
       if (round > 0) set_rest(lane, fit, c, nullptr);
       std::copy(lane.pose.begin(), lane.pose.end(), lane.further.begin());
-      fit_motions(in_.fitter, in_.placement, fit, lane.active, lane.further);
+      fit_motions(in_.fitter, fit, lane.active, lane.further);
       if (round > 0) break;
       for (uint32_t j = 0; j < lane.further.count; ++j) {
         if (lane.active[j]) lane.further[j] = lane.further[j] * inverse(lane.pose[j]);
@@ -164,22 +164,15 @@ class CorrectiveFitter {
     store(lane, c);
   }
 
-  static Affine inverse(const Affine& a) {
-    Affine out;
-    out.rows[0] = {a.rows[0].x, a.rows[1].x, a.rows[2].x};
-    out.rows[1] = {a.rows[0].y, a.rows[1].y, a.rows[2].y};
-    out.rows[2] = {a.rows[0].z, a.rows[1].z, a.rows[2].z};
-    out.shift = -out.turn(a.shift);
-    return out;
-  }
-
   /// Angles add up, so those of a corrective are the angles of its pose minus those already there.
   void store(const PoseLane& lane, size_t c) const {
     for (uint32_t j = 0; j < lane.further.count; ++j) {
       JointDelta& out = deltas_.at(control_of(c), j);
       out = {};
       if (!lane.active[j]) continue;
-      out = delta_of_motion(in_.placement.bones[j], in_.mesh.frame, lane.further[j]);
+      const Affine& parent = lane.further[in_.placement.bones[j].parent];
+      out = delta_of_motion(in_.placement.bones[j], in_.mesh.frame,
+                            inverse(parent) * lane.further[j]);
       for (uint32_t i = 0; i < lane.control_count; ++i) {
         const JointDelta& other = deltas_.at(lane.controls[i], j);
         for (int k = 0; k < 3; ++k) {

@@ -50,7 +50,7 @@ void find_support(const Fitter& fitter, FitLane& lane, Span<uint8_t> active) {
     most = std::max(most, energy);
   }
   for (uint32_t j = 0; j < f.bone_count; ++j) {
-    active[j] = lane.energy[j] > fitter.options.support * largest[f.facial[j]];
+    active[j] = j != f.jaw && lane.energy[j] > fitter.options.support * largest[f.facial[j]];
   }
 }
 
@@ -85,15 +85,32 @@ void fit_translations(const Footprints& f, FitLane& lane, Span<const uint8_t> ac
   }
 }
 
-/// The rigid motion of one bone with the least remaining error while the others are fixed: weighted
-/// Procrustes with masses w^2 towards y = M v + rest / w. As w y = w M v + rest, no vertex is
-/// divided by its weight.
-void fit_bone(const Fitter& fitter, const Footprints& f, uint32_t bone, bool is_rigid,
-              FitLane& lane, Affine& motion) {
-  const Moments& m = f.moments[bone];
-  if (!(m.mass > 0)) return;
+/// The further motion of these vertices is done.
+void take_off(const Fitter& fitter, Span<const Influenced> entries, const Affine& before,
+              const Affine& after, FitLane& lane) {
+  Affine further;
+  for (int r = 0; r < 3; ++r) further.rows[r] = after.rows[r] - before.rows[r];
+  further.shift = after.shift - before.shift;
+  for (const Influenced& e : entries) {
+    lane.rest[e.vertex] =
+        lane.rest[e.vertex] - further(fitter.positions[e.vertex]) * double{e.weight};
+  }
+}
+
+/// a times the transpose of b.
+void turn_back(const Vec3 a[3], const Vec3 b[3], Vec3 out[3]) {
+  for (int r = 0; r < 3; ++r) out[r] = {dot(a[r], b[0]), dot(a[r], b[1]), dot(a[r], b[2])};
+}
+
+/// The rigid motion of these vertices that leaves least to do, all else held: weighted Procrustes with
+/// masses w^2 towards y = M v + rest / w. As w y = w M v + rest, no vertex is divided by its weight.
+/// It turns by no more than `max_half_sine` from `parent`, and is damped by a share `hold` of the
+/// footprint.
+Affine fit_rigid(const Fitter& fitter, Span<const Influenced> entries, const Moments& m,
+                 const Affine& motion, const Affine& parent, double max_half_sine, double hold,
+                 const FitLane& lane) {
   Vec3 force, torque[3];
-  for (const Influenced& e : f.of(bone)) {
+  for (const Influenced& e : entries) {
     const Vec3 pull = lane.rest[e.vertex] * double{e.weight};
     const Vec3 arm = fitter.positions[e.vertex] - m.center;
     force = force + pull;
@@ -101,45 +118,185 @@ void fit_bone(const Fitter& fitter, const Footprints& f, uint32_t bone, bool is_
     torque[1] = torque[1] + arm * pull.y;
     torque[2] = torque[2] + arm * pull.z;
   }
-  // A term toward the current pose of the bone damps footprints that hardly constrain the rotation.
-  const double hold = (is_rigid ? 1e-6 : 0.05) * m.size();
-  Vec3 map[3];
+  Vec3 map[3], own[3], turn[3];
   for (int r = 0; r < 3; ++r) {
     const Vec3 row = motion.rows[r];
-    map[r] =
-        m.spread[0] * row.x + m.spread[1] * row.y + m.spread[2] * row.z + torque[r] + row * hold;
+    map[r] = m.spread[0] * row.x + m.spread[1] * row.y + m.spread[2] * row.z + torque[r] +
+             row * (hold * m.size());
   }
+  turn_back(map, parent.rows, own);
+  closest_rotation(own, max_half_sine, turn);
   Affine next;
-  const double half = fitter.options.max_degrees * kPi / 360;
-  closest_rotation(map, is_rigid ? 1 : exact_sine(half), next.rows);
-  next.shift = motion(m.center) + force * (1 / m.mass) - next.turn(m.center);
-  Affine further;
-  for (int r = 0; r < 3; ++r) further.rows[r] = next.rows[r] - motion.rows[r];
-  further.shift = next.shift - motion.shift;
-  for (const Influenced& e : f.of(bone)) {
-    lane.rest[e.vertex] =
-        lane.rest[e.vertex] - further(fitter.positions[e.vertex]) * double{e.weight};
+  for (int r = 0; r < 3; ++r) {
+    next.rows[r] =
+        parent.rows[0] * turn[r].x + parent.rows[1] * turn[r].y + parent.rows[2] * turn[r].z;
   }
-  motion = next;
+  next.shift = motion(m.center) + force * (1 / m.mass) - next.turn(m.center);
+  return next;
 }
 
-void descend(const Fitter& fitter, const Placement& placement, FitLane& lane,
-             Span<const uint8_t> active, Span<Affine> motions) {
-  const Footprints& f = fitter.footprints;
-  for (uint32_t sweep = 0; sweep < fitter.options.sweeps; ++sweep) {
-    for (uint32_t j = 0; j < f.bone_count; ++j) {
-      if (!active[j]) continue;
-      fit_bone(fitter, f, j, placement.bones[j].kind != BoneKind::kFacial, lane, motions[j]);
-    }
+/// Whether the vertex is on the one bone only.
+bool is_whole(const Fitter& fitter, const Influenced& e) {
+  const double scale = fitter.scales.empty() ? 1 : fitter.scales[e.vertex];
+  return double{e.weight} > 0.999 * scale;
+}
+
+/// The rigid motion that most of what is whole on the jaw, such as teeth, agrees on: in rounds, each vertex
+/// counts by the inverse of how far it is off. Without teeth `motion`, which is where it starts.
+Affine fit_teeth(const Fitter& fitter, Affine motion, const FitLane& lane) {
+  constexpr int kRounds = 20;
+  constexpr size_t kTeeth = 20;     // vertices at least
+  constexpr double kAgreed = 0.02;  // of the motion: off by less is not off
+  const Span<const Influenced> entries = fitter.footprints.of(fitter.footprints.jaw);
+  size_t count = 0;
+  double energy = 0, masses = 0;
+  for (const Influenced& e : entries) {
+    if (!is_whole(fitter, e)) continue;
+    ++count;
+    energy += dot(lane.rest[e.vertex], lane.rest[e.vertex]);
+    masses += double{e.weight} * double{e.weight};
   }
+  if (count < kTeeth || !(energy > 0)) return motion;
+  const double least = kAgreed * std::sqrt(energy / masses);
+  for (int round = 0; round < kRounds; ++round) {
+    // First the mean, then moments about it.
+    Moments m;
+    Vec3 force, map[3];
+    const auto count_of = [&](const Influenced& e) {
+      const Vec3 p = fitter.positions[e.vertex];
+      return 1 / (length(lane.rest[e.vertex] - (motion(p) - p) * double{e.weight}) + least);
+    };
+    for (const Influenced& e : entries) {
+      if (!is_whole(fitter, e)) continue;
+      const double share = count_of(e), mass = share * double{e.weight} * double{e.weight};
+      m.mass += mass;
+      m.center = m.center + fitter.positions[e.vertex] * mass;
+      force = force + lane.rest[e.vertex] * (share * double{e.weight});
+    }
+    if (!(m.mass > 0)) return motion;
+    m.center = m.center * (1 / m.mass);
+    for (const Influenced& e : entries) {
+      if (!is_whole(fitter, e)) continue;
+      const double share = count_of(e), weight = double{e.weight};
+      const Vec3 arm = fitter.positions[e.vertex] - m.center;
+      // Towards arm + rest / weight.
+      const Vec3 to = arm * (share * weight * weight) + lane.rest[e.vertex] * (share * weight);
+      map[0] = map[0] + arm * to.x;
+      map[1] = map[1] + arm * to.y;
+      map[2] = map[2] + arm * to.z;
+    }
+    closest_rotation(map, 1, motion.rows);
+    motion.shift = m.center + force * (1 / m.mass) - motion.turn(m.center);
+  }
+  return motion;
+}
+
+void fit_bone(const Fitter& fitter, uint32_t bone, FitLane& lane, Span<Affine> motions) {
+  const Footprints& f = fitter.footprints;
+  const Moments& m = f.moments[bone];
+  if (!(m.mass > 0)) return;
+  const bool is_rigid = !f.facial[bone];
+  const double half = fitter.options.max_degrees * kPi / 360;
+  // A term towards where the bone is now damps footprints that hardly tell rotations apart.
+  const Affine next = fit_rigid(fitter, f.of(bone), m, motions[bone], motions[f.parents[bone]],
+                                is_rigid ? 1 : exact_sine(half), is_rigid ? 1e-6 : 0.05, lane);
+  take_off(fitter, f.of(bone), motions[bone], next, lane);
+  motions[bone] = next;
+}
+
+/// Bones that go with their parents, after those have moved.
+void take_along(const Fitter& fitter, FitLane& lane, Span<const uint8_t> active,
+                Span<Affine> motions) {
+  const Footprints& f = fitter.footprints;
+  for (uint32_t j = 0; j < f.bone_count; ++j) {
+    const Affine& parent = motions[f.parents[j]];
+    if (active[j] || motions[j] == parent) continue;
+    take_off(fitter, f.of(j), motions[j], parent, lane);
+    motions[j] = parent;
+  }
+}
+
+void descend(const Fitter& fitter, FitLane& lane, Span<const uint8_t> active,
+             Span<Affine> motions) {
+  for (uint32_t sweep = 0; sweep < fitter.options.sweeps; ++sweep) {
+    for (uint32_t j = 0; j < fitter.footprints.bone_count; ++j) {
+      if (active[j] && j != fitter.footprints.jaw) fit_bone(fitter, j, lane, motions);
+    }
+    take_along(fitter, lane, active, motions);
+  }
+}
+
+/// The turn about a point that leaves least to do for these vertices.
+Affine turn_about(const Fitter& fitter, Span<const Influenced> entries, Vec3 center,
+                  double max_half_sine, const FitLane& lane) {
+  Vec3 map[3];
+  for (const Influenced& e : entries) {
+    const double weight = double{e.weight};
+    const Vec3 arm = fitter.positions[e.vertex] - center;
+    const Vec3 to = arm * (weight * weight) + lane.rest[e.vertex] * weight;
+    map[0] = map[0] + arm * to.x;
+    map[1] = map[1] + arm * to.y;
+    map[2] = map[2] + arm * to.z;
+  }
+  Affine out;
+  closest_rotation(map, max_half_sine, out.rows);
+  out.shift = center - out.turn(center);
+  return out;
+}
+
+/// The jaw goes first, with all that hangs below it, in shapes that move most of that as a whole, and keeps
+/// that motion. Whether it moves.
+bool open_jaw(const Fitter& fitter, FitLane& lane, Span<Affine> motions) {
+  const Footprints& f = fitter.footprints;
+  if (f.jaw == kNone || !(f.carried_moments.mass > 0)) return false;
+  const Span<const Influenced> all = f.of_jaw();
+  const auto energy = [&] {
+    double sum = 0;
+    for (const Influenced& e : all) {
+      sum += dot(lane.rest[e.vertex], lane.rest[e.vertex]) * double{e.weight} * double{e.weight};
+    }
+    return sum;
+  };
+  const double before = energy();
+  if (!(before > 0)) return false;
+  const Affine still = motions[f.jaw];
+  const double half = fitter.options.rotations ? 1 : 0;
+  const auto opens_by = [&](const Affine& motion) {
+    take_off(fitter, all, still, motion, lane);
+    const bool opens = energy() <= (1 - fitter.options.jaw_share) * before;
+    take_off(fitter, all, motion, still, lane);
+    return opens;
+  };
+  // About its joint, if that is enough: on the skin a turn and a shift are easily mistaken for each other.
+  Affine next = turn_about(fitter, all, f.jaw_position, half, lane);
+  if (!opens_by(next)) {
+    next = fit_rigid(fitter, all, f.carried_moments, still, still, half, 0, lane);
+    if (!opens_by(next)) return false;
+  }
+  if (half > 0) next = fit_teeth(fitter, next, lane);
+  take_off(fitter, all, still, next, lane);
+  for (uint32_t j = 0; j < f.bone_count; ++j) {
+    if (!f.below_jaw[j]) continue;
+    if (!f.on_jaw[j]) take_off(fitter, f.of(j), motions[j], next, lane);
+    motions[j] = next;
+  }
+  return true;
 }
 
 }  // namespace
 
-void fit_motions(const Fitter& fitter, const Placement& placement, FitLane& lane,
-                 Span<const uint8_t> active, Span<Affine> motions) {
+void fit_motions(const Fitter& fitter, FitLane& lane, Span<const uint8_t> active,
+                 Span<Affine> motions) {
   fit_translations(fitter.footprints, lane, active, motions);
-  if (fitter.options.rotations) descend(fitter, placement, lane, active, motions);
+  take_along(fitter, lane, active, motions);
+  if (fitter.options.rotations) descend(fitter, lane, active, motions);
+}
+
+void follow_parents(const Footprints& footprints, Span<const uint8_t> active,
+                    Span<Affine> motions) {
+  for (uint32_t j = 0; j < motions.count; ++j) {
+    if (!active[j]) motions[j] = j > 0 ? motions[footprints.parents[j]] : Affine::identity();
+  }
 }
 
 namespace {
@@ -153,32 +310,28 @@ void start_rest(const Fitter& fitter, Span<const Vec3f> wanted, FitLane& lane) {
   }
 }
 
-/// Continues from the current motions.
-void improve_motions(const Fitter& fitter, const Placement& placement, FitLane& lane,
-                     Span<const uint8_t> active, Span<Affine> motions) {
+/// Goes on from the motions as they are.
+void improve_motions(const Fitter& fitter, FitLane& lane, Span<const uint8_t> active,
+                     Span<Affine> motions) {
+  follow_parents(fitter.footprints, active, motions);
   for (uint32_t j = 0; j < motions.count; ++j) {
-    if (!active[j]) continue;
-    for (const Influenced& e : fitter.footprints.of(j)) {
-      const Vec3 p = fitter.positions[e.vertex];
-      lane.rest[e.vertex] = lane.rest[e.vertex] - (motions[j](p) - p) * double{e.weight};
-    }
+    if (motions[j].is_identity()) continue;
+    take_off(fitter, fitter.footprints.of(j), Affine::identity(), motions[j], lane);
   }
-  descend(fitter, placement, lane, active, motions);
+  descend(fitter, lane, active, motions);
 }
 
 }  // namespace
 
-void fit_all(Fitter& fitter, const AuthorMesh& mesh, const Placement& placement,
-             const SkinWeights& weights, bool given, const ParallelFor& parallel,
-             const Motions& out) {
+void fit_all(Fitter& fitter, const AuthorMesh& mesh, const SkinWeights& weights, bool given,
+             const ParallelFor& parallel, const Motions& out) {
   fill_footprints(fitter.positions, weights, parallel, fitter.footprints);
   struct Task {
     Fitter& fitter;
     const AuthorMesh& mesh;
-    const Placement& placement;
     const Motions& out;
     bool given;
-  } task = {fitter, mesh, placement, out, given};
+  } task = {fitter, mesh, out, given};
   run_tasks(
       parallel, kFitLanes,
       [](void* context, uint32_t index) {
@@ -188,16 +341,20 @@ void fit_all(Fitter& fitter, const AuthorMesh& mesh, const Placement& placement,
           const Span<uint8_t> active = t.out.active_in(s);
           const Span<Affine> motions = t.out.of(s);
           start_rest(t.fitter, t.mesh.shapes[s].displacements, lane);
-          if (!t.given) find_support(t.fitter, lane, active);
-          const bool goes_on = t.given && t.fitter.options.rotations;
-          for (uint32_t j = 0; j < motions.count; ++j) {
-            if (!goes_on || !active[j]) motions[j] = Affine::identity();
+          if (t.given && t.fitter.options.rotations) {
+            improve_motions(t.fitter, lane, active, motions);
+            continue;
           }
-          if (goes_on) {
-            improve_motions(t.fitter, t.placement, lane, active, motions);
+          for (Affine& motion : motions) motion = Affine::identity();
+          const uint32_t jaw = t.fitter.footprints.jaw;
+          if (t.given) {
+            if (jaw != kNone && active[jaw]) open_jaw(t.fitter, lane, motions);
           } else {
-            fit_motions(t.fitter, t.placement, lane, active, motions);
+            const bool opens = open_jaw(t.fitter, lane, motions);
+            find_support(t.fitter, lane, active);
+            if (jaw != kNone) active[jaw] = opens;
           }
+          fit_motions(t.fitter, lane, active, motions);
         }
       },
       &task);

@@ -3,7 +3,8 @@
 // squares, their rotations by block descent, and weights fitted to both.
 //
 // A vertex v goes to v + sum over bones j of w_vj (M_js v - v), where M_js is the rigid motion of
-// bone j at full value of shape s. Bones that do not move with s have the identity.
+// bone j at full value of shape s, including the motion of its parent. A bone that does not move
+// relative to its parent has the motion of the parent; below bones that never move this is the identity.
 #pragma once
 
 #include "author/base/joint_motion.h"
@@ -24,11 +25,14 @@ struct FitOptions {
   double pull = 0.01, lod_pull = 0.0025;
   double support = 1e-3;  // bones with at least this share of the largest energy move with a shape
   double max_degrees = 30;  // rotation of a facial bone by one shape
+  double jaw_share =
+      0.7;  // of the squared motion below the jaw, from which on a shape moves the jaw
 };
 
 struct Motions {
-  Span<Affine> items;    // [shape * bone_count + bone]
-  Span<uint8_t> active;  // likewise: 0 where the motion is the identity by choice
+  Span<Affine> items;  // [shape * bone_count + bone]
+  Span<uint8_t>
+      active;  // likewise: 0 where the bone does not move relative to its parent, by choice
   uint32_t bone_count = 0;
 
   Span<Affine> of(size_t shape) const { return items.slice(shape * bone_count, bone_count); }
@@ -67,17 +71,19 @@ bool make_motions(size_t shapes, size_t bones, Arena& arena, Motions& out);
 /// compared with each other: a jaw with thousands of vertices of teeth would dwarf them.
 void find_support(const Fitter& fitter, FitLane& lane, Span<uint8_t> active);
 
+/// Bones that do not move of their own get the motion of their parent. `active` of the shape.
+void follow_parents(const Footprints& footprints, Span<const uint8_t> active, Span<Affine> motions);
+
 /// Moves active bones further so that they reduce the displacements in `lane.rest`, and leaves the
 /// remainder there.
-void fit_motions(const Fitter& fitter, const Placement& placement, FitLane& lane,
-                 Span<const uint8_t> active, Span<Affine> motions);
+void fit_motions(const Fitter& fitter, FitLane& lane, Span<const uint8_t> active,
+                 Span<Affine> motions);
 
 /// Fits all shapes, with fixed bone positions and `weights`; those of each row are multiplied by
 /// its scale. `given`: `active` is an input, and the fit continues from the current motions if
 /// bones turn.
-void fit_all(Fitter& fitter, const AuthorMesh& mesh, const Placement& placement,
-             const SkinWeights& weights, bool given, const ParallelFor& parallel,
-             const Motions& out);
+void fit_all(Fitter& fitter, const AuthorMesh& mesh, const SkinWeights& weights, bool given,
+             const ParallelFor& parallel, const Motions& out);
 
 /// The weights of each vertex that fit its displacements best, over all shapes. They are not
 /// negative and sum to one. `pull` pulls them to their previous values, `smoothness` to those of

@@ -22,14 +22,24 @@ bool make_footprints(size_t vertex_count, const Placement& placement, uint32_t i
   out.bone_count = static_cast<uint32_t>(bones);
   if (!make(arena, bones + 1, out.starts) || !make(arena, vertex_count * influences, out.entries) ||
       !make(arena, bones * bones, out.gram) || !make(arena, bones, out.moments) ||
-      !make(arena, bones, out.fitted) || !make(arena, bones, out.facial)) {
+      !make(arena, bones, out.fitted) || !make(arena, bones, out.facial) ||
+      !make(arena, bones, out.parents) || !make(arena, bones, out.below_jaw) ||
+      !make(arena, bones, out.on_jaw)) {
     return false;
   }
-  for (size_t j = 0; j < bones; ++j) {
-    out.fitted[j] = is_fitted(placement.bones[j]);
-    out.facial[j] = placement.bones[j].kind == BoneKind::kFacial;
+  for (uint32_t j = 0; j < bones; ++j) {
+    const Bone& bone = placement.bones[j];
+    out.fitted[j] = is_fitted(bone);
+    out.facial[j] = bone.kind == BoneKind::kFacial;
+    out.parents[j] = bone.parent;
+    if (bone.kind == BoneKind::kJaw && out.jaw == kNone) {
+      out.jaw = j;
+      out.jaw_position = bone.position;
+    }
+    out.below_jaw[j] = j == out.jaw || (bone.parent < j && out.below_jaw[bone.parent]);
+    out.on_jaw[j] = out.below_jaw[j] && bone.kind != BoneKind::kTongue;
   }
-  return true;
+  return out.jaw == kNone || make(arena, vertex_count, out.carried);
 }
 
 namespace {
@@ -69,11 +79,26 @@ Moments moments_of(Span<const Vec3> positions, Span<const Influenced> entries) {
   return out;
 }
 
+/// Vertices of the jaw and of all bones below it.
+void list_carried(Span<const Vec3> positions, const SkinWeights& weights, Footprints& out) {
+  out.carried_count = 0;
+  if (out.jaw == kNone) return;
+  for (uint32_t v = 0; v < positions.count; ++v) {
+    double sum = 0;
+    for (size_t i = size_t{v} * weights.m; i < size_t{v + 1} * weights.m; ++i) {
+      if (out.on_jaw[weights.joints[i]]) sum += double{weights.weights[i]};
+    }
+    if (sum > 0) out.carried[out.carried_count++] = {v, static_cast<float>(sum)};
+  }
+  out.carried_moments = moments_of(positions, out.of_jaw());
+}
+
 }  // namespace
 
 void fill_footprints(Span<const Vec3> positions, const SkinWeights& weights,
                      const ParallelFor& parallel, Footprints& out) {
   sort_by_bone(positions.count, weights, out);
+  list_carried(positions, weights, out);
   struct Task {
     Span<const Vec3> positions;
     const SkinWeights& weights;

@@ -26,7 +26,7 @@ struct Moments {
 /// True if a fit may move the bone: root, chest, neck and head do not move.
 inline bool is_fitted(const Bone& bone) {
   return bone.kind == BoneKind::kFacial || bone.kind == BoneKind::kJaw ||
-         bone.kind == BoneKind::kEye;
+         bone.kind == BoneKind::kEye || bone.kind == BoneKind::kTongue;
 }
 
 struct Footprints {
@@ -36,11 +36,26 @@ struct Footprints {
   Span<double> gram;         // bone_count rows: sums of products of weights; 0 for fixed bones
   Span<Moments> moments;     // per bone
   Span<uint8_t> fitted;      // per bone
-  Span<uint8_t> facial;      // per bone: facial, not jaw or eye
-  double damping = 0;        // added to the diagonal of the Gram matrix
+  Span<uint8_t> facial;      // per bone: facial, not jaw, tongue or eye
+  Span<uint32_t> parents;    // per bone
+  // What goes with the first jaw: it and the bones below it, as if they were one; without the tongue, which
+  // moves most of its own.
+  uint32_t jaw = kNone;
+  Vec3 jaw_position;
+  Span<uint8_t> below_jaw;   // per bone: the jaw and what hangs below it
+  Span<uint8_t> on_jaw;      // per bone: the same without the tongue
+  Span<Influenced> carried;  // by them; vertices ascending
+  uint32_t carried_count = 0;
+  Moments carried_moments;
+  double damping = 0;  // added to the diagonal of the Gram matrix
 
   Span<Influenced> of(uint32_t bone) const {
     return entries.slice(starts[bone], starts[bone + 1] - starts[bone]);
+  }
+  Span<Influenced> of_jaw() const { return carried.first(carried_count); }
+  /// Of what moves when the joint does.
+  const Moments& moved_by(uint32_t bone) const {
+    return bone == jaw ? carried_moments : moments[bone];
   }
 };
 

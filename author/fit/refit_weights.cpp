@@ -181,8 +181,9 @@ void sum_shapes(const RefitTask& task, uint32_t v, VertexWeights& w) {
     Vec3 moved[kMaxInfluences];
     bool moves = false;
     for (uint32_t i = 0; i < s.size; ++i) {
-      if (!task.motions.active_in(shape)[w.joints[i]]) continue;
-      moved[i] = task.motions.of(shape)[w.joints[i]](p) - p;
+      const Affine& motion = task.motions.of(shape)[w.joints[i]];
+      if (motion.is_identity()) continue;
+      moved[i] = motion(p) - p;
       moves = true;
     }
     if (!moves) continue;

@@ -118,6 +118,19 @@ bool measure_bones(const Placement& placement, const Motions& motions, Span<cons
 
 }  // namespace
 
+namespace {
+
+/// Jaw and eyes move with few controls, so each has a region of its own.
+void add_rigid_bones(const Footprints& footprints, JointRegions& out) {
+  for (uint32_t j = 0; j < footprints.bone_count; ++j) {
+    if (!footprints.fitted[j] || footprints.facial[j]) continue;
+    if (out.count < kMaxOwnRegions) ++out.count;
+    out.region[j] = static_cast<uint16_t>(out.count - 1);
+  }
+}
+
+}  // namespace
+
 bool find_regions(const Placement& placement, const Footprints& footprints, const Motions& motions,
                   uint32_t wanted, Arena& arena, const Allocator& allocator, JointRegions& out) {
   Arena scratch(allocator);
@@ -131,7 +144,7 @@ bool find_regions(const Placement& placement, const Footprints& footprints, cons
   uint32_t halves = 0, middles = 0, fitted = 0;
   for (uint32_t j = 0; j < bones.count; ++j) {
     out.region[j] = JointRegions::kNoRegion;
-    if (!footprints.fitted[j]) continue;
+    if (!footprints.facial[j]) continue;
     ++fitted;
     if (!placement.symmetric) {
       half[halves++] = j;
@@ -142,7 +155,10 @@ bool find_regions(const Placement& placement, const Footprints& footprints, cons
     }
   }
   out.count = 0;
-  if (fitted == 0) return true;
+  if (fitted == 0) {
+    add_rigid_bones(footprints, out);
+    return true;
+  }
   if (wanted == 0) wanted = std::max(6 * fitted / kRowsPerGroup, 1u);
   wanted = std::min(wanted, kMaxRegions);
 
@@ -150,9 +166,10 @@ bool find_regions(const Placement& placement, const Footprints& footprints, cons
   const bool own_middle = middles > 6;
   if (wanted == 1 || halves == 0) {
     for (uint32_t j = 0; j < bones.count; ++j) {
-      if (footprints.fitted[j]) out.region[j] = 0;
+      if (footprints.facial[j]) out.region[j] = 0;
     }
     out.count = 1;
+    add_rigid_bones(footprints, out);
     return true;
   }
   uint32_t groups = wanted;
@@ -180,6 +197,7 @@ bool find_regions(const Placement& placement, const Footprints& footprints, cons
     out.region[middle[i]] = own_middle ? static_cast<uint16_t>(out.count) : out.region[nearest];
   }
   out.count += own_middle && middles > 0;
+  add_rigid_bones(footprints, out);
   return true;
 }
 
@@ -218,8 +236,10 @@ PruneReport prune(const Placement& placement, const Footprints& footprints,
   const Span<uint8_t> active = motions.active_in(control);
   double all = 0;
   double of_region[kMaxOwnRegions] = {};
+  // Of the bone itself, after its parent has moved.
   const auto effect = [&](uint32_t j) {
-    return effect_of(placement.bones[j], footprints.moments[j], moves[j]);
+    const Bone& bone = placement.bones[j];
+    return effect_of(bone, footprints.moved_by(j), inverse(moves[bone.parent]) * moves[j]);
   };
   for (uint32_t j = 0; j < moves.count; ++j) {
     if (!active[j]) continue;
@@ -227,8 +247,9 @@ PruneReport prune(const Placement& placement, const Footprints& footprints,
     of_region[regions.region[j]] += e * e;
     all += e * e;
   }
+  // Parents last: what they do is measured against.
   PruneReport report;
-  for (uint32_t j = 0; j < moves.count; ++j) {
+  for (uint32_t j = static_cast<uint32_t>(moves.count); j-- > 0;) {
     if (!footprints.fitted[j]) continue;
     const bool owned = all > 0 && of_region[regions.region[j]] >= kOwnedShare * all;
     if (active[j]) {
@@ -240,8 +261,9 @@ PruneReport prune(const Placement& placement, const Footprints& footprints,
         moves[j] = Affine::identity();
       }
     }
-    if (full && owned) active[j] = 1;
+    if (full && owned && footprints.facial[j]) active[j] = 1;
   }
+  follow_parents(footprints, active, moves);
   return report;
 }
 

@@ -19,9 +19,10 @@ constexpr uint32_t kRowsPerGroup = 75;
 constexpr uint32_t kMaxRegions = 24;      // that are found
 constexpr uint32_t kMaxOwnRegions = 256;  // of a caller
 
-/// Average linkage of fitted bones on distance and similarity of motion; the halves of a symmetric
+/// Average linkage of facial bones on distance and similarity of motion; the halves of a symmetric
 /// face get mirrored regions. If `wanted` is 0, regions have about kRowsPerGroup rows each;
-/// there are at most kMaxRegions, and one for bones on the plane.
+/// there are at most kMaxRegions, and one for bones on the plane. The jaw, each eye and each bone of the
+/// tongue get regions of their own.
 /// False if memory ran out.
 bool find_regions(const Placement& placement, const Footprints& footprints, const Motions& motions,
                   uint32_t wanted, Arena& arena, const Allocator& allocator, JointRegions& out);

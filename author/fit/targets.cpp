@@ -66,8 +66,10 @@ void deltas_of_motions(const Placement& placement, const Frame& frame, Motions& 
   for (size_t s = 0; s * bones < motions.items.count; ++s) {
     const uint32_t shape = static_cast<uint32_t>(s);
     for (uint32_t j = 0; j < bones; ++j) {
+      const Bone& bone = placement.bones[j];
+      const Span<const Affine> all = motions.of(s);
       out.at(shape, j) = motions.active_in(s)[j]
-                             ? delta_of_motion(placement.bones[j], frame, motions.of(s)[j])
+                             ? delta_of_motion(bone, frame, inverse(all[bone.parent]) * all[j])
                              : JointDelta();
     }
     pose_bones(placement, frame, out, {&shape, 1}, motions.of(s));
@@ -87,8 +89,9 @@ void pose_bones(const Placement& placement, const Frame& frame, const JointDelta
         shift[k] += double{d.translation[k]};
       }
     }
-    out[j] = moves ? internal_motion(frame, placement.bones[j].position, turn, shift)
-                   : Affine::identity();
+    const Bone& bone = placement.bones[j];
+    const Affine above = bone.parent < j ? out[bone.parent] : Affine::identity();
+    out[j] = moves ? above * internal_motion(frame, bone.position, turn, shift) : above;
   }
 }
 
@@ -106,14 +109,13 @@ struct TargetTask {
   template <class Visit>
   void visit_offsets(uint32_t s, const Visit& visit) const {
     const Affine* pose = motions.of(s).data;
-    const Span<const uint8_t> active = motions.active_in(s);
     for (uint32_t v = 0; v < mesh.positions.count; ++v) {
       const Vec3 d = as_vec3(mesh.shapes[s].displacements[v]), p = mesh.positions[v];
       const Influences i = {&weights.joints[size_t{v} * weights.m],
                             &weights.weights[size_t{v} * weights.m], weights.m};
       bool moves = !is_zero(d);
       for (uint32_t k = 0; k < i.count && !moves; ++k) {
-        moves = active[i.joints[k]] && i.weights[k] > 0;
+        moves = i.weights[k] > 0 && !pose[i.joints[k]].is_identity();
       }
       if (!moves) continue;
       const Vec3f offset = as_vec3f(residual(pose, i, p, p + d));

@@ -85,7 +85,7 @@ struct AuthorMesh {
   double diagonal = 0;  // of the bounding box of the skin: lengths are compared with it
 };
 
-enum class BoneKind : uint8_t { kRoot, kNeck, kHead, kFace, kFacial, kJaw, kEye, kChest };
+enum class BoneKind : uint8_t { kRoot, kNeck, kHead, kFace, kFacial, kJaw, kEye, kChest, kTongue };
 
 struct Bone {
   Name name;
@@ -114,7 +114,7 @@ struct Placement {
       lod_facial_counts;      // facial bones of each LOD, falling; all others are in every LOD
   Span<const uint32_t> mask;  // vertices that facial bones were placed on, ascending
   double symmetry_plane = 0;  // x
-  bool symmetric = false;
+  bool symmetric = false;     // left and right bones are in pairs
   NeckCut neck_cut;
 };
 

@@ -31,10 +31,15 @@ bool solve(double (&a)[N][N + 1]) {
   return true;
 }
 
-Vec3 mean_of(Span<const Vec3> points) {
+Vec3 mean_of(Span<const Vec3> points, Span<const double> weights = {}) {
   Vec3 sum;
-  for (const Vec3& p : points) sum = sum + p;
-  return sum * (1.0 / static_cast<double>(points.count));
+  double all = 0;
+  for (size_t i = 0; i < points.count; ++i) {
+    const double weight = weights.empty() ? 1 : weights[i];
+    sum = sum + points[i] * weight;
+    all += weight;
+  }
+  return sum * (1 / all);
 }
 
 }  // namespace
@@ -68,11 +73,11 @@ bool fit_sphere(Span<const Vec3> points, Sphere& out) {
   return true;
 }
 
-RigidMotion fit_rigid(Span<const Vec3> from, Span<const Vec3> to) {
-  const Vec3 p = mean_of(from), q = mean_of(to);
+RigidMotion fit_rigid(Span<const Vec3> from, Span<const Vec3> to, Span<const double> weights) {
+  const Vec3 p = mean_of(from, weights), q = mean_of(to, weights);
   double s[3][3] = {};
   for (size_t i = 0; i < from.count; ++i) {
-    const Vec3 a = from[i] - p, b = to[i] - q;
+    const Vec3 a = (from[i] - p) * (weights.empty() ? 1 : weights[i]), b = to[i] - q;
     const double av[3] = {a.x, a.y, a.z}, bv[3] = {b.x, b.y, b.z};
     for (int r = 0; r < 3; ++r) {
       for (int c = 0; c < 3; ++c) s[r][c] += av[r] * bv[c];
@@ -175,7 +180,71 @@ uint32_t letters_of(Name name, char (&out)[256]) {
   return count;
 }
 
+bool is_called(Name name, const char* part) {
+  char letters[256];
+  letters_of(name, letters);
+  return strstr(letters, part) != nullptr;
+}
+
 }  // namespace
+
+bool find_tongue(const AuthorMesh& mesh, Arena& scratch, Tongue& out) {
+  constexpr double kLeastMotion = 0.005;  // part of the diagonal
+  out = Tongue();
+  const size_t n = mesh.positions.count, components = mesh.component_count;
+  Span<double> most;
+  Span<uint8_t> named;
+  if (!make(scratch, components, most) || !make(scratch, components, named)) return false;
+  for (const Part& part : mesh.parts) {
+    if (!is_called(part.name, "tongue")) continue;
+    for (uint32_t v = part.first_vertex; v < part.first_vertex + part.vertex_count; ++v) {
+      named[mesh.component[v]] = 1;
+    }
+  }
+  for (const Shape& shape : mesh.shapes) {
+    if (!is_called(shape.name, "tongue")) continue;
+    for (const uint32_t v : shape.moving) {
+      const Vec3f d = shape.displacements[v];
+      double& motion = most[mesh.component[v]];
+      motion = std::max(motion, length({d.x, d.y, d.z}));
+    }
+  }
+  const double least = kLeastMotion * mesh.diagonal;
+  for (uint32_t v = 0; v < n; ++v) {
+    const uint32_t c = mesh.component[v];
+    if (mesh.is_skin[v] || !(named[c] || most[c] > least)) continue;
+    const bool is_better = out.component == kNone || named[c] > named[out.component] ||
+                           (named[c] == named[out.component] && most[c] > most[out.component]);
+    if (is_better) out.component = c;
+  }
+  if (out.component == kNone) return true;
+  // From the root to the tip, which points to the front.
+  double front = 0, back = 0;
+  bool first = true;
+  for (uint32_t v = 0; v < n; ++v) {
+    if (mesh.component[v] != out.component) continue;
+    const double z = mesh.positions[v].z;
+    front = first ? z : std::max(front, z);
+    back = first ? z : std::min(back, z);
+    first = false;
+  }
+  double counts[Tongue::kJoints] = {};
+  for (uint32_t v = 0; v < n; ++v) {
+    if (mesh.component[v] != out.component || mesh.welded[v] != v) continue;
+    const double along = front > back ? (mesh.positions[v].z - back) / (front - back) : 0;
+    const int slice = std::min(Tongue::kJoints - 1, static_cast<int>(along * Tongue::kJoints));
+    out.joints[slice] = out.joints[slice] + mesh.positions[v];
+    counts[slice] += 1;
+  }
+  for (int i = 0; i < Tongue::kJoints; ++i) {
+    if (!(counts[i] > 0)) {
+      out.component = kNone;
+      return true;
+    }
+    out.joints[i] = out.joints[i] * (1 / counts[i]);
+  }
+  return true;
+}
 
 uint32_t jaw_open_shape(const AuthorMesh& mesh) {
   // The simplest name is taken: jawOpen before mouthOpen before jawOpenWide.
@@ -193,7 +262,9 @@ uint32_t jaw_open_shape(const AuthorMesh& mesh) {
 }
 
 bool find_jaw(const AuthorMesh& mesh, double plane, Arena& scratch, Jaw& out) {
-  constexpr size_t kChin = 200;
+  constexpr size_t kChin = 200, kTeeth = 20;
+  constexpr double kPart = 0.5, kAgreed = 0.02;  // of the chin's motion
+  constexpr int kRounds = 30;
   constexpr double kLeastAngle = 2, kLeastMotion = 0.005;  // degrees; part of the diagonal
   out = Jaw();
   out.shape = jaw_open_shape(mesh);
@@ -205,11 +276,12 @@ bool find_jaw(const AuthorMesh& mesh, double plane, Arena& scratch, Jaw& out) {
   };
   Span<Moved> moved;
   if (!make(scratch, shape.moving.count, moved)) return false;
-  size_t count = 0;
+  size_t count = 0, skin = 0;
   for (uint32_t v : shape.moving) {
-    if (!mesh.is_skin[v] || mesh.welded[v] != v) continue;
+    if (mesh.welded[v] != v) continue;
     const Vec3f d = shape.displacements[v];
     moved[count++] = {length({d.x, d.y, d.z}), v};
+    skin += mesh.is_skin[v];
   }
   // Equal motions are ordered by position, not by index, which depends on the file.
   std::sort(moved.data, moved.data + count, [&](const Moved& a, const Moved& b) {
@@ -218,18 +290,45 @@ bool find_jaw(const AuthorMesh& mesh, double plane, Arena& scratch, Jaw& out) {
     if (p.y != q.y) return p.y < q.y;
     return p.z != q.z ? p.z < q.z : p.x < q.x;
   });
-  count = std::min(count, kChin);
-  if (count < 8) return true;
-  Span<Vec3> from, to;
-  if (!make(scratch, count, from) || !make(scratch, count, to)) return false;
-  for (size_t i = 0; i < count; ++i) {
-    const Vec3f d = shape.displacements[moved[i].vertex];
-    from[i] = mesh.positions[moved[i].vertex];
-    to[i] = from[i] + Vec3{d.x, d.y, d.z};
-    out.chin_motion += moved[i].motion / static_cast<double>(count);
+  if (skin < 8) return true;
+  // The chin: the skin that moves most, but for a tenth of it at most.
+  const size_t chin = std::min(kChin, std::max<size_t>(skin / 10, 8));
+  for (size_t i = 0, used = 0; i < count && used < chin; ++i) {
+    if (!mesh.is_skin[moved[i].vertex]) continue;
+    out.chin_motion += moved[i].motion / static_cast<double>(chin);
+    ++used;
   }
-  const RigidMotion motion = fit_rigid(from, to);
+  // What is not skin and goes at least half as far is the lower teeth, and what they carry. Without any, the
+  // chin has to do.
+  const double least = kPart * out.chin_motion;
+  size_t teeth = 0;
+  for (size_t i = 0; i < count && moved[i].motion >= least; ++i) {
+    teeth += !mesh.is_skin[moved[i].vertex];
+  }
+  const bool has_teeth = teeth >= kTeeth;
+  const size_t all = has_teeth ? teeth : chin;
+  Span<Vec3> from, to;
+  Span<double> weights;
+  if (!make(scratch, all, from) || !make(scratch, all, to) || !make(scratch, all, weights)) {
+    return false;
+  }
+  for (size_t i = 0, used = 0; used < all; ++i) {
+    if (bool{mesh.is_skin[moved[i].vertex] != 0} == has_teeth) continue;
+    const Vec3f d = shape.displacements[moved[i].vertex];
+    from[used] = mesh.positions[moved[i].vertex];
+    to[used] = from[used] + Vec3{d.x, d.y, d.z};
+    ++used;
+  }
+  RigidMotion motion = fit_rigid(from, to);
+  // Not all of it is rigid, as a tongue: what is off counts by the inverse of how far.
+  for (int round = 0; round < kRounds && has_teeth; ++round) {
+    for (size_t i = 0; i < all; ++i) {
+      weights[i] = 1 / (length(to[i] - motion(from[i])) + kAgreed * out.chin_motion);
+    }
+    motion = fit_rigid(from, to, weights);
+  }
   out.angle = motion.angle;
+  out.motion = motion;
   if (motion.angle < kLeastAngle || out.chin_motion < kLeastMotion * mesh.diagonal) return true;
 
   // The point of the plane that moves least: (R - I) p + shift, in y and z.
@@ -248,7 +347,7 @@ bool find_jaw(const AuthorMesh& mesh, double plane, Arena& scratch, Jaw& out) {
   out.position = {plane, normal[0][2], normal[1][2]};
   // If the axis is far from the head, the shape does not turn a jaw.
   Vec3 center;
-  for (const Vec3& p : from) center = center + p * (1.0 / static_cast<double>(count));
+  for (const Vec3& p : from) center = center + p * (1.0 / static_cast<double>(all));
   out.found = length(out.position - center) < 0.75 * mesh.diagonal;
   return true;
 }

@@ -19,9 +19,17 @@ struct RigidMotion {
   double rotation[3][3];
   Vec3 shift;        // p -> rotation p + shift
   double angle = 0;  // degrees
+
+  Vec3 operator()(Vec3 p) const {
+    const auto& r = rotation;
+    return Vec3{dot({r[0][0], r[0][1], r[0][2]}, p), dot({r[1][0], r[1][1], r[1][2]}, p),
+                dot({r[2][0], r[2][1], r[2][2]}, p)} +
+           shift;
+  }
 };
-/// The rigid motion that brings `from` nearest to `to`, by least squares (Horn 1987).
-RigidMotion fit_rigid(Span<const Vec3> from, Span<const Vec3> to);
+/// The rigid motion that brings `from` nearest to `to`, by least squares (Horn 1987). Weights: empty for
+/// 1 each.
+RigidMotion fit_rigid(Span<const Vec3> from, Span<const Vec3> to, Span<const double> weights = {});
 
 struct Eye {
   Vec3 center;
@@ -40,12 +48,23 @@ struct Jaw {
   Vec3 position;
   double angle = 0;  // degrees
   uint32_t shape = 0;
-  double chin_motion = 0;  // mean displacement of what moves most
+  double chin_motion = 0;   // mean displacement of what moves most
+  RigidMotion motion = {};  // of that
 };
-/// From the shape named like jawOpen. False if memory ran out.
+/// From the shape named like jawOpen: the rigid motion that most of the lower teeth and of what else goes with
+/// them agrees on; without teeth, that of the chin. False if memory ran out.
 bool find_jaw(const AuthorMesh& mesh, double plane, Arena& scratch, Jaw& out);
 
-/// Index of the shape whose name says that it opens the jaw, or kNone.
+/// A component of its own, called tongue or moved by shapes of that name.
+struct Tongue {
+  static constexpr int kJoints = 3;
+  uint32_t component = kNone;  // kNone: there is none
+  Vec3 joints[kJoints];        // root first
+};
+/// False if memory ran out.
+bool find_tongue(const AuthorMesh& mesh, Arena& scratch, Tongue& out);
+
+/// The number of the shape that opens the jaw by its name, or kNone.
 uint32_t jaw_open_shape(const AuthorMesh& mesh);
 
 }  // namespace mien::author

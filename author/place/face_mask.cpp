@@ -15,7 +15,7 @@ constexpr double kFaceOnlyDepth = 0.75;
 // Motion above which a place is in the mask, relative to the diagonal.
 constexpr double kMoves = 1e-3;
 // Mean distance of mirrored places to the mesh, part of the diagonal of the mask.
-constexpr double kSymmetric = 0.005;
+constexpr double kSymmetric = 0.005, kPaired = 0.05;
 
 }  // namespace
 
@@ -265,6 +265,7 @@ Status find_symmetry(Placing& placing) {
       sum / static_cast<double>(placing.mask.count) / length(high - low);
   placing.symmetric =
       placing.options.symmetry == Symmetry::kOn || placing.report.symmetry_error < kSymmetric;
+  placing.paired = !placing.symmetric && placing.report.symmetry_error < kPaired;
   return Status::kOk;
 }
 

@@ -20,6 +20,7 @@ struct Placing {
   Box box = {};      // of the skin
   double plane = 0;  // x of the plane of symmetry
   bool symmetric = false;
+  bool paired = false;  // or nearly so: bones are in pairs, but each lies where its side is
   Span<uint32_t> skin =
       {};  // places (first vertices) of the skin, sorted by z, y, x, not in the order of the file
   Span<Vec3> points = {};      // their positions
@@ -35,7 +36,7 @@ Status find_skin(Placing& placing);
 Status group_in_depth(Placing& placing);
 /// Fills the mask.
 Status find_mask(Placing& placing);
-/// Decides whether left and right are treated as mirror images.
+/// Decides whether left and right are treated as mirror images, or as pairs of unlike halves.
 Status find_symmetry(Placing& placing);
 /// The trunk of the skeleton.
 struct Body {

@@ -8,6 +8,7 @@
 #include "author/mesh/topology.h"
 #include "author/place/extra_joints.h"
 #include "author/place/face_mask.h"
+#include "author/place/kmeans_run.h"
 #include "author/place/rank.h"
 
 namespace mien::author {
@@ -23,6 +24,7 @@ constexpr double kCheapWork = 4e6;  // points times means times runs
 struct Unit {
   Vec3 position;  // of the left one
   bool pair;
+  Vec3 right;  // of a pair
 };
 
 struct Facial {
@@ -72,7 +74,7 @@ Status pose_problem(Placing& placing, KMeansProblem& out) {
   const uint32_t asked = placing.options.facial_joints;
   const uint32_t k = std::min(asked, static_cast<uint32_t>(n));
   placing.report.asked_joints = asked;
-  if (placing.symmetric) {
+  if (placing.symmetric || placing.paired) {
     double width = 0;
     for (Vec3& p : points) {
       p.x = std::abs(p.x - placing.plane);
@@ -98,6 +100,46 @@ Status pose_problem(Placing& placing, KMeansProblem& out) {
   return Status::kOk;
 }
 
+/// Where halves are unlike, each bone of a pair goes to the mean of what is nearest to it on its own side.
+/// False if memory ran out.
+bool free_units(Placing& placing, Span<const double> weights, Span<Unit> units) {
+  constexpr int kRounds = 8;
+  struct Side {
+    Vec3 at, sum;
+    double weight;
+  };
+  Span<Side> sides;  // left, right of each unit; of one in the middle the left
+  if (!make(placing.scratch, 2 * units.count, sides)) return false;
+  for (size_t u = 0; u < units.count; ++u) {
+    sides[2 * u].at = units[u].position;
+    sides[2 * u + 1].at = units[u].right;
+  }
+  for (int round = 0; round < kRounds; ++round) {
+    for (Side& side : sides) {
+      side.sum = {};
+      side.weight = 0;
+    }
+    for (size_t i = 0; i < placing.mask.count; ++i) {
+      const Vec3 p = placing.points[placing.mask[i]];
+      size_t nearest = 0;
+      for (size_t s = 1; s < sides.count; ++s) {
+        if (s % 2 == 1 && !units[s / 2].pair) continue;
+        if (squared_distance(p, sides[s].at) < squared_distance(p, sides[nearest].at)) nearest = s;
+      }
+      sides[nearest].sum = sides[nearest].sum + p * weights[i];
+      sides[nearest].weight += weights[i];
+    }
+    for (Side& side : sides) {
+      if (side.weight > 0) side.at = side.sum * (1 / side.weight);
+    }
+  }
+  for (size_t u = 0; u < units.count; ++u) {
+    units[u].position = sides[2 * u].at;
+    units[u].right = sides[2 * u + 1].at;
+  }
+  return true;
+}
+
 Status rank_units(Placing& placing, const KMeansRun& chosen, Facial& facial) {
   PlaceReport& report = placing.report;
   const KMeansProblem& problem = facial.problem;
@@ -113,7 +155,8 @@ Status rank_units(Placing& placing, const KMeansRun& chosen, Facial& facial) {
   }
   uint32_t total = 0;
   for (uint32_t c = 0; c < k; ++c) {
-    joints[c] = placing.symmetric && c < problem.free_means ? 2 : 1;
+    const bool in_pairs = placing.symmetric || placing.paired;
+    joints[c] = in_pairs && c < problem.free_means ? 2 : 1;
     total += joints[c];
   }
   if (!rank_by_deletion(problem.points, problem.weights, chosen.means, joints, placing.scratch,
@@ -122,9 +165,10 @@ Status rank_units(Placing& placing, const KMeansRun& chosen, Facial& facial) {
   }
   for (uint32_t rank = 0; rank < k; ++rank) {
     Vec3 p = chosen.means[order[rank]];
-    if (placing.symmetric) p.x += placing.plane;
-    units[rank] = {p, joints[order[rank]] == 2};
+    if (placing.symmetric || placing.paired) p.x += placing.plane;
+    units[rank] = {p, joints[order[rank]] == 2, {2 * placing.plane - p.x, p.y, p.z}};
   }
+  if (placing.paired && !free_units(placing, problem.weights, units)) return no_memory(placing);
   joint_ladder(total, placing.options.lod_joints, counts);
   for (uint32_t lod = 0; lod < counts.count; ++lod) {
     uint32_t kept = 0, rank = 0;
@@ -231,7 +275,8 @@ Status make_bones(Placing& placing, const Facial& facial, const Body& body, Plac
   uint32_t facial_count = 0;
   for (const Unit& unit : facial.units) facial_count += unit.pair ? 2 : 1;
   Bones bones = {placing.arena, {}};
-  constexpr uint32_t kOthers = 5 + Body::kMaxNecks + kMaxEyes;  // root, chest, head, face, jaw
+  // root, chest, head, face, jaw
+  constexpr uint32_t kOthers = 5 + Body::kMaxNecks + Tongue::kJoints + kMaxEyes;
   if (!make(placing.arena, facial_count + kOthers, bones.bones)) return no_memory(placing);
   const uint32_t root = bones.add(Text().add("root"), {}, 0, BoneKind::kRoot);
   uint32_t below = bones.add(Text().add("chest"), body.chest, root, BoneKind::kChest);
@@ -252,25 +297,7 @@ Status make_bones(Placing& placing, const Facial& facial, const Body& body, Plac
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
   naming.width = naming.mask.size().x;
-  out.first_facial = bones.count;
-  for (uint32_t u = 0; u < facial.units.count; ++u) {
-    const Unit& unit = facial.units[u];
-    const double off = unit.position.x - placing.plane;
-    const bool center = placing.symmetric ? !unit.pair : std::abs(off) < kOnPlane * naming.width;
-    const char side = center ? 'C' : off >= 0 ? 'L' : 'R';
-    const uint32_t first = bones.add(naming.facial(unit.position, side, u + 1), unit.position, face,
-                                     BoneKind::kFacial);
-    bones.bones[first].rank = first - out.first_facial;
-    if (!unit.pair) continue;
-    const Vec3 there = {2 * placing.plane - unit.position.x, unit.position.y, unit.position.z};
-    const uint32_t second =
-        bones.add(naming.facial(unit.position, 'R', u + 1), there, face, BoneKind::kFacial);
-    bones.bones[second].rank = second - out.first_facial;
-    bones.bones[first].mirror = second;
-    bones.bones[second].mirror = first;
-  }
-  out.facial_count = bones.count - out.first_facial;
-
+  uint32_t jaw_bone = face;
   if (!placing.options.paper) {
     Jaw jaw;
     if (!find_jaw(placing.mesh, placing.plane, placing.scratch, jaw)) return no_memory(placing);
@@ -278,8 +305,37 @@ Status make_bones(Placing& placing, const Facial& facial, const Body& body, Plac
     report.jaw_angle = jaw.angle;
     if (jaw.found) {
       report.jaw_shape = placing.mesh.shapes[jaw.shape].name;
-      bones.add(Text().add("jaw"), jaw.position, face, BoneKind::kJaw);
+      jaw_bone = bones.add(Text().add("jaw"), jaw.position, face, BoneKind::kJaw);
     }
+    Tongue tongue;
+    if (!find_tongue(placing.mesh, placing.scratch, tongue)) return no_memory(placing);
+    uint32_t above = jaw_bone;
+    for (uint32_t i = 0; i < Tongue::kJoints && tongue.component != kNone; ++i) {
+      Vec3 at = tongue.joints[i];
+      if (placing.symmetric) at.x = placing.plane;
+      above = bones.add(Text().add("tongue").add(uint64_t{i + 1}), at, above, BoneKind::kTongue);
+    }
+  }
+  out.first_facial = bones.count;
+  for (uint32_t u = 0; u < facial.units.count; ++u) {
+    const Unit& unit = facial.units[u];
+    const double off = unit.position.x - placing.plane;
+    const bool in_pairs = placing.symmetric || placing.paired;
+    const bool center = in_pairs ? !unit.pair : std::abs(off) < kOnPlane * naming.width;
+    const char side = center ? 'C' : off >= 0 ? 'L' : 'R';
+    const uint32_t first = bones.add(naming.facial(unit.position, side, u + 1), unit.position, face,
+                                     BoneKind::kFacial);
+    bones.bones[first].rank = first - out.first_facial;
+    if (!unit.pair) continue;
+    const uint32_t second =
+        bones.add(naming.facial(unit.position, 'R', u + 1), unit.right, face, BoneKind::kFacial);
+    bones.bones[second].rank = second - out.first_facial;
+    bones.bones[first].mirror = second;
+    bones.bones[second].mirror = first;
+  }
+  out.facial_count = bones.count - out.first_facial;
+
+  if (!placing.options.paper) {
     Eye eyes[kMaxEyes];
     uint32_t eye_count = 0;
     Span<uint32_t> eye_of;
@@ -296,10 +352,9 @@ Status make_bones(Placing& placing, const Facial& facial, const Body& body, Plac
       bone_of[e] = bones.add(name, eyes[e].center, face, BoneKind::kEye);
       for (uint32_t other = 0; other < e; ++other) {
         const Vec3 a = eyes[e].center, b = eyes[other].center;
-        if (eyes[e].side * eyes[other].side != -1 || a.x - placing.plane != placing.plane - b.x ||
-            a.y != b.y || a.z != b.z) {
-          continue;
-        }
+        const bool is_mirror =
+            a.x - placing.plane == placing.plane - b.x && a.y == b.y && a.z == b.z;
+        if (eyes[e].side * eyes[other].side != -1 || !(is_mirror || placing.paired)) continue;
         bones.bones[bone_of[e]].mirror = bone_of[other];
         bones.bones[bone_of[other]].mirror = bone_of[e];
       }
@@ -309,7 +364,8 @@ Status make_bones(Placing& placing, const Facial& facial, const Body& body, Plac
   if (bones.failed) return no_memory(placing);
   out.bones = bones.bones.first(bones.count);
   out.lod_facial_counts = facial.lod_counts;
-  out.symmetric = placing.symmetric;
+  out.symmetric = placing.symmetric || placing.paired;
+  report.paired = placing.paired;
   out.symmetry_plane = placing.plane;
   out.neck_cut = body.cut;
   return Status::kOk;

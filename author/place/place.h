@@ -52,6 +52,7 @@ struct PlaceReport {
   Vec3 head_mean, neck_mean;
   Throat throat;
   uint32_t mask_positions = 0, added_by_shapes = 0;
+  bool paired = false;        // unlike halves with bones in pairs
   double symmetry_error = 0;  // mean distance of mirrored places to the mesh, part of the diagonal
   uint32_t asked_joints = 0;
   KMeansRun runs[kMaxRuns + 1];

@@ -201,7 +201,7 @@ class RigMaker {
       return false;
     }
     const auto fit_again = [&](FitError& error) {
-      fit_all(fitter, mesh_, placement_, weights, false, options_.parallel, motions_);
+      fit_all(fitter, mesh_, weights, false, options_.parallel, motions_);
       return measure(weights, {}, error);
     };
     fitter.options.rotations = false;
@@ -228,10 +228,10 @@ class RigMaker {
     }
     // Weights are fitted once more to the remaining bones.
     if (!measure(weights, {}, groups.removed)) return false;
-    fit_all(fitter, mesh_, placement_, weights, true, options_.parallel, motions_);
+    fit_all(fitter, mesh_, weights, true, options_.parallel, motions_);
     if (!options_.keep_weights && options_.fit.alternations > 0) {
       if (!refit(mesh_, weights, weights)) return false;
-      fit_all(fitter, mesh_, placement_, weights, true, options_.parallel, motions_);
+      fit_all(fitter, mesh_, weights, true, options_.parallel, motions_);
     }
     if (lods_.count > 1 && !options_.keep_weights && !share_motions(weights)) return false;
     // From here on motions are those that the numbers in the file give.
@@ -291,7 +291,7 @@ class RigMaker {
         if (!fit_lod_weights(l)) return false;
       }
       fill_weights(lods_, stacked);
-      fit_all(fitter, mesh_, placement_, stacked.weights, true, options_.parallel, motions_);
+      fit_all(fitter, mesh_, stacked.weights, true, options_.parallel, motions_);
       if (!refit(mesh_, weights, weights)) return false;
     }
     return true;

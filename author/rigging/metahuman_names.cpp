@@ -18,7 +18,7 @@ bool name_bone(const Text& name, Arena& arena, Name& out) {
 bool name_as_metahuman(Placement& placement, Arena& arena) {
   Span<Bone> bones;
   if (!make(arena, placement.bones.count, bones)) return false;
-  uint32_t necks = 0, eyes[3] = {};
+  uint32_t necks = 0, tongues = 0, eyes[3] = {};
   for (size_t b = 0; b < bones.count; ++b) {
     Bone& bone = bones[b];
     bone = placement.bones[b];
@@ -29,6 +29,7 @@ bool name_as_metahuman(Placement& placement, Arena& arena) {
       case BoneKind::kHead: name.add("head"); break;
       case BoneKind::kFace: name.add("FACIAL_C_FacialRoot"); break;
       case BoneKind::kJaw: name.add("FACIAL_C_Jaw"); break;
+      case BoneKind::kTongue: name.add("FACIAL_C_Tongue").add(uint64_t{++tongues}); break;
       case BoneKind::kEye: {
         const double off = bone.position.x - placement.symmetry_plane;
         const size_t side = off > 0 ? 0 : off < 0 ? 1 : 2;

@@ -151,6 +151,7 @@ const char* kind_name(BoneKind kind) {
     case BoneKind::kJaw: return "jaw";
     case BoneKind::kEye: return "eye";
     case BoneKind::kChest: return "chest";
+    case BoneKind::kTongue: return "tongue";
   }
   return "";
 }
@@ -263,6 +264,25 @@ void write_weights(const char* key, const WeightReport& weights, Json& json) {
   json.key("rigid_components").whole(weights.rigid_components);
   json.key("following_components").whole(weights.following_components);
   json.close("}");
+}
+
+void write_gaze(const Rigging& rigging, Json& json) {
+  constexpr const char* kWays[kGazeWays] = {"left", "right", "up", "down"};
+  constexpr const char* kSources[] = {"none", "shape", "completed", "added"};
+  json.key("gaze").open("[");
+  for (const GazeEye& eye : rigging.gaze.eyes) {
+    if (eye.bone == kNone) continue;
+    json.open("{");
+    json.key("joint").string(rigging.placement.bones[eye.bone].name);
+    for (uint32_t way = 0; way < kGazeWays; ++way) json.key(kWays[way]).string(eye.controls[way]);
+    json.key("sources").open("{");
+    for (uint32_t way = 0; way < kGazeWays; ++way) {
+      json.key(kWays[way]).string(kSources[static_cast<size_t>(eye.sources[way])]);
+    }
+    json.close("}");
+    json.close("}");
+  }
+  json.close("]");
 }
 
 bool write_mask(const MeshSource& source, const Rigging& rigging, Arena& arena, Json& json) {
@@ -405,7 +425,8 @@ bool write_report(const MeshSource& source, const RiggingOptions& options, const
   }
   json.close("}");
   json.key("symmetry").open("{");
-  json.key("enforced").boolean(rigging.placement.symmetric);
+  json.key("enforced").boolean(rigging.placement.symmetric && !place.paired);
+  json.key("paired").boolean(rigging.placement.symmetric);
   json.key("error").number(place.symmetry_error);
   json.key("plane").number(rigging.placement.symmetry_plane);
   json.close("}");
@@ -423,6 +444,7 @@ bool write_report(const MeshSource& source, const RiggingOptions& options, const
     json.word("null");
   }
   json.key("eyes").whole(place.eye_joints);
+  write_gaze(rigging, json);
   write_weights("weights", rigging.made_weights, json);
   if (!mesh.shapes.empty()) write_weights("fitted_weights", rigging.fitted_weights, json);
   write_fit(rigging, json);

@@ -4,6 +4,8 @@
 #include <algorithm>
 
 #include "author/base/dna_making.h"
+#include "author/fit/joint_tree.h"
+#include "author/place/extra_joints.h"
 #include "author/rigging/metahuman_names.h"
 #include "author/rigging/own_stages.h"
 
@@ -81,7 +83,27 @@ class Rigger {
                                              arena_, weights_[0], error_)
                               : weigh_lods();
     if (status != Status::kOk) return status;
-    return measure(out_.made_weights);
+    if (Status measured = measure(out_.made_weights); measured != Status::kOk) return measured;
+    if (has_own_bones() || options_.place.paper) return Status::kOk;
+    return hang_bones() &&
+                   add_gaze_shapes(out_.placement, arena_, allocator_, out_.read.mesh, out_.gaze)
+               ? Status::kOk
+               : no_memory();
+  }
+
+  /// What goes with the jaw hangs below it.
+  bool hang_bones() {
+    Jaw jaw;
+    Arena scratch(allocator_);
+    if (!find_jaw(mesh_, out_.placement.symmetry_plane, scratch, jaw)) return false;
+    if (!jaw.found) return true;
+    const RigidMotion& turn = jaw.motion;
+    Affine opened;
+    for (int r = 0; r < 3; ++r) {
+      opened.rows[r] = {turn.rotation[r][0], turn.rotation[r][1], turn.rotation[r][2]};
+    }
+    opened.shift = turn.shift;
+    return hang_on_jaw(mesh_, mesh_.shapes[jaw.shape], opened, weights_[0], arena_, out_.placement);
   }
 
   Status weigh_lods() {

@@ -5,6 +5,7 @@
 #include "author/mesh/own_lods.h"
 #include "author/place/place.h"
 #include "author/rig_dna/author_rig.h"
+#include "author/rigging/gaze_shapes.h"
 #include "author/weights/skin_weights.h"
 
 namespace mien::author {
@@ -52,6 +53,7 @@ struct Rigging {
   PlaceReport place;
   SkinWeights weights;                        // of LOD 0, as they are written
   WeightReport made_weights, fitted_weights;  // before and after the fit to shapes
+  GazeReport gaze;
   RigReport rig;
   dna::DnaView dna;
 };

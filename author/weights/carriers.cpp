@@ -47,16 +47,31 @@ bool moves_rigidly(const AuthorMesh& mesh, Span<const uint32_t> vertices, Span<V
     const RigidMotion rigid =
         fit_rigid(points.first(vertices.count), targets.first(vertices.count));
     for (size_t i = 0; i < vertices.count; ++i) {
-      const auto& r = rigid.rotation;
-      const Vec3 p = points[i];
-      const Vec3 at = Vec3{dot({r[0][0], r[0][1], r[0][2]}, p), dot({r[1][0], r[1][1], r[1][2]}, p),
-                           dot({r[2][0], r[2][1], r[2][2]}, p)} +
-                      rigid.shift;
-      rest += dot(targets[i] - at, targets[i] - at);
+      const Vec3 off = targets[i] - rigid(points[i]);
+      rest += dot(off, off);
     }
   }
   return rest <= kRigid * motion;
 }
+
+/// Joints from the root of the tongue to its tip.
+struct TongueChain {
+  uint32_t bones[Tongue::kJoints];
+  uint32_t count = 0;
+
+  void add(uint32_t bone) {
+    if (count < Tongue::kJoints) bones[count++] = bone;
+  }
+  /// Two neighbors share what lies between them.
+  void share(const Placement& placement, Vec3 p, InfluenceList& list) const {
+    const auto depth = [&](uint32_t i) { return placement.bones[bones[i]].position.z; };
+    uint32_t i = 0;
+    while (i + 1 < count && p.z > depth(i + 1)) ++i;
+    const double t = i + 1 < count ? smooth_step(depth(i), depth(i + 1), p.z) : 0;
+    list.add(bones[i], 1 - t);
+    if (i + 1 < count) list.add(bones[i + 1], t);
+  }
+};
 
 }  // namespace
 
@@ -99,10 +114,29 @@ bool carry_components(const AuthorMesh& mesh, const Placement& placement, uint32
     if (placement.bones[b].kind == BoneKind::kJaw) jaw_bone = b;
   }
 
+  Tongue tongue;
+  if (!find_tongue(mesh, scratch, tongue)) return false;
+  TongueChain tongue_bones;
+  for (uint32_t b = 0; b < placement.bones.count; ++b) {
+    if (placement.bones[b].kind == BoneKind::kTongue) tongue_bones.add(b);
+  }
+
   const BodyChain body = body_chain(placement);
   for (uint32_t c = 0, from = 0; c < mesh.component_count; from = ends[c++]) {
     const Span<const uint32_t> all = members.slice(from, ends[c] - from);
     if (all.empty() || mesh.is_skin[all[0]]) continue;
+    if (c == tongue.component && tongue_bones.count > 0) {
+      if (report) {
+        ++report->rigid_components;
+        continue;
+      }
+      for (uint32_t v : all) {
+        InfluenceList list;
+        tongue_bones.share(placement, mesh.positions[v], list);
+        store(list, v, out);
+      }
+      continue;
+    }
     Carried part = {Carrier::kRigid, head};
     if (eye_of[c] != kNone) {
       for (uint32_t b = 0; b < placement.bones.count; ++b) {

@@ -125,7 +125,8 @@ enum MienBoneKind {
     MIEN_BONE_FACIAL = 4, /* moves with expressions; each LOD keeps the first n of these */
     MIEN_BONE_JAW = 5,
     MIEN_BONE_EYE = 6,
-    MIEN_BONE_CHEST = 7 /* below the neck */
+    MIEN_BONE_CHEST = 7,  /* below the neck */
+    MIEN_BONE_TONGUE = 8  /* moves with expressions, below the jaw; in every LOD */
 };
 
 /* A bone placed by the caller. */

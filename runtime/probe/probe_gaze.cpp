@@ -141,8 +141,8 @@ Status create_gaze(const Deformer& deformer, const uint32_t (&eyes)[2], const Al
 }
 
 bool find_eyes(const Rig& rig, uint32_t (&eyes)[2]) {
-  eyes[0] = find_joint(rig, {"L_Eye", "FACIAL_L_Eye"});
-  eyes[1] = find_joint(rig, {"R_Eye", "FACIAL_R_Eye"});
+  eyes[0] = find_joint(rig, {"L_Eye", "FACIAL_L_Eye", "eye_l"});
+  eyes[1] = find_joint(rig, {"R_Eye", "FACIAL_R_Eye", "eye_r"});
   return eyes[0] != kNoJoint && eyes[1] != kNoJoint;
 }
 

@@ -12,6 +12,7 @@
 #include <set>
 
 #include "integrations/program/commands/author_images.h"
+#include "integrations/program/commands/author_input.h"
 #include "integrations/program/commands/mesh_view.h"
 #include "integrations/program/commands/options.h"
 #include "integrations/program/io/input.h"
@@ -36,7 +37,8 @@ constexpr int kInterrupted = 130;  // as shells say of a program that Ctrl-C end
 struct AuthorCommand {
   std::string mesh, shapes, unit, object;
   std::string joints = "240", influences = "8", lods = "8", seed = "1", groups = "3", threads = "0";
-  std::string symmetry = "auto", residual = "targets", metric = "depth", up = "y", front = "z";
+  std::string symmetry = "auto", residual = "targets", metric = "depth";
+  std::string up, front;  // empty: guessed
   std::string overlaps = "0", lod_triangles = "0.5";
   std::string report, images, crop, objects, names, preset;
   bool paper = false, no_neck_cut = false, mask_from_shapes = false, area_density = false;
@@ -59,6 +61,20 @@ double parse_share(const char* option, const std::string& word) {
              "give a share: 0.5 keeps half, 1 keeps all");
 }
 
+std::string up_of(const AuthorCommand& command) { return command.up.empty() ? "y" : command.up; }
+std::string front_of(const AuthorCommand& command) {
+  return command.front.empty() ? "z" : command.front;
+}
+
+void set_axes(const AuthorCommand& command, MienAuthorDesc& desc) {
+  const std::string up = up_of(command), front = front_of(command);
+  desc.up = MIEN_MESH_AXIS_X + static_cast<uint32_t>(parse_word("--up", up));
+  desc.front = MIEN_MESH_AXIS_X + static_cast<uint32_t>(parse_word("--front", front));
+  if (up.back() != front.back()) return;
+  fail_usage("--up " + up + " --front " + front, "both are the same axis",
+             "give two different axes");
+}
+
 /// The options, parsed before any file is opened.
 MienAuthorDesc parse_options(const AuthorCommand& command) {
   auto desc = sized<MienAuthorDesc>();
@@ -70,14 +86,9 @@ MienAuthorDesc parse_options(const AuthorCommand& command) {
   desc.seed = parse_number("--seed", command.seed, UINT64_MAX);
   desc.symmetry =
       MIEN_SYMMETRY_AUTO + static_cast<uint32_t>(parse_word("--symmetry", command.symmetry));
-  desc.up = MIEN_MESH_AXIS_X + static_cast<uint32_t>(parse_word("--up", command.up));
-  desc.front = MIEN_MESH_AXIS_X + static_cast<uint32_t>(parse_word("--front", command.front));
-  if (command.up.back() == command.front.back()) {
-    fail_usage("--up " + command.up + " --front " + command.front, "both are the same axis",
-               "give two different axes");
-  }
+  set_axes(command, desc);
   if (!command.unit.empty()) {
-    constexpr double kCentimeters[] = {1, 100, 0.1, 10};
+    constexpr double kCentimeters[] = {1, 100, 0.1, 10, 2.54};
     desc.unit = kCentimeters[parse_word("--unit", command.unit)];
   }
   if (command.paper) desc.flags |= MIEN_AUTHOR_PAPER;
@@ -284,7 +295,7 @@ void note_turned(const AuthorCommand& command, const MeshFile& mesh, const Json&
       high[k] = std::max(high[k], mesh.positions[3 * size_t{v} + k]);
     }
   }
-  const size_t up = static_cast<size_t>(command.up.back() - 'x');
+  const size_t up = static_cast<size_t>(up_of(command).back() - 'x');
   const double height = high[up] - low[up];
   double across = 0;
   for (size_t k = 0; k < 3; ++k) across = std::max(across, high[k] - low[k]);
@@ -295,8 +306,11 @@ void note_turned(const AuthorCommand& command, const MeshFile& mesh, const Json&
   const Json& symmetry = report["symmetry"];
   const double apart = symmetry["error"].get<double>();
   if (command.symmetry == "auto" && !command.paper && !symmetry["enforced"].get<bool>()) {
-    note(session, "the halves of the face differ by " + one_decimal(100 * apart) +
-                      " % of its size, so joints are not mirrored" + how);
+    note(session,
+         "the halves of the face differ by " + one_decimal(100 * apart) +
+             " % of its size, so joints are " +
+             (symmetry["paired"].get<bool>() ? "in pairs, but not mirrored" : "not mirrored") +
+             how);
   }
   if (const Json& groups = report["groups"]; !report["face_only"].get<bool>()) {
     uint64_t positions = 0;
@@ -419,6 +433,95 @@ Json usual_names(const MeshFile& mesh, const Session& session) {
   return usual;
 }
 
+// What the options leave open -------------------------------------------------------------------
+
+MeshStand stand_of(const AuthorCommand& command) {
+  const auto axis_of = [](const std::string& word) {
+    return FileAxis{static_cast<size_t>(word.back() - 'x'), word.size() > 1 ? -1.0 : 1.0};
+  };
+  return {axis_of(up_of(command)), axis_of(front_of(command))};
+}
+
+/// Turns the axes where the mesh says plainly that it stands in another way, and refuses a head that is
+/// turned by an angle that no axes make up for.
+void settle_axes(AuthorCommand& command, const MeshFile& mesh, const Session& session) {
+  const MeshStand given = stand_of(command);
+  const StandGuess guess = guess_stand(mesh, given);
+  const std::string differ = "the halves of the face differ by " +
+                             one_decimal(100 * guess.symmetry_error) + " % of its size";
+  if (guess.turned_degrees != 0 && command.symmetry == "auto") {
+    fail_mesh(shown_name(command.mesh), "",
+              "the head is turned by about " +
+                  std::to_string(std::lround(std::abs(guess.turned_degrees))) +
+                  " degrees about its axis " + std::string(1, "xyz"[guess.turned_about]) + ": " +
+                  differ,
+              "turn it back where it was made, or rig it as it is with --up " + up_of(command) +
+                  " --front " + front_of(command));
+  }
+  const MeshStand& stand = guess.stand;
+  if (stand.up.word() == given.up.word() && stand.front.word() == given.front.word()) return;
+  std::string why = stand.up.axis == given.up.axis && stand.up.sign != given.up.sign
+                        ? "the mesh stands upside down"
+                        : "the mesh looks the other way";
+  if (stand.left_axis() != given.left_axis()) {
+    why = differ;
+  } else if (stand.up.axis != given.up.axis) {
+    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    for (const uint32_t v : mesh.corners) {
+      for (size_t k = 0; k < 3; ++k) {
+        low[k] = std::min(low[k], mesh.positions[3 * size_t{v} + k]);
+        high[k] = std::max(high[k], mesh.positions[3 * size_t{v} + k]);
+      }
+    }
+    const size_t up = given.up.axis, deep = given.front.axis;
+    why = "the mesh is " +
+          std::to_string(std::lround(100 * (high[deep] - low[deep]) / (high[up] - low[up]))) +
+          " % as wide or deep as it is high";
+  }
+  command.up = stand.up.word();
+  command.front = stand.front.word();
+  note(session, why + ", so it is rigged with --up " + command.up + " --front " + command.front +
+                    "; if that is wrong, give both");
+}
+
+std::string limit(double value) {
+  if (!std::isfinite(value)) return "";
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
+/// Of a whole body keeps the head and the shoulders.
+void settle_crop(const AuthorCommand& command, const BodyGuess& body, MeshFile& mesh,
+                 const Session& session) {
+  if (!body.is_body || !command.crop.empty()) return;
+  Crop crop;
+  std::string text;
+  for (int k = 0; k < 3; ++k) {
+    crop.low[k] = body.low[k];
+    crop.high[k] = body.high[k];
+    text += (k > 0 ? "," : "") + limit(body.low[k]) + "," + limit(body.high[k]);
+  }
+  keep_faces(command, crop, mesh);
+  note(session,
+       "the mesh is a whole body, so only its head and shoulders are rigged, as with --crop=" +
+           text + "; if that is wrong, give another box");
+}
+
+/// glTF is in meters. Of other meshes the size of the head tells the unit.
+void settle_unit(const AuthorCommand& command, const BodyGuess& body, const MeshFile& mesh,
+                 MienAuthorDesc& desc, const Session& session) {
+  if (!command.unit.empty()) return;
+  desc.unit = mesh.in_meters ? 100 : 1;
+  if (mesh.in_meters) return;
+  const double height = body.head_height > 0 ? body.head_height : body.height;
+  const UnitGuess unit = guess_unit(height);
+  desc.unit = unit.centimeters;
+  if (unit.centimeters == 1) return;
+  note(session, "the head is " + limit(height) + " units high, so the unit is taken to be " +
+                    unit.name + "; if that is wrong, give it with --unit");
+}
+
 /// A folder for images, made if it is missing, and removed again if nothing was put into it.
 class ImageFolder {
  public:
@@ -456,7 +559,7 @@ std::vector<AuthorImage> draw_images(const AuthorCommand& command, const MienAut
   return made_images;
 }
 
-void run(const AuthorCommand& command, const Session& session) {
+void run(AuthorCommand command, const Session& session) {
   MienAuthorDesc desc = parse_options(command);
   const Crop crop = command.crop.empty() ? Crop{} : parse_crop(command.crop);
   refuse_terminal(command.output.path, session, "a DNA file");
@@ -478,8 +581,11 @@ void run(const AuthorCommand& command, const Session& session) {
   if (!command.names.empty()) rename_shapes(command, file);
   if (!command.preset.empty()) name_as_metahuman(file, session);
   if (!command.crop.empty() || !command.objects.empty()) keep_faces(command, crop, file);
-  // glTF is in meters.
-  if (command.unit.empty()) desc.unit = file.in_meters ? 100 : 1;
+  if (command.up.empty() && command.front.empty()) settle_axes(command, file, session);
+  set_axes(command, desc);
+  const BodyGuess body = guess_body(file, stand_of(command));
+  settle_crop(command, body, file, session);
+  settle_unit(command, body, file, desc, session);
 
   Made made = make_rig(command, desc, file, session);
   made.report["names"] = usual_names(file, session);
@@ -557,11 +663,18 @@ Command add_author_command(CLI::App& app, const Session& session) {
       ->type_name("N");
   author->add_flag("--paper", options->paper,
                    "The published method alone: no symmetry, no weights by motion");
-  author->add_option("--unit", options->unit, "Of MESH: cm (default of OBJ), m (of GLB), mm or dm")
+  author
+      ->add_option(
+          "--unit", options->unit,
+          "Of MESH: cm, m, mm, dm or in (default: m for GLB, else by\nthe size of the head)")
       ->type_name("NAME");
-  author->add_option("--up", options->up, "Axis to the top of the head (default: y)")
+  author
+      ->add_option("--up", options->up,
+                   "Axis to the top of the head (default: y, or as the mesh\nstands)")
       ->type_name("AXIS");
-  author->add_option("--front", options->front, "Axis out of the face (default: z)")
+  author
+      ->add_option("--front", options->front,
+                   "Axis out of the face (default: z, or as the mesh stands)")
       ->type_name("AXIS");
   author->add_option("--face-object", options->object, "Object with the face (default: found)")
       ->type_name("NAME");

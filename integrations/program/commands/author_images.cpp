@@ -265,6 +265,8 @@ std::vector<AuthorImage> draw_author_images(const MadeRig& made, const Session& 
   progress.at(5);
   images.push_back({"head-turn.png", draw_head_turns(made, source, bones)});
   progress.at(6);
+  if (!report["jaw"].is_null()) images.push_back({"jaw.png", draw_jaw(made, source, bones)});
+  if (!report["gaze"].empty()) images.push_back({"eyes.png", draw_eyes(made, source, bones)});
   if (!report["fit"].is_null()) images.push_back({"shapes.png", draw_shapes(made, source)});
   return images;
 }

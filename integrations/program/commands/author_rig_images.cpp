@@ -161,6 +161,19 @@ namespace {
 
 // Turns ----------------------------------------------------------------------------------------------
 
+constexpr uint32_t kNoControl = ~uint32_t{0};
+constexpr Color kEyeball = {240, 240, 238}, kIris = {92, 130, 160}, kPupil = {24, 24, 28};
+constexpr render::View kEyeView = {0, 0, 22, 1.6f};
+
+/// The raw control of the name, or kNoControl.
+uint32_t find_raw_control(const MienRig* rig, const Json& name) {
+  uint32_t control = 0;
+  const bool found =
+      name.is_string() && mien_rig_find(rig, MIEN_KIND_RAW_CONTROL, name.get<std::string>().c_str(),
+                                        &control) == MIEN_OK;
+  return found ? control : kNoControl;
+}
+
 /// Poses the scene with one joint turned by these degrees about the axes of the head.
 void turn_joint(PosedScene& scene, size_t joint, const Vec3& degrees) {
   const Vec3 about =
@@ -177,6 +190,94 @@ void turn_joint(PosedScene& scene, size_t joint, const Vec3& degrees) {
 }
 
 }  // namespace
+
+render::Image draw_jaw(const MadeRig& made, const Source& source, const std::vector<Bone>& bones) {
+  const Studio studio(source, kSmallTile);
+  const Json& jaw = made.report["jaw"];
+  size_t joint = 0;
+  while (joint + 1 < bones.size() && bones[joint].kind != "jaw") ++joint;
+  const float open = jaw["degrees"].get<float>();
+  const struct {
+    const char* name;
+    Vec3 degrees;
+    render::View view;
+  } turns[] = {
+      {"jaw at rest", {}, kThreeQuarter},
+      {"turned by half", {open / 2, 0, 0}, kThreeQuarter},
+      {"turned as far as it opens", {open, 0, 0}, kThreeQuarter},
+      {"from the side", {open, 0, 0}, kSide},
+      {"to the left", {0, 8, 0}, kFront},
+  };
+  const uint32_t opens = find_raw_control(made.scene.rig.get(), jaw["shape"]);
+  render::Sheet sheet = studio.sheet(std::size(turns) + (opens != kNoControl), 3);
+  for (const auto& turn : turns) {
+    turn_joint(made.scene, joint, turn.degrees);
+    sheet.add(render_image(made.scene.surfaces(), studio.face_camera(turn.view), studio.options),
+              turn.name);
+  }
+  Frame frame;
+  if (opens != kNoControl) frame.raw.push_back({opens, 1.0f});
+  pose_scene(made.scene, frame);
+  if (opens != kNoControl) {
+    sheet.add(
+        render_image(made.scene.surfaces(), studio.face_camera(kThreeQuarter), studio.options),
+        "control " + jaw["shape"].get<std::string>());
+  }
+  pose_scene(made.scene, {});
+  return sheet.image();
+}
+
+namespace {
+
+/// Eyeballs of any rig: what turns with the joint of an eye, with a pupil where it looks.
+std::vector<std::vector<uint8_t>> paint_eyeballs(const PosedScene& scene,
+                                                 const std::vector<Bone>& bones) {
+  std::vector<std::vector<uint8_t>> colors;
+  for (const SceneMesh& mesh : scene.meshes) {
+    std::vector<uint8_t>& painted = colors.emplace_back(3 * size_t{mesh.neutral.position_count});
+    for (uint32_t p = 0; p < mesh.neutral.position_count; ++p) {
+      MienIndex16View joints{};
+      MienFloatView weights{};
+      check(mien_deformer_influences(scene.deformer.get(), mesh.mesh, p, &joints, &weights),
+            nullptr, "cannot draw eyes", mesh.name);
+      Color color = kPlain;
+      for (size_t i = 0; i < joints.count; ++i) {
+        const Bone& bone = bones[joints.data[i]];
+        if (bone.kind != "eye" || weights.data[i] < 0.5f) continue;
+        const Vec3 out = math::load3(mesh.neutral.positions.data, p) - bone.position;
+        const float ahead = dot(out, scene.axes.front) / length(out);
+        color = ahead > 0.97f ? kPupil : ahead > 0.87f ? kIris : kEyeball;
+      }
+      paint(painted, p, color);
+    }
+  }
+  return colors;
+}
+
+}  // namespace
+
+render::Image draw_eyes(const MadeRig& made, const Source& source, const std::vector<Bone>& bones) {
+  const Studio studio(source, kSmallTile);
+  render::Sheet sheet = studio.sheet(6, 3);
+  const std::vector<std::vector<uint8_t>> colors = paint_eyeballs(made.scene, bones);
+  const auto add = [&](const Frame& frame, const std::string& name) {
+    pose_scene(made.scene, frame);
+    sheet.add(
+        render_image(colored(made.scene, colors), studio.face_camera(kEyeView), studio.options),
+        name);
+  };
+  add({}, "eyes at rest");
+  for (const char* way : {"left", "right", "up", "down"}) {
+    Frame frame;
+    for (const Json& eye : made.report["gaze"]) {
+      const uint32_t control = find_raw_control(made.scene.rig.get(), eye[way]);
+      if (control != kNoControl) frame.raw.push_back({control, 1.0f});
+    }
+    add(frame, std::string("looking ") + way);
+  }
+  pose_scene(made.scene, {});
+  return sheet.image();
+}
 
 render::Image draw_head_turns(const MadeRig& made, const Source& source,
                               const std::vector<Bone>& bones) {

@@ -93,6 +93,12 @@ render::Image draw_weights(const MadeRig& made, const Source& source,
 render::Image draw_head_turns(const MadeRig& made, const Source& source,
                               const std::vector<Bone>& bones);
 
+/// The joint of the jaw turned alone, beside the control that opens it. There has to be a jaw.
+render::Image draw_jaw(const MadeRig& made, const Source& source, const std::vector<Bone>& bones);
+
+/// The eyes looking to the left, right, up and down, by the controls that turn them. There have to be some.
+render::Image draw_eyes(const MadeRig& made, const Source& source, const std::vector<Bone>& bones);
+
 /// Shapes, what the rig makes of them, and what is left to do. There have to be some.
 render::Image draw_shapes(const MadeRig& made, const Source& source);
 

@@ -49,7 +49,7 @@ const OptionWords kOptionWords[] = {
     {"--symmetry", {"auto", "on", "off"}},
     {"--residual", {"targets", "off"}},
     {"--metric", {"depth", "euclid3"}},
-    {"--unit", {"cm", "m", "mm", "dm"}},
+    {"--unit", {"cm", "m", "mm", "dm", "in"}},
     {"--up", {"x", "y", "z", "-x", "-y", "-z"}},
     {"--front", {"x", "y", "z", "-x", "-y", "-z"}},
     {"SHELL", {"bash", "zsh", "fish"}},

@@ -58,6 +58,22 @@ def bust(rows=40, columns=48):
     return positions, faces, shapes
 
 
+def ball(positions, faces, center, radius, rows=10, columns=16):
+    """Adds a sphere."""
+    first = len(positions)
+    for r in range(rows + 1):
+        up, out = math.cos(math.pi * r / rows), math.sin(math.pi * r / rows)
+        for c in range(columns):
+            turn = 2 * math.pi * c / columns
+            positions.append((center[0] + radius * out * math.sin(turn), center[1] + radius * up,
+                              center[2] + radius * out * math.cos(turn)))
+    for r in range(rows):
+        for c in range(columns):
+            d = (c + 1) % columns
+            faces.append(tuple(first + i for i in (r * columns + d, r * columns + c, (r + 1) * columns + c,
+                                                   (r + 1) * columns + d)))
+
+
 def obj(positions, faces, names=None):
     lines = [f"v {x} {y} {z}" for x, y, z in positions]
     for at, face in enumerate(faces):
@@ -235,6 +251,110 @@ class AuthorTest(ProgramTest):
         report = self.author(path("demo.glb"), "--joints", "30", "--lods", "1")
         self.assertEqual(len(report["fit"]["per_shape"]), 52)
         self.assertLess(report["fit"]["error"], 0.2)
+        # Shapes turn the eyes; scenes do so without being told which joints they are.
+        self.assertEqual([eye["joint"] for eye in report["gaze"]], ["eye_l", "eye_r"])
+        self.assertEqual(report["gaze"][0]["sources"]["left"], "shape")
+        self.looks_to_the_left("out.dna", "eyeLookOutLeft")
+
+    def looks_to_the_left(self, rig, control):
+        write("look.json", json.dumps({"seconds": 1, "layers": [
+            {"name": "eyes", "group": "life", "source": {"generator": "gaze"}}],
+            "events": [{"time": 0, "variable": "gaze.x", "value": 0.3}]}))
+        played = json.loads(self.ok("play", path("look.json"), path(rig), "-q").stdout)
+        self.assertGreater(played["frames"][-1]["raw"][played["controls"].index(control)], 0.2)
+
+    def test_eyes_of_a_mesh_without_shapes_look_around(self):
+        positions, faces, starts = list(POSITIONS), list(FACES), {0: "skin"}
+        for name, x in (("left", 3), ("right", -3)):
+            starts[len(faces)] = name
+            ball(positions, faces, (x, 1, 7.5), 1.2)
+        report = self.author(write("eyes.obj", obj(positions, faces, starts)), "--joints", "20", "--lods", "1",
+                             "--pictures", path("look"))
+        self.assertEqual([eye["left"] for eye in report["gaze"]], ["eyeLookOutLeft", "eyeLookInRight"])
+        self.assertEqual(set(report["gaze"][1]["sources"].values()), {"added"})
+        self.assertIn("eyes.png", self.pictures("look"))
+        self.looks_to_the_left("out.dna", "eyeLookOutLeft")
+
+    def test_the_size_of_the_head_tells_the_unit(self):
+        plain = self.author(path("head.obj"), "--joints", "20", "--lods", "1", name="plain")
+        for unit, scale in (("mm", 10), ("m", 0.01), ("dm", 0.1), ("in", 1 / 2.54)):
+            scaled = write("scaled.obj", obj([tuple(scale * c for c in p) for p in POSITIONS], FACES))
+            said = run("author", scaled, "--joints", "20", "--lods", "1", "-o", path("scaled.dna"), "--report",
+                       path("scaled.json"))
+            self.assertEqual(said.returncode, DONE)
+            self.assertRegex(said.stderr, f"the unit is taken to be {unit};.*--unit")
+            for a, b in zip(plain["bones"], json.loads(read("scaled.json"))["bones"]):
+                for here, there in zip(a["position"], b["position"]):
+                    self.assertAlmostEqual(here, there, places=3)
+            self.assertNotIn("--unit", run("author", scaled, "--joints", "20", "--lods", "1", "--unit", unit, "-o",
+                                           path("scaled.dna")).stderr)
+
+    def test_a_head_that_stands_in_another_way_is_turned(self):
+        plain = self.author(path("head.obj"), "--joints", "20", "--lods", "1", name="plain")
+        ways = {"down": (lambda x, y, z: (-x, -y, z), "--up -y --front z"),
+                "back": (lambda x, y, z: (-x, y, -z), "--up y --front -z"),
+                "lying": (lambda x, y, z: (x, -z, y), "--up z --front -y"),
+                "aside": (lambda x, y, z: (z, y, -x), "--up y --front x")}
+        for name, (turn, axes) in ways.items():
+            mesh = write(name + ".obj", obj([turn(*p) for p in POSITIONS], FACES))
+            said = run("author", mesh, "--joints", "20", "--lods", "1", "-o", path("way.dna"), "--report",
+                       path("way.json"))
+            self.assertEqual(said.returncode, DONE)
+            self.assertIn(axes, said.stderr, name)
+            for a, b in zip(plain["bones"], json.loads(read("way.json"))["bones"]):
+                for here, there in zip(turn(*a["position"]), b["position"]):
+                    self.assertAlmostEqual(here, there, places=2)
+
+    def test_a_head_that_is_turned_by_other_angles_is_refused(self):
+        for name, axis, turn in (("yaw", "y", lambda x, y, z, c, s: (c * x + s * z, y, c * z - s * x)),
+                                 ("roll", "z", lambda x, y, z, c, s: (c * x + s * y, c * y - s * x, z))):
+            angle = math.radians(20)
+            mesh = write(name + ".obj", obj([turn(*p, math.cos(angle), math.sin(angle)) for p in POSITIONS], FACES))
+            self.fails(INVALID, "author", mesh, "-o", path("no.dna"), says="turned by about 20 degrees about its axis "
+                       + axis)
+            self.assertEqual(run("author", mesh, "--joints", "20", "--lods", "1", "--up", "y", "--front", "z", "-o",
+                                 path("turned.dna")).returncode, DONE)
+
+    def test_a_body_is_cropped_by_itself(self):
+        positions, faces = list(POSITIONS), list(FACES)
+        rings = 48
+        rows = [(-18.5, 20, 9)] + [(y, 20, 11) for y in range(-22, -140, -4)]
+        for r, (y, width, depth) in enumerate(rows):
+            start = len(positions)
+            for c in range(rings):
+                turn = 2 * math.pi * c / rings
+                positions.append((width * math.sin(turn), y, depth * math.cos(turn)))
+            for c in range(rings):
+                d = (c + 1) % rings
+                above = start - rings if r > 0 else 0
+                faces.append((start + c, start + d, above + d, above + c))
+        said = run("author", write("tall.obj", obj(positions, faces)), "--joints", "20", "--lods", "1", "-o",
+                   path("tall.dna"), "--report", path("tall.json"))
+        self.assertEqual(said.returncode, DONE, said.stderr)
+        self.assertRegex(said.stderr, "whole body, so only its head and shoulders are rigged, as with --crop=")
+        report = json.loads(read("tall.json"))
+        self.assertIsNotNone(report["throat"])
+        head = next(b for b in report["bones"] if b["kind"] == "head")
+        self.assertTrue(-16 < head["position"][1] < 6, head)
+
+    def test_halves_that_differ_have_joints_in_pairs(self):
+        def bent(x, y, z):
+            return (x + 0.05 * z * (y > -5) + 0.6 * math.exp(-((x - 4) ** 2 + (y + 4) ** 2) / 8), y, z)
+        mesh = write("bent.obj", obj([bent(*p) for p in POSITIONS], FACES))
+        report = self.author(mesh, "--joints", "30", "--lods", "1")
+        self.assertFalse(report["symmetry"]["enforced"])
+        self.assertTrue(report["symmetry"]["paired"], report["symmetry"])
+        bones = report["bones"]
+        facial = [b for b in bones if b["kind"] == "facial"]
+        left = [b["name"] for b in facial if b["name"].startswith("FACIAL_L_")]
+        right = [b["name"] for b in facial if b["name"].startswith("FACIAL_R_")]
+        self.assertEqual([name.replace("_L_", "_R_") for name in left], right)
+        self.assertGreater(len(left), 8)
+        for b in facial:
+            mirror = bones[b["mirror"]]
+            self.assertEqual(bones[mirror["mirror"]], b)
+        free = sum(abs(b["position"][1] - bones[b["mirror"]]["position"][1]) > 1e-4 for b in facial)
+        self.assertGreater(free, 4)
 
     def test_unit_and_axes_change_nothing_but_those_of_the_file(self):
         turned = [(10 * x, -10 * z, 10 * y) for x, y, z in POSITIONS]
@@ -411,7 +531,7 @@ class AuthorTest(ProgramTest):
         return sorted(os.listdir(path(name)))
 
     def test_pictures_show_what_there_is_to_show(self):
-        all_of_them = ["bones.png", "groups.png", "head-turn.png", "lods.png", "mask.png", "shapes.png",
+        all_of_them = ["bones.png", "groups.png", "head-turn.png", "jaw.png", "lods.png", "mask.png", "shapes.png",
                        "weights.png"]
         self.author(path("head.glb"), "--joints", "30", "--lods", "2", name="plain")
         report = self.author(path("head.glb"), "--joints", "30", "--lods", "2", "--pictures",

@@ -64,6 +64,12 @@ class Tutorials(unittest.TestCase):
         lines = (Path(self.folder) / "take-joints.csv").read_text(encoding="utf-8").splitlines()
         self.assertEqual(len(lines), 121)
 
+    def test_scan_to_rig(self):
+        printed = self.follow("scan-to-rig", ["talker.dna", "report.json", "pictures/jaw.png", "pictures/eyes.png",
+                                              "pictures/head-turn.png", "talk.png", "talk.glb"])
+        self.assertRegex(printed, r"jawOpen turns the jaw by 2\d degrees")
+        self.assertIn("eye_r looks up with eyeLookUpRight: shape", printed)
+
     def test_viewers(self):
         self.follow("viewers", ["head.glb", "arkit.glb", "smile.obj", "smile.mtl"])
 

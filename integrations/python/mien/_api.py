@@ -621,6 +621,8 @@ class BoneKind(IntEnum):
     EYE = 6
     #: below the neck
     CHEST = 7
+    #: moves with expressions, below the jaw; in every LOD
+    TONGUE = 8
 
 
 class Symmetry(IntEnum):

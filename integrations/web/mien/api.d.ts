@@ -605,6 +605,8 @@ export declare const BoneKind: {
   readonly EYE: 6;
   /** below the neck */
   readonly CHEST: 7;
+  /** moves with expressions, below the jaw; in every LOD */
+  readonly TONGUE: 8;
 };
 export type BoneKind = (typeof BoneKind)[keyof typeof BoneKind];
 

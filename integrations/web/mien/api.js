@@ -317,6 +317,7 @@ export const BoneKind = Object.freeze({
   JAW: 5,
   EYE: 6,
   CHEST: 7,
+  TONGUE: 8,
 });
 
 export const Symmetry = Object.freeze({

@@ -132,7 +132,7 @@ struct Fitted {
     EXPECT_TRUE(make_fitter(setup.mesh.positions, setup.placement, setup.weights.m, options, arena,
                             fitter));
     EXPECT_TRUE(make_motions(setup.shapes.size(), setup.bones.size(), arena, motions));
-    fit_all(fitter, setup.mesh, setup.placement, setup.weights, false, parallel, motions);
+    fit_all(fitter, setup.mesh, setup.weights, false, parallel, motions);
   }
   double error(const AuthorSetup& setup) {
     FitError error;
@@ -366,7 +366,7 @@ TEST(FitShapes, ErrorsFallWithRotationsAlternationsAndBones) {
   double last = turned_error;
   for (int i = 0; i < 3; ++i) {
     refit(few.mesh, turned_too.motions, {}, {}, few.weights, few.weights);
-    fit_all(turned_too.fitter, few.mesh, few.placement, few.weights, false, {}, turned_too.motions);
+    fit_all(turned_too.fitter, few.mesh, few.weights, false, {}, turned_too.motions);
     const double error = turned_too.error(few);
     EXPECT_LT(error, 1.02 * last);
     last = error;
@@ -381,7 +381,7 @@ TEST(FitShapes, ErrorsFallWithInfluences) {
     make_author_head(5, 40, influences, 1, head);
     Fitted fitted(head);
     refit(head.mesh, fitted.motions, {}, {}, head.weights, head.weights);
-    fit_all(fitted.fitter, head.mesh, head.placement, head.weights, false, {}, fitted.motions);
+    fit_all(fitted.fitter, head.mesh, head.weights, false, {}, fitted.motions);
     const double error = fitted.error(head);
     EXPECT_LT(error, 1.02 * last) << influences;
     last = error;
@@ -473,8 +473,8 @@ TEST(FitShapes, OrderOfVerticesUnitAndPlaceDoNotMatter) {
     }
     refit(head.mesh, a.motions, {}, {}, head.weights, head.weights);
     refit(other.mesh, b.motions, {}, {}, other.weights, other.weights);
-    fit_all(a.fitter, head.mesh, head.placement, head.weights, false, {}, a.motions);
-    fit_all(b.fitter, other.mesh, other.placement, other.weights, false, {}, b.motions);
+    fit_all(a.fitter, head.mesh, head.weights, false, {}, a.motions);
+    fit_all(b.fitter, other.mesh, other.weights, false, {}, b.motions);
   }
 }
 
@@ -491,8 +491,8 @@ TEST(FitShapes, TheOrderOfTasksDoesNotMatter) {
   Fitted x(a), y(b, {}, backwards);
   refit(a.mesh, x.motions, {}, {}, a.weights, a.weights);
   refit(b.mesh, y.motions, {}, backwards, b.weights, b.weights);
-  fit_all(x.fitter, a.mesh, a.placement, a.weights, false, {}, x.motions);
-  fit_all(y.fitter, b.mesh, b.placement, b.weights, false, backwards, y.motions);
+  fit_all(x.fitter, a.mesh, a.weights, false, {}, x.motions);
+  fit_all(y.fitter, b.mesh, b.weights, false, backwards, y.motions);
   EXPECT_EQ(a.weight_values, b.weight_values);
   EXPECT_EQ(a.joints, b.joints);
   for (size_t i = 0; i < x.motions.items.count; ++i) {

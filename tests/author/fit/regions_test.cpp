@@ -97,7 +97,7 @@ struct TwoSides : AuthorSetup {
     FitOptions options;
     EXPECT_TRUE(make_fitter(mesh.positions, placement, 1, options, arena, fitter));
     EXPECT_TRUE(make_motions(2, bones.size(), arena, motions));
-    fit_all(fitter, mesh, placement, weights, false, {}, motions);
+    fit_all(fitter, mesh, weights, false, {}, motions);
   }
   void find(uint32_t wanted) {
     EXPECT_TRUE(find_regions(placement, fitter.footprints, motions, wanted, arena,

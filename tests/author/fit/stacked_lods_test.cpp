@@ -104,8 +104,8 @@ TEST(StackLods, ThoseOfLodZeroAloneAreFittedAsTheMeshIs) {
   fitters[1].positions = stacked.positions;
   fitters[1].vertices = stacked.vertices;
   fitters[1].scales = stacked.scales;
-  fit_all(fitters[0], head.mesh, head.placement, head.weights, false, {}, motions[0]);
-  fit_all(fitters[1], head.mesh, head.placement, stacked.weights, false, {}, motions[1]);
+  fit_all(fitters[0], head.mesh, head.weights, false, {}, motions[0]);
+  fit_all(fitters[1], head.mesh, stacked.weights, false, {}, motions[1]);
   double moved = 0;
   for (size_t i = 0; i < motions[0].items.count; ++i) {
     const Affine &a = motions[0].items[i], &b = motions[1].items[i];
@@ -129,7 +129,7 @@ TEST(FitShapes, GivenMotionsAreImproved) {
   ASSERT_TRUE(make_motions(head.shapes.size(), head.bones.size(), arena, motions));
   double before = HUGE_VAL;
   const std::vector<uint8_t> active = [&] {
-    fit_all(fitter, head.mesh, head.placement, head.weights, false, {}, motions);
+    fit_all(fitter, head.mesh, head.weights, false, {}, motions);
     return std::vector<uint8_t>(motions.active.begin(), motions.active.end());
   }();
   for (int i = 0; i < 4; ++i) {
@@ -137,7 +137,7 @@ TEST(FitShapes, GivenMotionsAreImproved) {
     ASSERT_TRUE(measure_fit(head.mesh, head.weights, motions, {}, {}, arena, error));
     EXPECT_LT(error.error, before);
     before = error.error;
-    fit_all(fitter, head.mesh, head.placement, head.weights, true, {}, motions);
+    fit_all(fitter, head.mesh, head.weights, true, {}, motions);
   }
   EXPECT_TRUE(std::equal(active.begin(), active.end(), motions.active.begin()));
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <memory>
 
+#include "author/place/extra_joints.h"
 #include "tests/support/mesh_source.h"
 #include "tests/support/posed_skeleton.h"
 #include "tests/support/real_meshes.h"
@@ -128,6 +129,85 @@ TEST_P(Skeleton, FacialJointsTakeNothingFromTheNeckAndTheChest) {
               1.35 * std::max(0.0, (p.y - cut().base) / (p.y - cut().base - above)) + 1e-3);
   }
   EXPECT_GT(on_the_chest, 20u);
+}
+
+/// Rows of the joint matrix: what the control does to attribute a of the joint; 0 where nothing is stored.
+float stored_value(const dna::DnaView& dna, uint32_t joint, uint32_t attribute, uint32_t control) {
+  for (const dna::JointGroup& group : dna.bhvr.joints.groups) {
+    for (uint32_t r = 0; r < group.output_indices.count; ++r) {
+      if (group.output_indices[r] != joint * 9 + attribute) continue;
+      for (uint32_t c = 0; c < group.input_indices.count; ++c) {
+        if (group.input_indices[c] == control) {
+          return group.values[r * group.input_indices.count + c];
+        }
+      }
+    }
+  }
+  return 0;
+}
+
+double turn_of(const dna::DnaView& dna, uint32_t joint, uint32_t control) {
+  double square = 0;
+  for (uint32_t a = 3; a < 6; ++a) {
+    const double angle = double{stored_value(dna, joint, a, control)};
+    square += angle * angle;
+  }
+  return std::sqrt(square);
+}
+
+TEST_P(Skeleton, TheJawTurnedAloneOpensTheMouth) {
+  const PlaceReport& place = rig().place;
+  ASSERT_TRUE(place.jaw_joint);
+  const uint32_t jaw = bone_named(rig(), "jaw");
+  const uint32_t open = jaw_open_shape(mesh());
+  ASSERT_NE(open, kNone);
+  const Shape& shape = mesh().shapes[open];
+  const std::vector<Vec3> posed = turned(rig(), jaw, {place.jaw_angle, 0, 0});
+  double wanted = 0, left = 0, most = 0, above = 0;
+  for (uint32_t v = 0; v < posed.size(); ++v) {
+    const Vec3f f = shape.displacements[v];
+    const Vec3 d = {double{f.x}, double{f.y}, double{f.z}};
+    const Vec3 moved = posed[v] - mesh().positions[v];
+    wanted += dot(d, d);
+    left += dot(moved - d, moved - d);
+    most = std::max(most, length(moved));
+    if (mesh().positions[v].y > place.throat.nose_y) above = std::max(above, length(moved));
+  }
+  printf("%s: the jaw alone, turned by %.1f degrees, does %.1f %% of %.*s\n", GetParam(),
+         place.jaw_angle, 100 * (1 - left / wanted), static_cast<int>(shape.name.count),
+         shape.name.data);
+  // In squares. The rest is on facial joints.
+  EXPECT_LT(left, 0.25 * wanted);
+  EXPECT_LT(above, 0.1 * most) << "what lies above the nose";
+
+  // So does the control that opens it.
+  EXPECT_NEAR(turn_of(rig().dna, jaw, open), place.jaw_angle, 0.25 * place.jaw_angle);
+  printf("%s: the control turns it by %.1f degrees\n", GetParam(), turn_of(rig().dna, jaw, open));
+  uint32_t others = 0;
+  for (uint32_t s = 0; s < mesh().shapes.count; ++s) {
+    others += s != open && turn_of(rig().dna, jaw, s) > 0.5 * place.jaw_angle;
+  }
+  EXPECT_LE(others, mesh().shapes.count / 8) << "brows and lids leave the jaw alone";
+}
+
+TEST_P(Skeleton, FacialJointsHangBelowWhatCarriesThem) {
+  const Span<const Bone> bones = rig().placement.bones;
+  const uint32_t jaw = bone_named(rig(), "jaw");
+  const PlaceReport& place = rig().place;
+  uint32_t below = 0, beside = 0;
+  for (uint32_t b = 0; b < bones.count; ++b) {
+    if (bones[b].kind != BoneKind::kFacial) continue;
+    ASSERT_LT(bones[b].parent, b);
+    EXPECT_EQ(bones[bones[b].mirror].parent, bones[b].parent) << "mirror images";
+    const bool is_below = hangs_below(rig(), b, jaw);
+    below += is_below;
+    beside += !is_below;
+    if (bones[b].position.y > place.throat.nose_y) {
+      EXPECT_FALSE(is_below) << bones[b].name.data;
+    }
+  }
+  EXPECT_GT(below, 8u);
+  EXPECT_GT(beside, below / 2);
 }
 
 INSTANTIATE_TEST_SUITE_P(Heads, Skeleton, ::testing::Values("generated", "ict", "makehuman"),

@@ -462,6 +462,8 @@ pub const MIEN_BONE_JAW: u32 = 5;
 pub const MIEN_BONE_EYE: u32 = 6;
 /// Below the neck.
 pub const MIEN_BONE_CHEST: u32 = 7;
+/// Moves with expressions, below the jaw; in every LOD.
+pub const MIEN_BONE_TONGUE: u32 = 8;
 
 // enum MienSymmetry
 /// If mirrored positions lie within 0.5 % of the face's size of the surface.

@@ -951,9 +951,11 @@ impl BoneKind {
     pub const EYE: Self = Self(6);
     /// Below the neck.
     pub const CHEST: Self = Self(7);
+    /// Moves with expressions, below the jaw; in every LOD.
+    pub const TONGUE: Self = Self(8);
 }
 
-numbers!(BoneKind, u32, [(0, "ROOT"), (1, "NECK"), (2, "HEAD"), (3, "FACE"), (4, "FACIAL"), (5, "JAW"), (6, "EYE"), (7, "CHEST")]);
+numbers!(BoneKind, u32, [(0, "ROOT"), (1, "NECK"), (2, "HEAD"), (3, "FACE"), (4, "FACIAL"), (5, "JAW"), (6, "EYE"), (7, "CHEST"), (8, "TONGUE")]);
 
 /// Whether both halves of the face are treated as mirror images.
 ///
