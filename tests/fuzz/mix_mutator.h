@@ -102,10 +102,9 @@ struct MixPlaces {
     const size_t flag_at = at;
     bool exists = false;
     value(name, exists);
-    if (ended) return;
-    rows.push_back({flag_at, curve_count, sizeof(T), exists});
     T number;
-    for (uint32_t i = 0; i < curve_count && exists; ++i) value(name, number);
+    for (uint32_t i = 0; i < curve_count && exists && !ended; ++i) value(name, number);
+    if (!ended) rows.push_back({flag_at, curve_count, sizeof(T), exists});
   }
   template <class T, class Fields>
   void list(const char* name, Span<const T>&, uint32_t, Fields walk_fields) {
