@@ -19,9 +19,6 @@ LEAST_MOVE = 2e-7  # meters; a vertex that moved less is not edited
 LEAST_WEIGHT = 1e-6
 LEAST_TURN = 4e-3  # of a normal; Blender stores custom normals in 16 bits
 
-_DIRECTIONS = {mien.Direction.LEFT: (0, 1), mien.Direction.RIGHT: (0, -1), mien.Direction.BACK: (1, 1),
-               mien.Direction.FRONT: (1, -1), mien.Direction.UP: (2, 1), mien.Direction.DOWN: (2, -1)}
-
 
 class Document:
     """A DNA file that is changed field by field: mien_document_* of libmien-author."""
@@ -85,14 +82,12 @@ class Edits:
 class Axes:
     """From Blender's axes and meters to those of the file."""
 
-    def __init__(self, dna):
-        info = dna.info
-        self.scale = 100.0 if info.translation_unit == mien.TranslationUnit.CENTIMETERS else 1.0
-        self.axes = [_DIRECTIONS[direction] for direction in info.axes]
+    def __init__(self, file):
+        self.file = file
 
     def to_file(self, points, scale=None):
-        scale = self.scale if scale is None else scale
-        return [sign * scale * points[:, axis] for axis, sign in self.axes]
+        """x, y and z of the file."""
+        return list((points @ self.file.axes.T * (1 / self.file.unit if scale is None else scale)).T)
 
     def write(self, document, path, points, changed, dna, scale=None):
         """The changed rows of x, y and z; the others keep their bits."""
@@ -254,7 +249,7 @@ def export(rig_object):
     """The edited file as bytes, and what was edited. Raises ValueError if something was edited that cannot be written."""
     file, edits = live.file_of(rig_object), Edits()
     with mien.Dna.from_bytes(file.data) as source:
-        axes, document = Axes(source), Document(source)
+        axes, document = Axes(file), Document(source)
         try:
             names = file.rig.names(mien.Kind.MESH)
             for thing in live.meshes_of(rig_object):

@@ -57,7 +57,7 @@ class Poser:
 
     def __init__(self, rig_file):
         self.file = rig_file
-        self.face = rig_file.rig.instance()
+        self.face = rig_file.converted.instance()
         self.pose = rig_file.deformer.instance()
         self.initial = np.array(rig_file.rig.initial_raw_controls)
 

@@ -123,7 +123,7 @@ def _place(rig_file, board, places):
     deformer = rig_file.deformer
     points = [mesh.positions for mesh in deformer.meshes if mesh.position_count] if deformer else []
     if not points:
-        points = [rig_file.rig.neutral_joint_values[:, :3]]
+        points = [rig_file.converted.neutral_joint_values[:, :3]]
     least = np.min([p.min(0) for p in points], axis=0)
     most = np.max([p.max(0) for p in points], axis=0)
     height = float(most[2] - least[2]) or 0.3

@@ -27,7 +27,7 @@ _messages = {}  # name of an armature object -> why it is not evaluated
 
 def neutral_matrices(rig_file):
     """float64 (joints, 4, 4): model matrices of the neutral joints."""
-    values = rig_file.rig.neutral_joint_values.astype(np.float64)  # tx ty tz qx qy qz qw ...
+    values = rig_file.converted.neutral_joint_values.astype(np.float64)  # tx ty tz qx qy qz qw ...
     local = np.zeros((len(values), 4, 4))
     local[:, :3, :3] = rotations(values[:, 3:7])
     local[:, :3, 3] = values[:, :3]
@@ -88,11 +88,15 @@ class Bones:
             rest[i] = np.asarray(rest_of[bone.name].matrix_local, np.float32).T.ravel()
         rest = rest.reshape(-1, 4, 4).transpose(0, 2, 1)[self.mine][:, :3, :3].astype(np.float64)
         neutral = neutral_matrices(rig_file)[self.joints][:, :3, :3]
-        # A joint's motion in the axes of its bone: rest^-1 * neutral.
-        self.turn = np.ascontiguousarray(rest.transpose(0, 2, 1) @ neutral, np.float32)
-        own = rotations(rig_file.rig.neutral_joint_values[self.joints, 3:7].astype(np.float64))
+        # A joint's motion in the axes of its bone: rest^-1 * neutral * axes of the file.
+        turn = rest.transpose(0, 2, 1) @ neutral
+        own = rotations(rig_file.converted.neutral_joint_values[self.joints, 3:7].astype(np.float64))
+        axes = rig_file.axes.T
+        # The axis of a rotation changes its sign where the axes of the file are left-handed.
+        self.turn = np.ascontiguousarray(turn @ axes * np.linalg.det(axes), np.float32)
         # Translations of the file are in the parent's axes.
-        self.move = np.ascontiguousarray(self.turn @ own.transpose(0, 2, 1), np.float32)
+        self.move = np.ascontiguousarray(turn @ own.transpose(0, 2, 1) @ axes * rig_file.unit, np.float32)
+        self.order = np.abs(rig_file.axes).argmax(0)  # of scales: along which axis of the file each of Blender's lies
         self.location = np.zeros((self.count, 3), np.float32)
         self.rotation = np.zeros((self.count, 4), np.float32)
         self.scale = np.ones((self.count, 3), np.float32)
@@ -106,7 +110,7 @@ class Bones:
         self.location[mine] = np.einsum("nij,nj->ni", self.move, values[:, :3])
         self.rotation[mine, 1:] = np.einsum("nij,nj->ni", self.turn, values[:, 3:6])
         self.rotation[mine, 0] = values[:, 6]
-        self.scale[mine] = values[:, 7:10] + 1
+        self.scale[mine] = values[:, 7:10][:, self.order] + 1
 
     def write(self, pose_bones, joints):
         """The same into the bones of an object."""

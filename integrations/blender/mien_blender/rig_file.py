@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Rigs in files: DNA files, and .uasset files that hold them. Everything is in Blender's axes and meters."""
+"""Rigs in files: DNA files, and .uasset files that hold them."""
 import os
 import struct
 from dataclasses import dataclass, field
@@ -9,6 +9,9 @@ import numpy as np
 from .binding import mien
 
 SIGNATURE = b"DNA\x00\x02\x00"  # and a byte: the version
+# Axis of Blender and sign: x to the character's left, y to the back, z up.
+DIRECTIONS = {mien.Direction.LEFT: (0, 1), mien.Direction.RIGHT: (0, -1), mien.Direction.BACK: (1, 1),
+              mien.Direction.FRONT: (1, -1), mien.Direction.UP: (2, 1), mien.Direction.DOWN: (2, -1)}
 MAX_NAME = 63  # bytes of a name in Blender
 
 _opened = {}  # path -> RigFile, or the error that opening it gave
@@ -16,13 +19,20 @@ _opened = {}  # path -> RigFile, or the error that opening it gave
 
 @dataclass
 class RigFile:
-    """A file that is open. Immutable, as are the rig and the deformer in it."""
+    """A file that is open. Immutable, as are the rigs and the deformer in it.
+
+    Controls that are parts of rotations are in the axes of the file, so that numbers are those of `mien` and of engines: `rig`,
+    which is evaluated, is not converted. What has a place in the scene is in Blender's axes and meters.
+    """
 
     path: str
     data: bytes  # of the DNA, from its first byte
-    dna: mien.Dna
-    rig: mien.Rig
-    deformer: mien.Deformer
+    dna: mien.Dna  # converted
+    rig: mien.Rig  # in the axes and units of the file
+    converted: mien.Rig  # of `dna`
+    deformer: mien.Deformer  # of `converted`
+    axes: np.ndarray  # float64 (3, 3): a vector of Blender is axes.T @ a vector of the file
+    unit: float  # meters of a unit of the file
     controls: list = field(default_factory=list)  # names of the properties, one per raw control
     gui_controls: list = field(default_factory=list)
     joints: list = field(default_factory=list)  # names of the bones, one per joint
@@ -80,11 +90,19 @@ def read_dna(path):
 
 def from_bytes(data, path=""):
     """A RigFile from the bytes of a DNA file."""
+    quaternions = mien.RotationOutput.QUATERNION
+    with mien.Dna.from_bytes(data, layers=mien.Layer.ALL & ~mien.Layer.GEOMETRY) as source:
+        rig, info = mien.Rig(source, rotation=quaternions), source.info
     dna = mien.Dna.from_bytes(data, system="blender")
-    rig = mien.Rig(dna, rotation=mien.RotationOutput.QUATERNION)
-    deformer = mien.Deformer(dna, rig, weights=mien.Weights.FIX) if dna.info.layers & mien.Layer.GEOMETRY else None
+    converted = mien.Rig(dna, rotation=quaternions)
+    deformer = mien.Deformer(dna, converted, weights=mien.Weights.FIX) if dna.info.layers & mien.Layer.GEOMETRY else None
+    axes = np.zeros((3, 3))
+    for of_file, direction in enumerate(info.axes):
+        of_blender, sign = DIRECTIONS[direction]
+        axes[of_file, of_blender] = sign
     kind = mien.Kind
-    return RigFile(path, data, dna, rig, deformer,
+    return RigFile(path, data, dna, rig, converted, deformer, axes,
+                   0.01 if info.translation_unit == mien.TranslationUnit.CENTIMETERS else 1.0,
                    controls=blender_names(rig.names(kind.RAW_CONTROL)), gui_controls=rig.names(kind.GUI_CONTROL),
                    joints=blender_names(rig.names(kind.JOINT)),
                    channels=blender_names(rig.names(kind.BLEND_SHAPE_CHANNEL)),

@@ -16,6 +16,17 @@ def random_controls(random, count, share=0.3):
     return (random.random(count) * (random.random(count) < share)).astype(np.float32)
 
 
+def plausible_controls(random, reference):
+    """Random, but quaternions have unit length."""
+    names = reference.rig.names(mien.Kind.RAW_CONTROL)
+    controls = random_controls(random, len(names))
+    for i, name in enumerate(names):
+        if name.endswith(".qx"):
+            quaternion = np.append(random.normal(0, 0.2, 3), 1)
+            controls[i:i + 4] = quaternion / np.linalg.norm(quaternion)
+    return controls
+
+
 def animate(rig_object, frames=(1, 12, 24), seed=5, share=0.3):
     """Random keys for all controls. Returns their values, [frame, control]."""
     random = np.random.default_rng(seed)
@@ -140,6 +151,20 @@ class Live(unittest.TestCase):
             most = max(most, largest_error(rig_object, reference, controls))
         print(f"MEASURED largest distance to Mien's vertices in 51 poses: {most:.1e} of the diagonal")
         self.assertLess(most, TOLERANCE)
+
+    def test_golden_rigs(self):
+        """Of every version, with quaternion joints, RBF solvers, twists, swings and networks. Parts of rotations have the
+        values that they have in the axes of the file."""
+        folder = os.path.join(os.environ["MIEN_REPOSITORY"], "tests/golden")
+        for name in ("body", "ml", "small_rot", "tiny_v21", "tiny_v24", "tiny_v27"):
+            empty_scene()
+            path = os.path.join(folder, name + ".dna")
+            rig_object, reference = import_rig(path, all_lods=False), Reference(path)
+            random = np.random.default_rng(11)
+            for _ in range(3):
+                controls = plausible_controls(random, reference)
+                set_controls(rig_object, controls)
+                self.assertLess(largest_error(rig_object, reference, controls), TOLERANCE, name)
 
     def test_every_lod(self):
         path = generated("small")
