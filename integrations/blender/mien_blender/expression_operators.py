@@ -11,7 +11,7 @@ from .operators import RigOperator, active_rig
 
 _SET_ITEMS = [("arkit", "ARKit", "52 expressions of face capture"), ("visemes", "Visemes", "15 of Oculus lip sync"),
               ("visemes22", "Visemes 22", "22 of cloud voices"), ("unified", "Unified Expressions", "Of VR face tracking"),
-              ("emotions", "Emotions", "7 prototypes")]
+              ("emotions", "Emotions", "7 prototypes"), ("vrm", "VRM", "17 presets of VRM 1.0")]
 
 
 def mesh_things(rig_object, rig_file, lod):

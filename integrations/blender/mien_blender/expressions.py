@@ -12,6 +12,7 @@ import numpy as np
 
 from .binding import mien
 
+
 def sets():
     """Names of the sets -> lists of (name, ways)."""
     with open(os.path.join(os.path.dirname(__file__), "expression_sets.json"), encoding="utf-8") as file:
