@@ -10,6 +10,7 @@
 #include "runtime/anim/clip_player.h"
 #include "runtime/baked/baked_file.h"
 #include "runtime/deform/deformer_instance.h"
+#include "runtime/derive/derivatives.h"
 #include "runtime/eval/batch.h"
 #include "runtime/eval/instance.h"
 #include "runtime/mix/gaze.h"
@@ -41,6 +42,8 @@ template <>
 struct ObjectOf<MienDeformer> : TypeOf<Deformer> {};
 template <>
 struct ObjectOf<MienDeformerInstance> : TypeOf<DeformerInstance> {};
+template <>
+struct ObjectOf<MienDerivatives> : TypeOf<Derivatives> {};
 template <>
 struct ObjectOf<MienBaked> : TypeOf<Baked> {};
 template <>

@@ -6,6 +6,7 @@
 #include "simd/control_kernels.inl"
 #include "simd/deform_kernels.inl"
 #include "simd/dense_kernels.inl"
+#include "simd/derivative_kernels.inl"
 #include "simd/joint_kernels.inl"
 #include "simd/kernels.h"
 #include "simd/lane_kernels.inl"

@@ -20,6 +20,7 @@ GRAPH = {
     "runtime/pose": ["runtime/base", "simd", "runtime/rig"],
     "runtime/eval": ["runtime/base", "simd", "runtime/rig"],
     "runtime/deform": ["runtime/base", "simd", "runtime/pose"],
+    "runtime/derive": ["runtime/base", "simd", "runtime/eval", "runtime/pose", "runtime/deform"],
     "runtime/anim": ["runtime/base", "simd", "runtime/rig"],
     "runtime/mix": ["runtime/base", "simd", "runtime/rig", "runtime/anim"],
     "runtime/solve": ["runtime/base", "runtime/anim", "runtime/pose", "runtime/deform"],
@@ -60,7 +61,7 @@ GRAPH = {
     "author/capi": ["capi/include", "capi/arguments", "runtime/base", "runtime/load/dna/format", "author/rigging",
                     "author/generate/head", "author/generate/synthetic", "author/document"],
     "capi": ["capi/arguments", "runtime/base", "simd", "runtime/eval", "runtime/anim", "runtime/mix",
-             "runtime/solve", "runtime/deform", "runtime/probe", "runtime/baked", "runtime/load/dna/format",
+             "runtime/solve", "runtime/deform", "runtime/derive", "runtime/probe", "runtime/baked", "runtime/load/dna/format",
              "runtime/load/dna/check", "runtime/load/dna", "runtime/load/compile", "runtime/load/validate"],
 }
 PUBLIC_HEADERS = ("capi/include/mien.h", "capi/include/mien_author.h")

@@ -70,6 +70,7 @@
 #include "mien/dna.h"
 #include "mien/rig.h"
 #include "mien/deform.h"
+#include "mien/derivatives.h"
 #include "mien/baked.h"
 #include "mien/clip.h"
 #include "mien/mix.h"

@@ -56,6 +56,17 @@ WITHOUT = {
         "MienProjectDesc.influences", "MienTransplantDesc.influences")},
     "MienDocumentDesc.allocator": {"C++": "documents: not yet"},
     "MienMatch": {"Python": "documents: not yet"},
+    # Written for programs in C and C++ that solve; the other languages follow.
+    **{name: {language: "not written yet" for language in ("C++", "Python", "Rust", "JavaScript")} for name in (
+        "mien_derivatives_create", "mien_derivatives_destroy", "mien_derivatives_bytes", "mien_derivatives_size",
+        "mien_derivatives_linearize", "mien_derivatives_forward", "mien_derivatives_reverse",
+        "mien_derivatives_jacobian", "MienJacobian.inputs",
+        "MienJacobian.input_count", "MienJacobian.outputs", "MienJacobian.rows",
+        "MienJacobian.columns", "MienJacobian.values", "MienJacobian.capacity")},
+    "MienPoint": {"Python": "not written yet"},
+    "MienDerivativesDesc.deformer": {language: "not written yet" for language in ("C++", "Rust", "JavaScript")},
+    "MienDerivativesDesc.allocator": {"C++": "not written yet"},
+    "MienJacobian.output_count": {language: "not written yet" for language in ("C++", "Python", "JavaScript")},
     **{name: {"JavaScript": "one by one, each on several threads if it is large"} for name in (
         "mien_deformer_instance_deform_batch", "mien_deformer_instance_write_vertices_batch")},
 }

@@ -286,6 +286,8 @@ std::vector<Call> calls_of_rigs(const World& w) {
   tangents.with_tangents = 1;
   auto copied = w.desc<MienBakedDesc>();
   copied.file_access = MIEN_FILE_READ;
+  auto of_derivatives = w.desc<MienDerivativesDesc>();
+  of_derivatives.deformer = w.deformer.object;
   return {
       {"mien_rig_create",
        makes(mien_rig_destroy, w.desc<MienRigDesc>(), mien_rig_create, w.dna.object)},
@@ -298,6 +300,8 @@ std::vector<Call> calls_of_rigs(const World& w) {
       {"mien_deformer_instance_create",
        makes(mien_deformer_instance_destroy, w.desc<MienDeformerInstanceDesc>(),
              mien_deformer_instance_create, w.deformer.object)},
+      {"mien_derivatives_create",
+       makes(mien_derivatives_destroy, of_derivatives, mien_derivatives_create, w.rig.object)},
       {"mien_bake_file",
        calls(mien_bake_file, w.rig.object, w.deformer.object, w.written_file.c_str())},
       {"mien_baked_open_file",

@@ -426,6 +426,40 @@ class VertexFormat(IntEnum):
     SNORM10_10_10_2 = 3
 
 
+class Point(IntEnum):
+    """Points of the chain from controls to positions, and the numbers that they have:
+
+        GUI -> RAW -> CONTROLS -> JOINTS -> LOCALS -> MODELS -> SKINS -> POSITIONS
+                          |-> CHANNELS ------------------------------------^
+                          |-> MAPS
+
+    A derivative leads from a point to one that it has an effect on. Between RAW and CONTROLS
+    run networks, RBF solvers and correctives; CONTROLS is what the joint stage, channels and
+    maps read. From JOINTS on, channel weights are constant. See docs/derivatives.md.
+    """
+
+    #: GUI controls
+    GUI = 0
+    #: raw controls
+    RAW = 1
+    #: all controls: mien_instance_controls()
+    CONTROLS = 2
+    #: joint values: mien_instance_joints()
+    JOINTS = 3
+    #: 16 floats per joint: matrix relative to the parent, four columns
+    LOCALS = 4
+    #: the same, in model space: mien_deformer_instance_joint_matrices()
+    MODELS = 5
+    #: the same, of skin matrices: mien_deformer_instance_skin_matrices()
+    SKINS = 6
+    #: x y z per position of a mesh, in the order of the file
+    POSITIONS = 7
+    #: blend shape channel weights
+    CHANNELS = 8
+    #: animated map weights
+    MAPS = 9
+
+
 class BakedCheck(IntEnum):
     """What is checked when a baked file is used."""
 
@@ -702,6 +736,10 @@ class MienDeformer(c_void_p):
 
 
 class MienDeformerInstance(c_void_p):
+    pass
+
+
+class MienDerivatives(c_void_p):
     pass
 
 
@@ -1411,6 +1449,66 @@ class MienVertexOutput(Structure):
         self.positions = positions
         self.normals = normals
         self.tangents = tangents
+
+
+class MienDerivativesDesc(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("deformer", MienDeformer),
+        ("allocator", POINTER(MienAllocator)),
+    ]
+    struct_size: Any
+    deformer: Any
+    allocator: Any
+
+    def __init__(self, *,
+                 deformer: Any = None,
+                 allocator: Any = None) -> None:
+        super().__init__(24)
+        self.deformer = deformer
+        self.allocator = allocator
+
+
+class MienJacobian(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("inputs", c_void_p),
+        ("outputs", c_void_p),
+        ("input_count", c_size_t),
+        ("output_count", c_size_t),
+        ("rows", c_void_p),
+        ("columns", c_void_p),
+        ("values", c_void_p),
+        ("capacity", c_size_t),
+    ]
+    struct_size: Any
+    inputs: Any
+    outputs: Any
+    input_count: Any
+    output_count: Any
+    rows: Any
+    columns: Any
+    values: Any
+    capacity: Any
+
+    def __init__(self, *,
+                 inputs: Any = None,
+                 outputs: Any = None,
+                 input_count: int = 0,
+                 output_count: int = 0,
+                 rows: Any = None,
+                 columns: Any = None,
+                 values: Any = None,
+                 capacity: int = 0) -> None:
+        super().__init__(72)
+        self.inputs = inputs
+        self.outputs = outputs
+        self.input_count = input_count
+        self.output_count = output_count
+        self.rows = rows
+        self.columns = columns
+        self.values = values
+        self.capacity = capacity
 
 
 class MienBakedDesc(Structure):
@@ -4020,6 +4118,40 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
         (Status.LOD,
          "`deformer_instance` has no memory for it"),
     ),
+    "mien_derivatives_create": (
+        (Status.INVALID_ARGUMENT,
+         "an argument is outside its range"),
+        (Status.MISMATCH,
+         "the deformer is not of the rig"),
+        (Status.MEMORY,
+         "there is no memory"),
+    ),
+    "mien_derivatives_bytes": (
+        (Status.INVALID_ARGUMENT,
+         "an argument is outside its range"),
+    ),
+    "mien_derivatives_size": (
+        (Status.INVALID_ARGUMENT,
+         "an argument is outside its range"),
+        (Status.INDEX,
+         "there is no such point or mesh, or no deformer"),
+    ),
+    "mien_derivatives_linearize": (
+        (Status.INVALID_ARGUMENT,
+         "an argument is outside its range"),
+    ),
+    "mien_derivatives_forward": (
+        (Status.INVALID_ARGUMENT,
+         "`from` has no effect on `to` or nothing was linearized"),
+        (Status.INDEX,
+         "a point or the mesh does not exist"),
+    ),
+    "mien_derivatives_reverse": (),
+    "mien_derivatives_jacobian": (
+        (Status.INVALID_ARGUMENT,
+         "there are more than `capacity`, unless that is 0; otherwise as "
+         "mien_derivatives_forward()"),
+    ),
     "mien_bake_file": (
         (Status.MISMATCH,
          "`deformer` was created for another rig"),
@@ -5212,6 +5344,18 @@ FUNCTIONS: Tuple[Tuple[str, Any, Tuple[Any, ...]], ...] = (
      POINTER(MienVertexOutput), POINTER(MienParallelFor))),
     ("mien_deformer_instance_write_vertices_batch", c_int32, (POINTER(MienDeformerInstance),
      c_size_t, c_uint32, c_uint32, POINTER(MienVertexOutput), POINTER(MienParallelFor))),
+    ("mien_derivatives_create", c_int32, (MienRig, POINTER(MienDerivativesDesc),
+     POINTER(MienDerivatives), POINTER(MienError))),
+    ("mien_derivatives_destroy", None, (MienDerivatives,)),
+    ("mien_derivatives_bytes", c_int32, (MienRig, POINTER(MienDerivativesDesc), c_void_p)),
+    ("mien_derivatives_size", c_int32, (MienDerivatives, c_uint32, c_uint32, c_void_p)),
+    ("mien_derivatives_linearize", c_int32, (MienDerivatives, MienInstance, c_uint32)),
+    ("mien_derivatives_forward", c_int32, (MienDerivatives, c_uint32, c_uint32, c_uint32, c_uint32,
+     c_void_p, c_void_p)),
+    ("mien_derivatives_reverse", c_int32, (MienDerivatives, c_uint32, c_uint32, c_uint32, c_uint32,
+     c_void_p, c_void_p)),
+    ("mien_derivatives_jacobian", c_int32, (MienDerivatives, c_uint32, c_uint32, c_uint32,
+     POINTER(MienJacobian), c_void_p)),
     ("mien_bake_file", c_int32, (MienRig, MienDeformer, c_char_p, POINTER(MienError))),
     ("mien_bake_memory", c_int32, (MienRig, MienDeformer, c_void_p, c_size_t, c_void_p,
      POINTER(MienError))),
@@ -5425,6 +5569,14 @@ class Library:
     mien_deformer_instance_normals: Any
     mien_deformer_instance_write_vertices: Any
     mien_deformer_instance_write_vertices_batch: Any
+    mien_derivatives_create: Any
+    mien_derivatives_destroy: Any
+    mien_derivatives_bytes: Any
+    mien_derivatives_size: Any
+    mien_derivatives_linearize: Any
+    mien_derivatives_forward: Any
+    mien_derivatives_reverse: Any
+    mien_derivatives_jacobian: Any
     mien_bake_file: Any
     mien_bake_memory: Any
     mien_baked_open_file: Any

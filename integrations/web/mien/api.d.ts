@@ -406,6 +406,41 @@ export declare const VertexFormat: {
 };
 export type VertexFormat = (typeof VertexFormat)[keyof typeof VertexFormat];
 
+/**
+ * Points of the chain from controls to positions, and the numbers that they have:
+ *
+ *     GUI -> RAW -> CONTROLS -> JOINTS -> LOCALS -> MODELS -> SKINS -> POSITIONS
+ *                       |-> CHANNELS ------------------------------------^
+ *                       |-> MAPS
+ *
+ * A derivative leads from a point to one that it has an effect on. Between RAW and CONTROLS run networks,
+ * RBF solvers and correctives; CONTROLS is what the joint stage, channels and maps read. From JOINTS on,
+ * channel weights are constant. See docs/derivatives.md.
+ */
+export declare const Point: {
+  /** GUI controls */
+  readonly GUI: 0;
+  /** raw controls */
+  readonly RAW: 1;
+  /** all controls: mien_instance_controls() */
+  readonly CONTROLS: 2;
+  /** joint values: mien_instance_joints() */
+  readonly JOINTS: 3;
+  /** 16 floats per joint: matrix relative to the parent, four columns */
+  readonly LOCALS: 4;
+  /** the same, in model space: mien_deformer_instance_joint_matrices() */
+  readonly MODELS: 5;
+  /** the same, of skin matrices: mien_deformer_instance_skin_matrices() */
+  readonly SKINS: 6;
+  /** x y z per position of a mesh, in the order of the file */
+  readonly POSITIONS: 7;
+  /** blend shape channel weights */
+  readonly CHANNELS: 8;
+  /** animated map weights */
+  readonly MAPS: 9;
+};
+export type Point = (typeof Point)[keyof typeof Point];
+
 /** What is checked when a baked file is used. */
 export declare const BakedCheck: {
   /**
@@ -1049,6 +1084,33 @@ export interface VertexOutput {
   normals?: VertexStream;
   /** requires MienDeformerDesc.with_tangents */
   tangents?: VertexStream;
+}
+
+/** How to create derivatives. */
+export interface DerivativesDesc {
+  /** of the rig. NULL: none; then points from LOCALS to POSITIONS are missing */
+  deformer?: { readonly handle: number };
+}
+
+/** A matrix of derivatives: its entries that are not 0, by column, then by row. */
+export interface Jacobian {
+  /** numbers at `from`, the columns. NULL: all */
+  inputs?: Uint32Array | readonly number[];
+  /** numbers at `to`, the rows, ascending. NULL: all */
+  outputs?: Uint32Array | readonly number[];
+  /** 0 if `inputs` is NULL */
+  inputCount?: number;
+  /** 0 if `outputs` is NULL */
+  outputCount?: number;
+  /** places in `outputs`, or numbers at `to` */
+  rows?: Uint32Array | readonly number[];
+  /** places in `inputs`, or numbers at `from` */
+  columns?: Uint32Array | readonly number[];
+  values?: Float32Array | readonly number[];
+  /**
+   * entries that fit rows, columns and values. 0: they may be NULL, and entries are only counted
+   */
+  capacity?: number;
 }
 
 /** How to open a baked file. */
@@ -2615,6 +2677,57 @@ export interface Exports {
    * different deformers, MIEN_ERROR_INVALID_ARGUMENT if an instance is listed twice.
    */
   mien_deformer_instance_write_vertices_batch(deformer_instances: number, count: number, mesh: number, normals: number, outputs: number, parallel: number): number;
+  /**
+   * Creates derivatives. `desc` may be NULL. `rig` may be destroyed afterwards, and so may the deformer. One
+   * block of memory has the weights of networks once more and room for 32 directions. Destroy with
+   * mien_derivatives_destroy().
+   * Fails with MIEN_ERROR_MISMATCH if the deformer is not of the rig.
+   */
+  mien_derivatives_create(rig: number, desc: number, out_derivatives: number, error: number): number;
+  /** Destroys derivatives. NULL is allowed. */
+  mien_derivatives_destroy(derivatives: number): void;
+  /** Returns the bytes of memory that mien_derivatives_create() would need. */
+  mien_derivatives_bytes(rig: number, desc: number, out_bytes: number): number;
+  /**
+   * Returns how many numbers a point has. `mesh` is the index of the mesh of MIEN_POINT_POSITIONS, else 0.
+   * Fails with MIEN_ERROR_INDEX if there is no such point or mesh, or no deformer.
+   */
+  mien_derivatives_size(derivatives: number, point: number, mesh: number, out_size: number): number;
+  /**
+   * Computes the derivatives at the values of `instance`, which must be of the rig and have been evaluated, at
+   * the LOD of that evaluation. `stages` are those that have derivatives, MIEN_STAGE_ALL or some of them: what
+   * the others write counts as constant. Allocates nothing.
+   * Where a function has no derivative, the one to the side is given that lets a solver go on:
+   *   - controls of 0 and 1: into the interval, for correctives, GUI controls and maps
+   *   - where two intervals of a conditional table meet: the steeper one
+   *   - weights of RBF poses below the threshold: as without a threshold; at a stored pose itself 0
+   *   - ReLU at 0: rising
+   * Values are saturated nowhere: derivatives of what overflows are those of the formula. Networks and solvers
+   * that read controls which are computed after them see constants.
+   */
+  mien_derivatives_linearize(derivatives: number, instance: number, stages: number): number;
+  /**
+   * Multiplies directions by the matrix of derivatives, also called Jacobian-vector products: for each of
+   * `count` directions, rows of mien_derivatives_size() numbers at `from`, how the numbers at `to` change.
+   * Rows follow each other without gaps; `outputs` has `count` rows and must not overlap `directions`. Several
+   * directions in one call are faster than one by one, and have the same bits. Allocates nothing.
+   * Fails with MIEN_ERROR_INDEX if a point or the mesh does not exist, MIEN_ERROR_INVALID_ARGUMENT if `from`
+   * has no effect on `to` or nothing was linearized.
+   */
+  mien_derivatives_forward(derivatives: number, from: number, to: number, mesh: number, count: number, directions: number, outputs: number): number;
+  /**
+   * Multiplies gradients by the transposed matrix, also called vector-Jacobian products: for each of `count`
+   * gradients by the numbers at `to`, the gradient by those at `from`; `mesh` and all else as in
+   * mien_derivatives_forward().
+   */
+  mien_derivatives_reverse(derivatives: number, from: number, to: number, mesh: number, count: number, gradients: number, outputs: number): number;
+  /**
+   * Computes the matrix of derivatives `from` a point `to` another, `mesh` as above. `out_count` is the number of
+   * entries; at most `capacity` of them are written. Allocates nothing.
+   * Fails with MIEN_ERROR_INVALID_ARGUMENT if there are more than `capacity`, unless that is 0; otherwise as
+   * mien_derivatives_forward().
+   */
+  mien_derivatives_jacobian(derivatives: number, from: number, to: number, mesh: number, jacobian: number, out_count: number): number;
   /**
    * Writes a baked file to memory and returns its size in `out_size`. `deformer` may be NULL. `buffer`
    * may be NULL with capacity 0 to get the size only. Writes nothing if `capacity` is too small;

@@ -217,6 +217,19 @@ export const VertexFormat = Object.freeze({
   SNORM10_10_10_2: 3,
 });
 
+export const Point = Object.freeze({
+  GUI: 0,
+  RAW: 1,
+  CONTROLS: 2,
+  JOINTS: 3,
+  LOCALS: 4,
+  MODELS: 5,
+  SKINS: 6,
+  POSITIONS: 7,
+  CHANNELS: 8,
+  MAPS: 9,
+});
+
 export const BakedCheck = Object.freeze({
   SAFE: 0,
   FULL: 1,
@@ -535,6 +548,19 @@ export const layouts = {
     positions: [8, "VertexStream"],
     normals: [20, "VertexStream"],
     tangents: [32, "VertexStream"],
+  } },
+  DerivativesDesc: { size: 12, sized: true, fields: {
+    deformer: [4, "handle"],
+  } },
+  Jacobian: { size: 36, sized: true, fields: {
+    inputs: [4, "*u32", "inputCount"],
+    outputs: [8, "*u32", "outputCount"],
+    inputCount: [12, "u32"],
+    outputCount: [16, "u32"],
+    rows: [20, "*u32"],
+    columns: [24, "*u32"],
+    values: [28, "*f32"],
+    capacity: [32, "u32"],
   } },
   BakedDesc: { size: 16, sized: true, fields: {
     check: [8, "u32"],
@@ -1066,6 +1092,11 @@ export const calls = {
   mien_deformer_instance_normals: "pup",
   mien_deformer_instance_write_vertices: "puupp",
   mien_deformer_instance_write_vertices_batch: "puuupp",
+  mien_derivatives_size: "puup",
+  mien_derivatives_linearize: "ppu",
+  mien_derivatives_forward: "puuuupp",
+  mien_derivatives_reverse: "puuuupp",
+  mien_derivatives_jacobian: "puuupp",
   mien_bake_memory: "pppupp",
   mien_baked_open_memory: "puppp",
   mien_clip_open_memory: "puppp",

@@ -315,6 +315,28 @@ pub const MIEN_VERTEX_FORMAT_SNORM16X4: u32 = 2;
 /// 4 bytes, one 32-bit word: x in bits 0-9, y in bits 10-19, z in bits 20-29, w in bits 30-31.
 pub const MIEN_VERTEX_FORMAT_SNORM10_10_10_2: u32 = 3;
 
+// enum MienPoint
+/// GUI controls.
+pub const MIEN_POINT_GUI: u32 = 0;
+/// Raw controls.
+pub const MIEN_POINT_RAW: u32 = 1;
+/// All controls: `mien_instance_controls()`.
+pub const MIEN_POINT_CONTROLS: u32 = 2;
+/// Joint values: `mien_instance_joints()`.
+pub const MIEN_POINT_JOINTS: u32 = 3;
+/// 16 floats per joint: matrix relative to the parent, four columns.
+pub const MIEN_POINT_LOCALS: u32 = 4;
+/// The same, in model space: `mien_deformer_instance_joint_matrices()`.
+pub const MIEN_POINT_MODELS: u32 = 5;
+/// The same, of skin matrices: `mien_deformer_instance_skin_matrices()`.
+pub const MIEN_POINT_SKINS: u32 = 6;
+/// X y z per position of a mesh, in the order of the file.
+pub const MIEN_POINT_POSITIONS: u32 = 7;
+/// Blend shape channel weights.
+pub const MIEN_POINT_CHANNELS: u32 = 8;
+/// Animated map weights.
+pub const MIEN_POINT_MAPS: u32 = 9;
+
 // enum MienBakedCheck
 /// All sizes, counts and indices, so that no access is out of bounds whatever the bytes are.
 /// Floats are not checked, so their pages are read from disk only when first used.
@@ -567,6 +589,13 @@ pub struct MienDeformer {
 /// One character: joint matrices, and positions and normals of its meshes.
 #[repr(C)]
 pub struct MienDeformerInstance {
+    _size: [u8; 0],
+    _opaque: Opaque,
+}
+
+/// Derivatives of one rig, and the memory to compute them. Needed by one thread at a time.
+#[repr(C)]
+pub struct MienDerivatives {
     _size: [u8; 0],
     _opaque: Opaque,
 }
@@ -1472,6 +1501,60 @@ pub struct MienVertexOutput {
 }
 
 impl Default for MienVertexOutput {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>();
+        zero
+    }
+}
+
+/// How to create derivatives.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienDerivativesDesc {
+    pub struct_size: usize,
+    /// Of the rig. NULL: none; then points from LOCALS to POSITIONS are missing.
+    pub deformer: *const MienDeformer,
+    /// NULL: the heap.
+    pub allocator: *const MienAllocator,
+}
+
+impl Default for MienDerivativesDesc {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>();
+        zero
+    }
+}
+
+/// A matrix of derivatives: its entries that are not 0, by column, then by row.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienJacobian {
+    pub struct_size: usize,
+    /// Numbers at `from`, the columns. NULL: all.
+    pub inputs: *const u32,
+    /// Numbers at `to`, the rows, ascending. NULL: all.
+    pub outputs: *const u32,
+    /// 0 if `inputs` is NULL.
+    pub input_count: usize,
+    /// 0 if `outputs` is NULL.
+    pub output_count: usize,
+    /// Places in `outputs`, or numbers at `to`.
+    pub rows: *mut u32,
+    /// Places in `inputs`, or numbers at `from`.
+    pub columns: *mut u32,
+    pub values: *mut f32,
+    /// Entries that fit rows, columns and values. 0: they may be NULL, and entries are only
+    /// counted.
+    pub capacity: usize,
+}
+
+impl Default for MienJacobian {
     /// All zero but `struct_size`: every field has its default.
     fn default() -> Self {
         // SAFETY: numbers, pointers and optional functions may be zero.
@@ -3882,6 +3965,65 @@ extern "C" {
     /// instances have different deformers, `MIEN_ERROR_INVALID_ARGUMENT` if an instance is listed
     /// twice.
     pub fn mien_deformer_instance_write_vertices_batch(deformer_instances: *const *mut MienDeformerInstance, count: usize, mesh: u32, normals: u32, outputs: *const MienVertexOutput, parallel: *const MienParallelFor) -> MienStatus;
+
+    /// Creates derivatives. `desc` may be NULL. `rig` may be destroyed afterwards, and so may the
+    /// deformer. One block of memory has the weights of networks once more and room for 32
+    /// directions. Destroy with `mien_derivatives_destroy()`.
+    ///
+    /// Fails with `MIEN_ERROR_MISMATCH` if the deformer is not of the rig.
+    pub fn mien_derivatives_create(rig: *const MienRig, desc: *const MienDerivativesDesc, out_derivatives: *mut *mut MienDerivatives, error: *mut MienError) -> MienStatus;
+
+    /// Destroys derivatives. NULL is allowed.
+    pub fn mien_derivatives_destroy(derivatives: *mut MienDerivatives);
+
+    /// Returns the bytes of memory that `mien_derivatives_create()` would need.
+    pub fn mien_derivatives_bytes(rig: *const MienRig, desc: *const MienDerivativesDesc, out_bytes: *mut u64) -> MienStatus;
+
+    /// Returns how many numbers a point has. `mesh` is the index of the mesh of
+    /// `MIEN_POINT_POSITIONS`, else 0.
+    ///
+    /// Fails with `MIEN_ERROR_INDEX` if there is no such point or mesh, or no deformer.
+    pub fn mien_derivatives_size(derivatives: *const MienDerivatives, point: u32, mesh: u32, out_size: *mut usize) -> MienStatus;
+
+    /// Computes the derivatives at the values of `instance`, which must be of the rig and have
+    /// been evaluated, at the LOD of that evaluation. `stages` are those that have derivatives,
+    /// `MIEN_STAGE_ALL` or some of them: what the others write counts as constant. Allocates
+    /// nothing. Where a function has no derivative, the one to the side is given that lets a
+    /// solver go on:
+    ///
+    /// ```text
+    /// - controls of 0 and 1: into the interval, for correctives, GUI controls and maps
+    /// - where two intervals of a conditional table meet: the steeper one
+    /// - weights of RBF poses below the threshold: as without a threshold; at a stored pose itself 0
+    /// - ReLU at 0: rising
+    /// ```
+    ///
+    /// Values are saturated nowhere: derivatives of what overflows are those of the formula.
+    /// Networks and solvers that read controls which are computed after them see constants.
+    pub fn mien_derivatives_linearize(derivatives: *mut MienDerivatives, instance: *const MienInstance, stages: u32) -> MienStatus;
+
+    /// Multiplies directions by the matrix of derivatives, also called Jacobian-vector products:
+    /// for each of `count` directions, rows of `mien_derivatives_size()` numbers at `from`, how
+    /// the numbers at `to` change. Rows follow each other without gaps; `outputs` has `count` rows
+    /// and must not overlap `directions`. Several directions in one call are faster than one by
+    /// one, and have the same bits. Allocates nothing.
+    ///
+    /// Fails with `MIEN_ERROR_INDEX` if a point or the mesh does not exist,
+    /// `MIEN_ERROR_INVALID_ARGUMENT` if `from` has no effect on `to` or nothing was linearized.
+    pub fn mien_derivatives_forward(derivatives: *mut MienDerivatives, from: u32, to: u32, mesh: u32, count: u32, directions: *const f32, outputs: *mut f32) -> MienStatus;
+
+    /// Multiplies gradients by the transposed matrix, also called vector-Jacobian products: for
+    /// each of `count` gradients by the numbers at `to`, the gradient by those at `from`; `mesh`
+    /// and all else as in `mien_derivatives_forward()`.
+    pub fn mien_derivatives_reverse(derivatives: *mut MienDerivatives, from: u32, to: u32, mesh: u32, count: u32, gradients: *const f32, outputs: *mut f32) -> MienStatus;
+
+    /// Computes the matrix of derivatives `from` a point `to` another, `mesh` as above.
+    /// `out_count` is the number of entries; at most `capacity` of them are written. Allocates
+    /// nothing.
+    ///
+    /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if there are more than `capacity`, unless that is
+    /// 0; otherwise as `mien_derivatives_forward()`.
+    pub fn mien_derivatives_jacobian(derivatives: *mut MienDerivatives, from: u32, to: u32, mesh: u32, jacobian: *const MienJacobian, out_count: *mut usize) -> MienStatus;
 
     /// Writes a rig and its deformer to a baked file. `deformer` may be NULL. The file is written
     /// under a temporary name and renamed, so that a failure leaves `path` unchanged.

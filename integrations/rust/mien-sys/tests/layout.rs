@@ -76,6 +76,9 @@ fn structs_are_laid_out_as_in_c() {
         MienDeformerInstanceDesc 24 8: struct_size 0 lods 8 allocator 16;
         MienVertexStream 16 8: data 0 stride 8 format 12;
         MienVertexOutput 64 8: struct_size 0 vertex_capacity 8 positions 16 normals 32 tangents 48;
+        MienDerivativesDesc 24 8: struct_size 0 deformer 8 allocator 16;
+        MienJacobian 72 8: struct_size 0 inputs 8 outputs 16 input_count 24 output_count 32 rows 40
+            columns 48 values 56 capacity 64;
         MienBakedDesc 24 8: struct_size 0 file_access 8 check 12 allocator 16;
         MienBakedInfo 48 8: struct_size 0 file_bytes 8 memory_bytes 16 rig_bytes 24 deformer_bytes
             32 part_count 40 is_mapped 44;

@@ -649,6 +649,48 @@ impl VertexFormat {
 
 numbers!(VertexFormat, u32, [(0, "FLOAT32X3"), (1, "FLOAT32X4"), (2, "SNORM16X4"), (3, "SNORM10_10_10_2")]);
 
+/// Points of the chain from controls to positions, and the numbers that they have:
+///
+/// ```text
+/// GUI -> RAW -> CONTROLS -> JOINTS -> LOCALS -> MODELS -> SKINS -> POSITIONS
+///                   |-> CHANNELS ------------------------------------^
+///                   |-> MAPS
+/// ```
+///
+/// A derivative leads from a point to one that it has an effect on. Between RAW and CONTROLS run
+/// networks, RBF solvers and correctives; CONTROLS is what the joint stage, channels and maps
+/// read. From JOINTS on, channel weights are constant. See docs/derivatives.md.
+///
+/// A later library may give numbers that have no name here.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+#[repr(transparent)]
+pub struct Point(pub u32);
+
+impl Point {
+    /// GUI controls.
+    pub const GUI: Self = Self(0);
+    /// Raw controls.
+    pub const RAW: Self = Self(1);
+    /// All controls: `mien_instance_controls()`.
+    pub const CONTROLS: Self = Self(2);
+    /// Joint values: `mien_instance_joints()`.
+    pub const JOINTS: Self = Self(3);
+    /// 16 floats per joint: matrix relative to the parent, four columns.
+    pub const LOCALS: Self = Self(4);
+    /// The same, in model space: `mien_deformer_instance_joint_matrices()`.
+    pub const MODELS: Self = Self(5);
+    /// The same, of skin matrices: `mien_deformer_instance_skin_matrices()`.
+    pub const SKINS: Self = Self(6);
+    /// X y z per position of a mesh, in the order of the file.
+    pub const POSITIONS: Self = Self(7);
+    /// Blend shape channel weights.
+    pub const CHANNELS: Self = Self(8);
+    /// Animated map weights.
+    pub const MAPS: Self = Self(9);
+}
+
+numbers!(Point, u32, [(0, "GUI"), (1, "RAW"), (2, "CONTROLS"), (3, "JOINTS"), (4, "LOCALS"), (5, "MODELS"), (6, "SKINS"), (7, "POSITIONS"), (8, "CHANNELS"), (9, "MAPS")]);
+
 /// What is checked when a baked file is used.
 ///
 /// A later library may give numbers that have no name here.
@@ -2078,6 +2120,31 @@ macro_rules! errors {
          - [`Status::MISMATCH`](crate::Status::MISMATCH) if the instances have different deformers\n\
          - [`Status::INDEX`](crate::Status::INDEX) if there is no such mesh\n\
          - [`Status::LOD`](crate::Status::LOD) if `deformer_instance` has no memory for it"
+    };
+    (mien_derivatives_create) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
+         - [`Status::MISMATCH`](crate::Status::MISMATCH) if the deformer is not of the rig\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory"
+    };
+    (mien_derivatives_bytes) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range"
+    };
+    (mien_derivatives_size) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if there is no such point or mesh, or no deformer"
+    };
+    (mien_derivatives_linearize) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range"
+    };
+    (mien_derivatives_forward) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `from` has no effect on `to` or nothing was linearized\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if a point or the mesh does not exist"
+    };
+    (mien_derivatives_reverse) => {
+        "- none with valid arguments"
+    };
+    (mien_derivatives_jacobian) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if there are more than `capacity`, unless that is 0; otherwise as `mien_derivatives_forward()`"
     };
     (mien_bake_file) => {
         "- [`Status::MISMATCH`](crate::Status::MISMATCH) if `deformer` was created for another rig\n\

@@ -1,0 +1,127 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Derivatives of a rig: how joint values, matrices and positions change with controls, and back.
+ * The rules of mien.h apply.
+ */
+#ifndef MIEN_DERIVATIVES_H
+#define MIEN_DERIVATIVES_H
+
+#include "deform.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- Derivatives ----------------------------------------------------------------------------- */
+
+/* Points of the chain from controls to positions, and the numbers that they have:
+ *
+ *     GUI -> RAW -> CONTROLS -> JOINTS -> LOCALS -> MODELS -> SKINS -> POSITIONS
+ *                       |-> CHANNELS ------------------------------------^
+ *                       |-> MAPS
+ *
+ * A derivative leads from a point to one that it has an effect on. Between RAW and CONTROLS run networks,
+ * RBF solvers and correctives; CONTROLS is what the joint stage, channels and maps read. From JOINTS on,
+ * channel weights are constant. See docs/derivatives.md. */
+enum MienPoint {
+    MIEN_POINT_GUI = 0,       /* GUI controls */
+    MIEN_POINT_RAW = 1,       /* raw controls */
+    MIEN_POINT_CONTROLS = 2,  /* all controls: mien_instance_controls() */
+    MIEN_POINT_JOINTS = 3,    /* joint values: mien_instance_joints() */
+    MIEN_POINT_LOCALS = 4,    /* 16 floats per joint: matrix relative to the parent, four columns */
+    MIEN_POINT_MODELS = 5,    /* the same, in model space: mien_deformer_instance_joint_matrices() */
+    MIEN_POINT_SKINS = 6,     /* the same, of skin matrices: mien_deformer_instance_skin_matrices() */
+    MIEN_POINT_POSITIONS = 7, /* x y z per position of a mesh, in the order of the file */
+    MIEN_POINT_CHANNELS = 8,  /* blend shape channel weights */
+    MIEN_POINT_MAPS = 9       /* animated map weights */
+};
+
+/* Derivatives of one rig, and the memory to compute them. Needed by one thread at a time. */
+typedef struct MienDerivatives MienDerivatives;
+
+/* How to create derivatives. */
+typedef struct MienDerivativesDesc {
+    size_t struct_size;
+    const MienDeformer* deformer;   /* of the rig. NULL: none; then points from LOCALS to POSITIONS are
+                                       missing */
+    const MienAllocator* allocator; /* NULL: the heap */
+} MienDerivativesDesc;
+MIEN_DEFAULT(MienDerivativesDesc, mien_derivatives_desc_default)
+
+/* Creates derivatives. `desc` may be NULL. `rig` may be destroyed afterwards, and so may the deformer. One
+ * block of memory has the weights of networks once more and room for 32 directions. Destroy with
+ * mien_derivatives_destroy().
+ * Fails with MIEN_ERROR_MISMATCH if the deformer is not of the rig. */
+MIEN_CHECKED MienStatus mien_derivatives_create(const MienRig* rig, const MienDerivativesDesc* desc,
+                                                MienDerivatives** out_derivatives, MienError* error);
+
+/* Destroys derivatives. NULL is allowed. */
+MIEN_API void mien_derivatives_destroy(MienDerivatives* derivatives);
+
+/* Returns the bytes of memory that mien_derivatives_create() would need. */
+MIEN_CHECKED MienStatus mien_derivatives_bytes(const MienRig* rig, const MienDerivativesDesc* desc,
+                                               uint64_t* out_bytes);
+
+/* Returns how many numbers a point has. `mesh` is the index of the mesh of MIEN_POINT_POSITIONS, else 0.
+ * Fails with MIEN_ERROR_INDEX if there is no such point or mesh, or no deformer. */
+MIEN_CHECKED MienStatus mien_derivatives_size(const MienDerivatives* derivatives, uint32_t point,
+                                              uint32_t mesh, size_t* out_size);
+
+/* Computes the derivatives at the values of `instance`, which must be of the rig and have been evaluated, at
+ * the LOD of that evaluation. `stages` are those that have derivatives, MIEN_STAGE_ALL or some of them: what
+ * the others write counts as constant. Allocates nothing.
+ * Where a function has no derivative, the one to the side is given that lets a solver go on:
+ *   - controls of 0 and 1: into the interval, for correctives, GUI controls and maps
+ *   - where two intervals of a conditional table meet: the steeper one
+ *   - weights of RBF poses below the threshold: as without a threshold; at a stored pose itself 0
+ *   - ReLU at 0: rising
+ * Values are saturated nowhere: derivatives of what overflows are those of the formula. Networks and solvers
+ * that read controls which are computed after them see constants. */
+MIEN_CHECKED MienStatus mien_derivatives_linearize(MienDerivatives* derivatives,
+                                                   const MienInstance* instance, uint32_t stages);
+
+/* Multiplies directions by the matrix of derivatives, also called Jacobian-vector products: for each of
+ * `count` directions, rows of mien_derivatives_size() numbers at `from`, how the numbers at `to` change.
+ * Rows follow each other without gaps; `outputs` has `count` rows and must not overlap `directions`. Several
+ * directions in one call are faster than one by one, and have the same bits. Allocates nothing.
+ * Fails with MIEN_ERROR_INDEX if a point or the mesh does not exist, MIEN_ERROR_INVALID_ARGUMENT if `from`
+ * has no effect on `to` or nothing was linearized. */
+MIEN_CHECKED MienStatus mien_derivatives_forward(MienDerivatives* derivatives, uint32_t from, uint32_t to,
+                                                 uint32_t mesh, uint32_t count, const float* directions,
+                                                 float* outputs);
+
+/* Multiplies gradients by the transposed matrix, also called vector-Jacobian products: for each of `count`
+ * gradients by the numbers at `to`, the gradient by those at `from`; `mesh` and all else as in
+ * mien_derivatives_forward(). */
+MIEN_CHECKED MienStatus mien_derivatives_reverse(MienDerivatives* derivatives, uint32_t from, uint32_t to,
+                                                 uint32_t mesh, uint32_t count, const float* gradients,
+                                                 float* outputs);
+
+/* A matrix of derivatives: its entries that are not 0, by column, then by row. */
+typedef struct MienJacobian {
+    size_t struct_size;
+    const uint32_t* inputs;  /* numbers at `from`, the columns. NULL: all */
+    const uint32_t* outputs; /* numbers at `to`, the rows, ascending. NULL: all */
+    size_t input_count;      /* 0 if `inputs` is NULL */
+    size_t output_count;     /* 0 if `outputs` is NULL */
+    uint32_t* rows;          /* places in `outputs`, or numbers at `to` */
+    uint32_t* columns;       /* places in `inputs`, or numbers at `from` */
+    float* values;
+    size_t capacity;         /* entries that fit rows, columns and values. 0: they may be NULL, and
+                                entries are only counted */
+} MienJacobian;
+MIEN_DEFAULT(MienJacobian, mien_jacobian_default)
+
+/* Computes the matrix of derivatives `from` a point `to` another, `mesh` as above. `out_count` is the number of
+ * entries; at most `capacity` of them are written. Allocates nothing.
+ * Fails with MIEN_ERROR_INVALID_ARGUMENT if there are more than `capacity`, unless that is 0; otherwise as
+ * mien_derivatives_forward(). */
+MIEN_CHECKED MienStatus mien_derivatives_jacobian(MienDerivatives* derivatives, uint32_t from, uint32_t to,
+                                                  uint32_t mesh, const MienJacobian* jacobian,
+                                                  size_t* out_count);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
