@@ -20,7 +20,7 @@ SUFFIXES = {".h", ".hpp", ".c", ".cpp", ".inl", ".py", ".rs", ".cmake", ".txt", 
             ".map"}
 # Named before they exist.
 NOT_YET = {"capi/mien_abi.json"}
-AREAS = ("author", "bench", "capi", "docs", "examples", "integrations", "runtime", "simd", "tests")
+AREAS = ("author", "bench", "capi", "docs", "examples", "integrations", "runtime", "simd", "solve", "tests")
 
 HEADING = re.compile(r"^(#{1,6})\s+(.*?)\s*#*$")
 NUMBERED = re.compile(r"(\d+(?:\.\d+)*)\.?\s+(.*)")

@@ -4,7 +4,7 @@
 
 Usage: check_exports.py [--nm NM] [--objdump OBJDUMP] LIBRARY...
 
-A library is libmien.so, libmien-author.so, or one of them as a DLL, which objdump reads.
+A library is libmien.so, libmien-author.so, libmien-solve.so, or one of them as a DLL, which objdump reads.
 """
 import argparse
 import re
@@ -14,8 +14,10 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 # Of a library: its headers and its map.
-HEADERS = {"mien": ["mien.h", "mien/*.h"], "mien_author": ["mien_author.h", "mien_author/*.h"]}
-MAPS = {"mien": "capi/mien.map", "mien_author": "author/mien_author.map"}
+HEADERS = {"mien": ["mien.h", "mien/*.h"], "mien_author": ["mien_author.h", "mien_author/*.h"],
+           "mien_solve": ["mien_solve.h"]}
+MAPS = {"mien": "capi/mien.map", "mien_author": "author/mien_author.map",
+        "mien_solve": "solve/mien_solve.map"}
 
 
 def without_comments(text):
@@ -64,7 +66,8 @@ def exported_by_dll(objdump, library):
 
 
 def problems_of(nm, objdump, library):
-    stem = "mien_author" if "mien-author" in Path(library).name else "mien"
+    name = Path(library).name
+    stem = "mien_author" if "mien-author" in name else "mien_solve" if "mien-solve" in name else "mien"
     version_script = ROOT / MAPS[stem]
     in_header = declared(stem, stem.upper())
     version, in_script = listed(version_script)

@@ -60,11 +60,13 @@ GRAPH = {
     "capi/arguments": ["runtime/base", "runtime/load/dna/format", "capi/include"],
     "author/capi": ["capi/include", "capi/arguments", "runtime/base", "runtime/load/dna/format", "author/rigging",
                     "author/generate/head", "author/generate/synthetic", "author/document"],
+    # libmien-solve stands on the headers, as programs do, and on what libraries read their arguments with.
+    "solve": ["capi/include", "capi/arguments", "runtime/base"],
     "capi": ["capi/arguments", "runtime/base", "simd", "runtime/eval", "runtime/anim", "runtime/mix",
              "runtime/solve", "runtime/deform", "runtime/derive", "runtime/probe", "runtime/baked", "runtime/load/dna/format",
              "runtime/load/dna/check", "runtime/load/dna", "runtime/load/compile", "runtime/load/validate"],
 }
-PUBLIC_HEADERS = ("capi/include/mien.h", "capi/include/mien_author.h")
+PUBLIC_HEADERS = ("capi/include/mien.h", "capi/include/mien_author.h", "capi/include/mien_solve.h")
 
 # The rooms of the program: the same, and no room sees the libraries but through their headers.
 PROGRAM = "integrations/program"
@@ -162,7 +164,7 @@ def check_include(path, quoted, target, resolved):
             return "kernel files and headers of simd include C headers and xsimd only"
         if path.startswith("simd/") and not is_kernel(path) and target.startswith("xsimd"):
             return "only kernel files include xsimd"
-        if path.startswith(("author/", "runtime/", "capi/")) and target.startswith("xsimd"):
+        if path.startswith(("author/", "runtime/", "solve/", "capi/")) and target.startswith("xsimd"):
             return "only kernel files include xsimd"
         return None
 
@@ -205,7 +207,7 @@ def find_circles():
 
 
 def sources(root):
-    for area in ("author", "runtime", "simd", "capi", OUTSIDE):
+    for area in ("author", "runtime", "simd", "solve", "capi", OUTSIDE):
         for file in sorted((root / area).rglob("*")):
             if file.suffix in SUFFIXES and file.is_file():
                 yield file

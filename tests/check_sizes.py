@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The sizes of libraries in docs/architecture.md, "The two libraries", are those of the libraries that were built.
+"""The sizes of libraries in docs/architecture.md, "The libraries", are those of the libraries that were built.
 
     check_sizes.py [--self-test] LIBRARY ...         of a full build
     check_sizes.py [--self-test] --slim LIBRARY ...

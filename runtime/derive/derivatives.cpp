@@ -118,7 +118,7 @@ void place(const Rig& rig, const Deformer* deformer, Placer& placer, Derivatives
 bool has_stage(const Derivatives& d, uint32_t stage) { return (d.stages & stage) != 0; }
 
 /// Where the numbers of a point are; matrices and positions are apart.
-Span<float> buffer_of(Derivatives& d, Point point) {
+const Span<float>& buffer_of(const Derivatives& d, Point point) {
   switch (point) {
     case Point::kGui: return d.gui;
     case Point::kRaw: return d.controls;
@@ -131,7 +131,7 @@ Span<float> buffer_of(Derivatives& d, Point point) {
     case Point::kMaps: return d.maps;
     case Point::kPositions: break;
   }
-  return {};
+  return d.moved;
 }
 
 bool is_matrix(Point point) {
@@ -167,14 +167,22 @@ void save(Derivatives& d, Point point, uint32_t lanes, uint32_t count, float* ro
   }
 }
 
-void clear_buffers(Derivatives& d, uint32_t lanes) {
-  const auto clear_one = [&](const Span<float>& buffer) {
-    std::fill(buffer.data, buffer.data + buffer.count / kBatchLanes * lanes, 0.0f);
-  };
-  for (const Span<float>* buffer :
-       {&d.gui, &d.controls, &d.joints, &d.maps, &d.weights, &d.locals, &d.models, &d.skins}) {
-    clear_one(*buffer);
+/// Of buffers that stages do not write in full.
+void clear_buffers(std::initializer_list<const Span<float>*> buffers, uint32_t lanes) {
+  for (const Span<float>* buffer : buffers) {
+    std::fill(buffer->data, buffer->data + buffer->count / kBatchLanes * lanes, 0.0f);
   }
+}
+void clear_for_push(Derivatives& d, Point from, Point to, uint32_t lanes) {
+  clear_buffers({&d.controls, &d.weights}, lanes);
+  if (to == Point::kMaps) clear_buffers({&d.maps}, lanes);
+  if (from == Point::kChannels) clear_buffers({&d.skins}, lanes);
+  if (!has_stage(d, kStageJoints)) clear_buffers({&d.joints}, lanes);
+}
+void clear_for_pull(Derivatives& d, Point to, uint32_t lanes) {
+  clear_buffers({&d.gui, &d.controls, &d.weights}, lanes);
+  if (to >= Point::kJoints && to <= Point::kPositions) clear_buffers({&d.joints}, lanes);
+  if (to == Point::kPositions) clear_buffers({&d.skins}, lanes);
 }
 
 /// Whether the stage that leads from `point` to the next one lies between `from` and `to`.
@@ -208,7 +216,7 @@ void push_buffers(Derivatives& d, Point from, Point to) {
 template <uint32_t L>
 void push_lanes(Derivatives& d, Point from, Point to, uint32_t mesh, uint32_t count,
                 const float* directions, float* outputs) {
-  clear_buffers(d, L);
+  clear_for_push(d, from, to, L);
   d.lane_count = count;
   load(d, from, L, count, directions);
   push_buffers<L>(d, from, to);
@@ -220,7 +228,7 @@ void push_lanes(Derivatives& d, Point from, Point to, uint32_t mesh, uint32_t co
 template <uint32_t L>
 void pull_lanes(Derivatives& d, Point from, Point to, uint32_t mesh, uint32_t count,
                 const float* gradients, float* outputs) {
-  clear_buffers(d, L);
+  clear_for_pull(d, to, L);
   d.lane_count = count;
   const bool to_positions = to == Point::kPositions;
   d.all_move = from == Point::kControls;
@@ -288,7 +296,8 @@ size_t find_jacobian(Derivatives& d, const JacobianArgs& args) {
   size_t count = 0;
   for (size_t first = 0; first < inputs; first += L) {
     const auto lanes = static_cast<uint32_t>(std::min<size_t>(L, inputs - first));
-    clear_buffers(d, L);
+    clear_for_push(d, args.from, args.to, L);
+    clear_buffers({&buffer_of(d, args.from)}, L);
     d.lane_count = lanes;
     for (uint32_t k = 0; k < lanes; ++k) {
       const size_t input = args.inputs.data ? args.inputs[first + k] : first + k;

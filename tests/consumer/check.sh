@@ -12,7 +12,7 @@ source "$(dirname "$0")/use.sh"
 rm -rf "$work"
 mkdir -p "$work"
 # By component, which leaves the manifest of a real installation, read by `uninstall`, as it is.
-for component in mien_runtime mien_author_runtime mien_development mien_program; do
+for component in mien_runtime mien_author_runtime mien_solve_runtime mien_development mien_program; do
   "$cmake" --install "$build" --prefix "$work/installed" --component $component >>"$work/install.log"
 done
 # Nothing of it may remember where it was installed.

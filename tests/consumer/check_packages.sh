@@ -13,15 +13,15 @@ root=$work/root
 
 rm -rf "$work"
 mkdir -p "$root"
-[ ${#packages[@]} -eq 4 ] || { echo "not four packages: ${packages[*]}" >&2; exit 1; }
+[ ${#packages[@]} -eq 5 ] || { echo "not five packages: ${packages[*]}" >&2; exit 1; }
 for package in "${packages[@]}"; do
   dpkg-deb --extract "$package" "$root"
 done
 libdir=$(dirname "$(find "$root" -name libmien.so)")
 
 # Each exported name has its release, and no other name has one.
-python3 "$here/../check_exports.py" "$libdir/libmien.so" "$libdir/libmien-author.so"
-for library in mien mien-author; do
+python3 "$here/../check_exports.py" "$libdir/libmien.so" "$libdir/libmien-author.so" "$libdir/libmien-solve.so"
+for library in mien mien-author mien-solve; do
   soname=$(basename "$(readlink "$libdir/lib$library.so")")
   runtime=$(printf '%s\n' "${packages[@]}" | grep "/lib$library${soname##*.so.}_")
   dpkg-deb --ctrl-tarfile "$runtime" | tar -xO ./symbols >"$work/symbols"

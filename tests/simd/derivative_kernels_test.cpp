@@ -111,8 +111,8 @@ TEST(JointTransposedKernels, HaveTheBitsOfTheirFamily) {
                 for (const InputBlock& b : half[c]) {
                   for (size_t r = 0; r < kJointBlockRows; ++r) {
                     const size_t at = size_t{b.block} * kJointBlockRows + r;
-                    const double value =
-                        fixed ? double{aligned(m.integers)[at]} : double{aligned(m.floats)[at]};
+                    const double value = fixed ? static_cast<double>(aligned(m.integers)[at])
+                                               : double{aligned(m.floats)[at]};
                     const double product =
                         value * lanes[(b.input * kJointBlockRows + r) * kBatchLanes + k];
                     exact += product;

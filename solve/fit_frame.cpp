@@ -1,0 +1,408 @@
+// SPDX-License-Identifier: MIT
+// Solves a frame: bounded Gauss-Newton steps with Levenberg-Marquardt damping (docs/solving.md).
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "solve/fit.h"
+
+using namespace mien;
+using namespace mien::capi;
+
+namespace {
+
+constexpr uint32_t kDefaultIterations = 50;
+constexpr double kEnoughDecrease = 1e-9;  // of the cost
+constexpr double kEnoughOfFirst = 1e-8;   // of the cost at the start
+constexpr double kEnoughStep = 1e-6;      // of a control
+
+/// The sums over the data at some controls.
+struct Cost {
+  double total = 0, joints = 0, points = 0, joint_weight = 0, point_weight = 0;
+};
+
+struct Frame {
+  MienFit& fit;
+  MienFitFrame in;
+  double rotation[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, translation[3] = {};
+  uint32_t missing = 0;
+
+  bool has_points() const { return in.points || in.images; }
+  double joint_factor() const { return in.joint_weight > 0 ? in.joint_weight : 1; }
+};
+
+double square(double v) { return v * v; }
+
+/// The robust cost of a squared residual, and the weight that it has in a step (S. Geman, D. McClure 1987).
+double robust(double squared, double scale, double& weight) {
+  if (!(scale > 0)) {
+    weight = 1;
+    return squared;
+  }
+  const double s = scale * scale, share = s / (s + squared);
+  weight = share * share;
+  return squared * share;
+}
+
+void evaluate(MienFit& fit) {
+  static_cast<void>(mien_rig_evaluate_stages(fit.rig, fit.instance, fit.lod,
+                                             MIEN_STAGE_ALL & ~uint32_t{MIEN_STAGE_ANIMATED_MAPS}));
+}
+
+/// The points of the surface at the controls of the instance.
+void find_surface(Frame& f) {
+  MienFit& fit = f.fit;
+  static_cast<void>(mien_deformer_instance_update(fit.deformed, fit.instance));
+  static_cast<void>(
+      mien_deformer_instance_deform(fit.deformed, fit.mesh, MIEN_NORMALS_NONE, nullptr));
+  MienFloatView positions = {};
+  static_cast<void>(mien_deformer_instance_positions(fit.deformed, fit.mesh, &positions));
+  for (size_t i = 0; i < fit.points.count; ++i) {
+    const MienSolvePoint& point = fit.points[i];
+    for (size_t k = 0; k < 3; ++k) {
+      double sum = 0;
+      for (size_t n = 0; n < 3; ++n) {
+        sum += double{point.weights[n]} * positions.data[size_t{point.positions[n]} * 3 + k];
+      }
+      fit.surface[3 * i + k] = sum;
+    }
+  }
+}
+
+/// The residual of a point in 3D and its derivative by the point, squared residual returned.
+double point_residual(const Frame& f, size_t i, double* gradient) {
+  const double* p = f.fit.surface.data + 3 * i;
+  double moved[3];
+  for (size_t r = 0; r < 3; ++r) {
+    moved[r] = f.translation[r];
+    for (size_t c = 0; c < 3; ++c) moved[r] += f.rotation[3 * r + c] * p[c];
+  }
+  double squared = 0, by_moved[3] = {};
+  if (f.in.points) {
+    for (size_t k = 0; k < 3; ++k) {
+      by_moved[k] = moved[k] - f.fit.targets[3 * i + k];
+      squared += square(by_moved[k]);
+    }
+  } else if (moved[2] > 1e-6) {
+    const MienFitCamera& camera = *f.in.camera;
+    for (size_t k = 0; k < 2; ++k) {
+      const double focal = camera.focal[k], z = moved[2];
+      const double r = focal * moved[k] / z + camera.center[k] - f.fit.targets[3 * i + k];
+      squared += r * r;
+      by_moved[k] += r * focal / z;
+      by_moved[2] -= r * focal * moved[k] / (z * z);
+    }
+  }
+  for (size_t c = 0; c < 3; ++c) {
+    gradient[c] = 0;
+    for (size_t r = 0; r < 3; ++r) gradient[c] += f.rotation[3 * r + c] * by_moved[r];
+  }
+  return squared;
+}
+
+/// Targets and weights of the frame; missing ones have no weight.
+void read_points(Frame& f) {
+  MienFit& fit = f.fit;
+  const float* rows = f.in.points ? f.in.points : f.in.images;
+  const size_t width = f.in.points ? 3 : 2;
+  for (size_t i = 0; i < fit.points.count; ++i) {
+    bool finite = true;
+    for (size_t k = 0; k < 3; ++k) {
+      const float v = k < width ? rows[width * i + k] : 0.0f;
+      finite = finite && std::isfinite(v);
+      fit.targets[3 * i + k] = v;
+    }
+    const float weight = f.in.point_weights ? f.in.point_weights[i] : 1.0f;
+    fit.weights[i] = finite ? weight : 0.0;
+    if (!finite) std::fill(fit.targets.data + 3 * i, fit.targets.data + 3 * i + 3, 0.0);
+    f.missing += !finite;
+  }
+  if (!f.in.images) return;
+  for (int k = 0; k < 9; ++k) f.rotation[k] = f.in.camera->rotation[k];
+  for (int k = 0; k < 3; ++k) f.translation[k] = f.in.camera->translation[k];
+}
+
+/// The weight of a control's distance to where it started, or to its prior, and so on: adds to the cost, and
+/// to gradients and diagonal if there are any.
+double regularize(const Frame& f, const float* raw, double* gradient) {
+  const MienFit& fit = f.fit;
+  double cost = 0;
+  for (size_t i = 0; i < fit.controls.count; ++i) {
+    const uint32_t c = fit.controls[i];
+    const double to_prior = double{raw[c]} - fit.prior[c], to_start = double{raw[c]} - fit.start[c];
+    cost += f.in.prior_weight * square(to_prior) + f.in.smooth_weight * square(to_start) +
+            f.in.sparse_weight * std::fabs(raw[c]);
+    if (!gradient) continue;
+    // At 0 the side on which the control may move: a sum of magnitudes has a corner there.
+    const double sign = raw[c] > 0 ? 1 : raw[c] < 0 ? -1 : fit.upper[i] > 0 ? 1 : -1;
+    gradient[i] += f.in.prior_weight * to_prior + f.in.smooth_weight * to_start +
+                   0.5 * f.in.sparse_weight * sign;
+  }
+  for (size_t i = 0; i + 1 < fit.symmetric.count; i += 2) {
+    cost +=
+        f.in.symmetric_weight * square(double{raw[fit.symmetric[i]]} - raw[fit.symmetric[i + 1]]);
+  }
+  return cost;
+}
+
+/// The cost at the controls of the instance; with gradients of joints and positions if asked for.
+Cost find_cost(Frame& f, bool with_gradients) {
+  MienFit& fit = f.fit;
+  evaluate(fit);
+  Cost cost;
+  if (f.in.joints) {
+    for (size_t i = 0; i < fit.joint_count; ++i) {
+      const bool present = std::isfinite(f.in.joints[i]);
+      const double weight = present ? fit.joint_weights[i] * f.joint_factor() : 0;
+      const double r = present ? double{fit.joints[i]} - f.in.joints[i] : 0;
+      cost.joints += weight * r * r;
+      cost.joint_weight += weight;
+      if (with_gradients) fit.joint_gradient[i] = static_cast<float>(weight * r);
+    }
+  }
+  if (f.has_points()) {
+    find_surface(f);
+    if (f.in.points && f.in.rigid) {
+      fit_rigid(fit.surface.data, fit.targets.data, fit.weights.data, fit.points.count, f.rotation,
+                f.translation);
+    }
+    if (with_gradients) {
+      std::fill(fit.position_gradient.begin(), fit.position_gradient.end(), 0.0f);
+    }
+    for (size_t i = 0; i < fit.points.count; ++i) {
+      if (!(fit.weights[i] > 0)) continue;
+      double gradient[3], weight;
+      const double squared = point_residual(f, i, gradient);
+      cost.points += fit.weights[i] * robust(squared, f.in.robust_scale, weight);
+      cost.point_weight += fit.weights[i];
+      if (!with_gradients) continue;
+      const MienSolvePoint& point = fit.points[i];
+      for (size_t n = 0; n < 3; ++n) {
+        float* to = fit.position_gradient.data + size_t{point.positions[n]} * 3;
+        for (size_t k = 0; k < 3; ++k) {
+          to[k] += static_cast<float>(fit.weights[i] * weight * point.weights[n] * gradient[k]);
+        }
+      }
+    }
+  }
+  cost.total = cost.joints + cost.points;
+  return cost;
+}
+
+/// Half of the gradient of the cost by the controls that may move.
+void find_gradient(Frame& f) {
+  MienFit& fit = f.fit;
+  static_cast<void>(mien_derivatives_linearize(fit.derivatives, fit.instance, MIEN_STAGE_ALL));
+  std::fill(fit.gradient.begin(), fit.gradient.end(), 0.0);
+  const auto add = [&](uint32_t from, const float* gradient, const Span<float>& out) {
+    static_cast<void>(mien_derivatives_reverse(fit.derivatives, MIEN_POINT_RAW, from, fit.mesh, 1,
+                                               gradient, out.data));
+    for (size_t i = 0; i < fit.controls.count; ++i) fit.gradient[i] += out[fit.controls[i]];
+  };
+  if (f.in.joints) add(MIEN_POINT_JOINTS, fit.joint_gradient.data, fit.from_joints);
+  if (f.has_points()) add(MIEN_POINT_POSITIONS, fit.position_gradient.data, fit.from_positions);
+  regularize(f, fit.raw.data, fit.gradient.data);
+  for (size_t i = 0; i + 1 < fit.symmetric.count; i += 2) {
+    const uint32_t a = fit.symmetric[i], b = fit.symmetric[i + 1];
+    const double difference = f.in.symmetric_weight * (double{fit.raw[a]} - fit.raw[b]);
+    for (size_t k = 0; k < fit.controls.count; ++k) {
+      if (fit.controls[k] == a) fit.gradient[k] += difference;
+      if (fit.controls[k] == b) fit.gradient[k] -= difference;
+    }
+  }
+}
+
+/// Controls that are not held at a bound by the gradient.
+size_t list_free(const MienFit& fit) {
+  size_t count = 0;
+  for (size_t i = 0; i < fit.controls.count; ++i) {
+    const float value = fit.raw[fit.controls[i]];
+    if (value <= fit.lower[i] && fit.gradient[i] >= 0) continue;
+    if (value >= fit.upper[i] && fit.gradient[i] <= 0) continue;
+    fit.free[count] = static_cast<uint32_t>(i);
+    fit.inputs[count++] = fit.controls[i];
+  }
+  return count;
+}
+
+/// What the metric of points is multiplied by: their weights, and in images how large they appear.
+double point_factor(const Frame& f) {
+  const MienFit& fit = f.fit;
+  if (!f.has_points()) return 0;
+  double factor = 0;
+  for (size_t i = 0; i < fit.points.count; ++i) factor += fit.weights[i];
+  factor /= static_cast<double>(fit.points.count);
+  if (!f.in.images) return factor;
+  double z = f.translation[2];
+  for (size_t k = 0; k < 3; ++k) z += f.rotation[6 + k] * fit.surface[k];
+  const double focal = std::max(f.in.camera->focal[0], f.in.camera->focal[1]);
+  return factor * square(focal / std::max(std::fabs(z), 1e-6));
+}
+
+/// The matrix of a step: D^T G D and the regularization.
+void set_matrix(Frame& f, size_t free_count) {
+  MienFit& fit = f.fit;
+  list_free_derivatives(fit, free_count);
+  std::fill(fit.matrix.data, fit.matrix.data + free_count * free_count, 0.0);
+  if (f.in.joints) project_metric(fit, fit.joint_metric.data, f.joint_factor(), free_count);
+  const double points = point_factor(f);
+  if (points > 0) project_metric(fit, fit.point_metric.data, points, free_count);
+  for (size_t a = 0; a < free_count; ++a) {
+    fit.matrix[a * free_count + a] += double{f.in.prior_weight} + f.in.smooth_weight;
+  }
+  for (size_t i = 0; i + 1 < fit.symmetric.count && f.in.symmetric_weight > 0; i += 2) {
+    size_t at[2] = {free_count, free_count};
+    for (size_t a = 0; a < free_count; ++a) {
+      for (size_t n = 0; n < 2; ++n) at[n] = fit.inputs[a] == fit.symmetric[i + n] ? a : at[n];
+    }
+    for (const size_t a : at) {
+      if (a != free_count) fit.matrix[a * free_count + a] += f.in.symmetric_weight;
+    }
+    if (at[0] == free_count || at[1] == free_count) continue;
+    fit.matrix[at[0] * free_count + at[1]] -= f.in.symmetric_weight;
+    fit.matrix[at[1] * free_count + at[0]] -= f.in.symmetric_weight;
+  }
+}
+
+/// A step from `best` into the instance; controls that leave their bounds stay at them. Returns how far the
+/// farthest control moved.
+double take_step(Frame& f, size_t free_count, double damping) {
+  MienFit& fit = f.fit;
+  while (!factor_matrix(fit.matrix.data, free_count, damping, fit.factor.data)) {
+    damping = std::max(damping * 10, 1e-8);
+  }
+  for (size_t a = 0; a < free_count; ++a) fit.step[a] = -fit.gradient[fit.free[a]];
+  solve_factored(fit.factor.data, free_count, fit.step.data);
+  double farthest = 0;
+  for (size_t a = 0; a < free_count; ++a) {
+    const uint32_t i = fit.free[a], c = fit.controls[i];
+    const double low = fit.lower[i], high = fit.upper[i], from = fit.best[c];
+    double to = std::min(std::max(from + fit.step[a], low), high);
+    // A control does not jump over the corner of a sum of magnitudes.
+    if (f.in.sparse_weight > 0 && from * to < 0) to = 0;
+    farthest = std::max(farthest, std::fabs(to - from));
+    fit.raw[c] = static_cast<float>(to);
+  }
+  return farthest;
+}
+
+bool is_weight(float v) { return v >= 0 && std::isfinite(v); }
+
+MienStatus check_frame(const MienFit& fit, const MienFitFrame& in) {
+  if ((in.points || in.images) && fit.points.count == 0) return MIEN_ERROR_NULL_ARGUMENT;
+  if (in.images && (!in.camera || in.points)) {
+    return in.camera ? MIEN_ERROR_INVALID_ARGUMENT : MIEN_ERROR_NULL_ARGUMENT;
+  }
+  for (const float weight : {in.prior_weight, in.smooth_weight, in.sparse_weight,
+                             in.symmetric_weight, in.robust_scale, in.joint_weight}) {
+    if (!is_weight(weight)) return MIEN_ERROR_INVALID_ARGUMENT;
+  }
+  for (size_t i = 0; in.point_weights && i < fit.points.count; ++i) {
+    if (!is_weight(in.point_weights[i])) return MIEN_ERROR_INVALID_ARGUMENT;
+  }
+  const auto finite = [&](const float* row) {
+    for (size_t i = 0; row && i < fit.raw_count; ++i) {
+      if (!std::isfinite(row[i])) return false;
+    }
+    return true;
+  };
+  return finite(in.start) && finite(in.prior) ? MIEN_OK : MIEN_ERROR_INVALID_ARGUMENT;
+}
+
+/// Start and prior, the start within its bounds.
+void read_rows(Frame& f) {
+  MienFit& fit = f.fit;
+  const float* start = f.in.start ? f.in.start : fit.initial.data;
+  const float* prior = f.in.prior ? f.in.prior : fit.initial.data;
+  std::copy(start, start + fit.raw_count, fit.start.data);
+  std::copy(prior, prior + fit.raw_count, fit.prior.data);
+  std::copy(start, start + fit.raw_count, fit.raw.data);
+  for (size_t i = 0; i < fit.controls.count; ++i) {
+    float& v = fit.raw[fit.controls[i]];
+    v = std::min(std::max(v, fit.lower[i]), fit.upper[i]);
+  }
+}
+
+uint32_t solve(Frame& f, Cost& cost, uint32_t& iterations) {
+  using Clock = std::chrono::steady_clock;
+  MienFit& fit = f.fit;
+  const auto begin = Clock::now();
+  const auto late = [&] {
+    return f.in.max_seconds > 0 &&
+           std::chrono::duration<double>(Clock::now() - begin).count() >= f.in.max_seconds;
+  };
+  const uint32_t limit = f.in.max_iterations ? f.in.max_iterations : kDefaultIterations;
+  const auto keep = [&] { std::copy(fit.raw.begin(), fit.raw.end(), fit.best.begin()); };
+  cost = find_cost(f, true);
+  cost.total += regularize(f, fit.raw.data, nullptr);
+  keep();
+  if (!(cost.joint_weight + cost.point_weight > 0)) return MIEN_FIT_NO_DATA;
+  const double first = cost.total;
+  double damping = 1e-5;
+  for (iterations = 0; iterations < limit; ++iterations) {
+    if (f.in.canceled && f.in.canceled(f.in.user)) return MIEN_FIT_CANCELED;
+    if (iterations != 0 && late()) return MIEN_FIT_TIME;
+    find_gradient(f);
+    const size_t free_count = list_free(fit);
+    if (free_count == 0) return MIEN_FIT_CONVERGED;
+    set_matrix(f, free_count);
+    bool better = false;
+    while (!better) {
+      const double farthest = take_step(f, free_count, damping);
+      Cost next = find_cost(f, true);
+      next.total += regularize(f, fit.raw.data, nullptr);
+      better = next.total < cost.total;
+      if (better) {
+        const double decrease = cost.total - next.total;
+        const double enough = std::max(kEnoughDecrease * cost.total, kEnoughOfFirst * first);
+        cost = next;
+        keep();
+        damping = std::max(damping * 0.2, 1e-7);
+        if (decrease <= enough || farthest < kEnoughStep) return MIEN_FIT_CONVERGED;
+        break;
+      }
+      std::copy(fit.best.begin(), fit.best.end(), fit.raw.begin());
+      if (farthest < kEnoughStep || damping > 1e8) {
+        cost = find_cost(f, false);  // of the best controls
+        cost.total += regularize(f, fit.raw.data, nullptr);
+        return MIEN_FIT_CONVERGED;
+      }
+      damping *= 10;
+    }
+  }
+  return MIEN_FIT_ITERATIONS;
+}
+
+}  // namespace
+
+MienStatus mien_fit_solve(MienFit* fit, const MienFitFrame* frame, float* out_raw,
+                          MienFitResult* result) {
+  if (!fit || !frame || !out_raw) return MIEN_ERROR_NULL_ARGUMENT;
+  if (fit->tag != kFitTag) return MIEN_ERROR_HANDLE;
+  MienFitFrame known;
+  if (MienStatus status = read_struct(frame, known)) return status;
+  if (result) {
+    if (MienStatus status = clear_struct(result)) return status;
+  }
+  if (MienStatus status = check_frame(*fit, known)) return status;
+  Frame f = {*fit, known};
+  read_rows(f);
+  if (f.has_points()) read_points(f);
+  Cost cost;
+  uint32_t iterations = 0;
+  MienFitResult told = {};
+  told.status = solve(f, cost, iterations);
+  std::copy(fit->best.begin(), fit->best.end(), out_raw);
+  told.iterations = iterations;
+  told.cost = cost.total;
+  const auto root_mean = [](double sum, double weight) {
+    return weight > 0 ? std::sqrt(sum / weight) : 0.0;
+  };
+  told.joint_residual = root_mean(cost.joints, cost.joint_weight);
+  told.point_residual = root_mean(cost.points, cost.point_weight);
+  told.missing_points = f.missing;
+  for (int k = 0; k < 9; ++k) told.rotation[k] = static_cast<float>(f.rotation[k]);
+  for (int k = 0; k < 3; ++k) told.translation[k] = static_cast<float>(f.translation[k]);
+  if (result) write_struct(result, told);
+  return MIEN_OK;
+}

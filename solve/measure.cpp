@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: MIT
+// What controls move: the metric G = P^T W P of all controls, where P are the derivatives of joint values, or of
+// points, by controls at the neutral pose. For joint values it holds in every pose (where rotations are sums
+// of angles); for points it is near enough for steps, whose gradients are exact.
+#include <algorithm>
+#include <cmath>
+
+#include "solve/fit.h"
+
+namespace mien {
+namespace {
+
+constexpr size_t kMaxMeasuredPoints = 400;  // more points add time and no new directions
+
+struct Column {
+  uint32_t first, count;  // into the entries
+};
+
+/// The sparse matrix P, its columns, and one dense column at a time against all others.
+void multiply_columns(Span<Column> columns, const uint32_t* rows, const float* values,
+                      double* dense, float* metric) {
+  const size_t count = columns.count;
+  for (size_t a = 0; a < count; ++a) {
+    const Column& one = columns[a];
+    for (uint32_t i = 0; i < one.count; ++i) dense[rows[one.first + i]] = values[one.first + i];
+    for (size_t b = a; b < count && one.count != 0; ++b) {
+      const Column& other = columns[b];
+      double sum = 0;
+      for (uint32_t i = 0; i < other.count; ++i) {
+        sum += dense[rows[other.first + i]] * values[other.first + i];
+      }
+      metric[a * count + b] = metric[b * count + a] = static_cast<float>(sum);
+    }
+    for (uint32_t i = 0; i < one.count; ++i) dense[rows[one.first + i]] = 0;
+  }
+}
+
+/// P of a point of the chain: entries of all controls. Null data if memory ran out.
+struct Entries {
+  Span<Column> columns;
+  Span<uint32_t> rows, numbers;
+  Span<float> values;
+};
+bool find_entries(MienFit& fit, uint32_t to, Span<uint32_t> outputs, Arena& arena, Entries& out) {
+  MienJacobian jacobian = mien_jacobian_default();
+  jacobian.outputs = outputs.data;
+  jacobian.output_count = outputs.count;
+  size_t count = 0;
+  if (mien_derivatives_jacobian(fit.derivatives, MIEN_POINT_CONTROLS, to, fit.mesh, &jacobian,
+                                &count) != MIEN_OK) {
+    return false;
+  }
+  out.columns = arena.array<Column>(fit.control_count + 1);
+  out.rows = arena.array<uint32_t>(count + 1);
+  out.numbers = arena.array<uint32_t>(count + 1);
+  out.values = arena.array<float>(count + 1);
+  if (!out.columns.data || !out.rows.data || !out.numbers.data || !out.values.data) return false;
+  jacobian.rows = out.rows.data;
+  jacobian.columns = out.numbers.data;
+  jacobian.values = out.values.data;
+  jacobian.capacity = count;
+  if (count != 0 && mien_derivatives_jacobian(fit.derivatives, MIEN_POINT_CONTROLS, to, fit.mesh,
+                                              &jacobian, &count) != MIEN_OK) {
+    return false;
+  }
+  out.columns = out.columns.first(fit.control_count);
+  for (uint32_t i = 0; i < count; ++i) {
+    Column& column = out.columns[out.numbers[i]];
+    if (column.count++ == 0) column.first = i;
+  }
+  return true;
+}
+
+bool measure_joints(MienFit& fit, Arena& arena) {
+  Entries entries;
+  const Span<double> dense = arena.array<double>(fit.joint_count + 1);
+  if (!dense.data || !find_entries(fit, MIEN_POINT_JOINTS, {}, arena, entries)) return false;
+  for (size_t i = 0; i + 1 < entries.rows.count; ++i) {
+    entries.values[i] *= std::sqrt(fit.joint_weights[entries.rows[i]]);
+  }
+  multiply_columns(entries.columns, entries.rows.data, entries.values.data, dense.data,
+                   fit.joint_metric.data);
+  return true;
+}
+
+/// Some of the points, evenly chosen, stand for all.
+bool measure_points(MienFit& fit, Arena& arena) {
+  const size_t every = (fit.points.count + kMaxMeasuredPoints - 1) / kMaxMeasuredPoints;
+  const size_t count = (fit.points.count + every - 1) / every;
+  // The coordinates that the chosen points read, ascending.
+  Span<uint32_t> outputs = arena.array<uint32_t>(count * 9 + 1);
+  if (!outputs.data) return false;
+  size_t used = 0;
+  for (size_t i = 0; i < fit.points.count; i += every) {
+    for (const uint32_t position : fit.points[i].positions) {
+      for (uint32_t k = 0; k < 3; ++k) outputs[used++] = position * 3 + k;
+    }
+  }
+  std::sort(outputs.data, outputs.data + used);
+  used = static_cast<size_t>(std::unique(outputs.data, outputs.data + used) - outputs.data);
+  outputs = outputs.first(used);
+  Entries entries;
+  if (!find_entries(fit, MIEN_POINT_POSITIONS, outputs, arena, entries)) return false;
+  const Span<float> coordinates = arena.array<float>(used + 1);
+  const Span<double> dense = arena.array<double>(count * 3 + 1);
+  const Span<Column> columns = arena.array<Column>(fit.control_count + 1);
+  // An entry of a coordinate becomes at most as many of points.
+  const Span<uint32_t> rows = arena.array<uint32_t>(fit.control_count * count * 3 + 1);
+  const Span<float> values = arena.array<float>(fit.control_count * count * 3 + 1);
+  if (!coordinates.data || !dense.data || !columns.data || !rows.data || !values.data) return false;
+  const double scale =
+      std::sqrt(static_cast<double>(fit.points.count) / static_cast<double>(count));
+  uint32_t at = 0;
+  for (size_t c = 0; c < fit.control_count; ++c) {
+    const Column& column = entries.columns[c];
+    columns[c] = {at, 0};
+    if (column.count == 0) continue;
+    std::fill(coordinates.begin(), coordinates.end(), 0.0f);
+    for (uint32_t i = 0; i < column.count; ++i) {
+      coordinates[entries.rows[column.first + i]] = entries.values[column.first + i];
+    }
+    uint32_t row = 0;
+    for (size_t i = 0; i < fit.points.count; i += every) {
+      const MienSolvePoint& point = fit.points[i];
+      for (uint32_t k = 0; k < 3; ++k, ++row) {
+        double sum = 0;
+        for (size_t n = 0; n < 3; ++n) {
+          const uint32_t number = point.positions[n] * 3 + k;
+          const uint32_t* found = std::lower_bound(outputs.data, outputs.data + used, number);
+          sum += double{point.weights[n]} * coordinates[static_cast<size_t>(found - outputs.data)];
+        }
+        if (sum == 0) continue;
+        rows[at] = row;
+        values[at++] = static_cast<float>(sum * scale);
+        ++columns[c].count;
+      }
+    }
+  }
+  multiply_columns(columns.first(fit.control_count), rows.data, values.data, dense.data,
+                   fit.point_metric.data);
+  return true;
+}
+
+/// Pivoted factorization: how much of what a control moves no control chosen before it moves.
+void find_observability(MienFit& fit) {
+  const size_t count = fit.controls.count;
+  for (size_t i = 0; i < count; ++i) {
+    fit.free[i] = static_cast<uint32_t>(i);
+    fit.inputs[i] = fit.controls[i];
+  }
+  list_free_derivatives(fit, count);
+  std::fill(fit.matrix.begin(), fit.matrix.end(), 0.0);
+  project_metric(fit, fit.joint_metric.data, 1, count);
+  if (fit.points.count != 0) project_metric(fit, fit.point_metric.data, 1, count);
+  std::fill(fit.observability.begin(), fit.observability.end(), 0.0f);
+  double* const m = fit.matrix.data;
+  double largest = 0;
+  for (size_t i = 0; i < count; ++i) {
+    fit.work[i] = m[i * count + i];
+    fit.step[i] = 1;  // not chosen yet
+    largest = std::max(largest, fit.work[i]);
+  }
+  if (!(largest > 0)) return;
+  for (size_t n = 0; n < count; ++n) {
+    size_t pivot = count;
+    double best = 1e-9;
+    for (size_t i = 0; i < count; ++i) {
+      const double own = fit.work[i];
+      if (fit.step[i] == 0 || !(own > 1e-12 * largest)) continue;
+      const double share = m[i * count + i] / own;
+      if (share > best) {
+        best = share;
+        pivot = i;
+      }
+    }
+    if (pivot == count) return;
+    fit.step[pivot] = 0;
+    fit.observability[fit.controls[pivot]] = static_cast<float>(std::min(best, 1.0));
+    const double diagonal = m[pivot * count + pivot];
+    std::copy(m + pivot * count, m + (pivot + 1) * count, fit.factor.data);
+    for (size_t i = 0; i < count; ++i) {
+      if (fit.step[i] == 0) continue;
+      const double factor = m[i * count + pivot] / diagonal;
+      if (factor == 0) continue;
+      for (size_t k = 0; k < count; ++k) m[i * count + k] -= factor * fit.factor[k];
+    }
+  }
+}
+
+}  // namespace
+
+bool measure_rig(MienFit& fit, Arena& arena) {
+  if (!measure_joints(fit, arena)) return false;
+  if (fit.points.count != 0 && !measure_points(fit, arena)) return false;
+  find_observability(fit);
+  return true;
+}
+
+void list_free_derivatives(MienFit& fit, size_t free_count) {
+  MienJacobian jacobian = mien_jacobian_default();
+  jacobian.inputs = fit.inputs.data;
+  jacobian.input_count = free_count;
+  jacobian.rows = fit.rows.data;
+  jacobian.columns = fit.columns.data;
+  jacobian.values = fit.values.data;
+  jacobian.capacity = fit.values.count;
+  size_t count = 0;
+  std::fill(fit.first.data, fit.first.data + free_count + 1, 0u);
+  if (free_count == 0) return;
+  static_cast<void>(mien_derivatives_jacobian(fit.derivatives, MIEN_POINT_RAW, MIEN_POINT_CONTROLS,
+                                              0, &jacobian, &count));
+  for (size_t i = 0; i < count; ++i) ++fit.first[fit.columns[i] + 1];
+  for (size_t c = 0; c < free_count; ++c) fit.first[c + 1] += fit.first[c];
+}
+
+void project_metric(MienFit& fit, const float* metric, double factor, size_t free_count) {
+  const size_t controls = fit.control_count;
+  float* const row = fit.metric_row.data;
+  for (size_t a = 0; a < free_count; ++a) {
+    std::fill(row, row + controls, 0.0f);
+    for (uint32_t i = fit.first[a]; i < fit.first[a + 1]; ++i) {
+      const float* const from = metric + size_t{fit.rows[i]} * controls;
+      const float value = fit.values[i];
+      for (size_t c = 0; c < controls; ++c) row[c] += value * from[c];
+    }
+    for (size_t b = 0; b <= a; ++b) {
+      double sum = 0;
+      for (uint32_t i = fit.first[b]; i < fit.first[b + 1]; ++i) {
+        sum += double{row[fit.rows[i]]} * double{fit.values[i]};
+      }
+      fit.matrix[a * free_count + b] += factor * sum;
+      if (a != b) fit.matrix[b * free_count + a] += factor * sum;
+    }
+  }
+}
+
+}  // namespace mien

@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: MIT
+// Solves of poses that rigs were given: the controls come back, from joints, vertices and landmarks, with noise,
+// outliers and missing data; and what the fit says of wrong arguments.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "capi/include/mien_solve.h"
+#include "tests/support/counting_allocator.h"
+#include "tests/support/deform_rig.h"
+#include "tests/support/plain_rig.h"
+
+namespace mien {
+namespace {
+
+struct DestroyFit {
+  void operator()(MienFit* fit) const { mien_fit_destroy(fit); }
+};
+using FitHandle = std::unique_ptr<MienFit, DestroyFit>;
+
+FitHandle create_fit(const RigHandle& rig, const MienFitDesc& desc, MienStatus expected = MIEN_OK) {
+  MienFit* made = nullptr;
+  MienError error = sized<MienError>();
+  EXPECT_EQ(mien_fit_create(rig.get(), &desc, &made, &error), expected) << error.message;
+  return FitHandle(made);
+}
+
+/// A generated head of medium size, with its deformer, and a pose of some controls.
+struct Head {
+  DnaHandle dna;
+  RigHandle rig;
+  DeformerHandle deformer;
+  DeformerInstanceHandle deformed;
+  Character character;
+  std::vector<float> observed;
+
+  explicit Head(uint32_t preset = MIEN_PRESET_HEAD)
+      : dna(generate_dna(preset, 3)), rig(create_rig(dna.get())),
+        deformer(create_deformer(dna.get(), rig.get())),
+        deformed(create_deformer_instance(deformer.get())), character(rig) {}
+
+  std::vector<float> pose(Random& random, uint32_t count) {
+    std::vector<float> raw(character.raw.count);
+    for (uint32_t i = 0; i < count; ++i) {
+      raw[random.below(static_cast<uint32_t>(raw.size()))] =
+          static_cast<float>(random.between(0.1, 1));
+    }
+    return raw;
+  }
+  void evaluate(const std::vector<float>& raw) {
+    std::copy(raw.begin(), raw.end(), character.raw.begin());
+    character.evaluate(0);
+  }
+  std::vector<float> positions(const std::vector<float>& raw) {
+    evaluate(raw);
+    EXPECT_EQ(mien_deformer_instance_update(deformed.get(), character.instance.get()), MIEN_OK);
+    EXPECT_EQ(mien_deformer_instance_deform(deformed.get(), 0, MIEN_NORMALS_NONE, nullptr),
+              MIEN_OK);
+    const Span<const float> all = Deformed::positions(deformed.get(), 0);
+    return {all.begin(), all.begin() + mesh_of(deformer.get(), 0).position_count * 3};
+  }
+};
+
+std::vector<MienSolvePoint> every(uint32_t count, uint32_t step) {
+  std::vector<MienSolvePoint> points;
+  for (uint32_t i = 0; i < count; i += step) points.push_back({0, {i, i, i}, {1, 0, 0}});
+  return points;
+}
+
+/// Largest difference of two rows, over controls that `observed` says can be found.
+double worst(const std::vector<float>& a, const std::vector<float>& b,
+             const std::vector<float>& observed) {
+  double most = 0;
+  for (size_t i = 0; i < a.size(); ++i) {
+    if (observed[i] > 0.05f) most = std::fmax(most, std::fabs(double{a[i]} - b[i]));
+  }
+  return most;
+}
+
+std::vector<float> observed_by(const FitHandle& fit, size_t count) {
+  std::vector<float> values(count);
+  EXPECT_EQ(mien_fit_observability(fit.get(), values.data(), count), MIEN_OK);
+  return values;
+}
+
+TEST(Fit, FindsTheControlsOfJoints) {
+  Head head(MIEN_PRESET_MEDIUM);
+  Random random = Random::from_seed(81, 1);
+  const FitHandle fit = create_fit(head.rig, sized<MienFitDesc>());
+  const std::vector<float> observed = observed_by(fit, head.character.raw.count);
+  int met = 0;
+  constexpr int kPoses = 20;
+  for (int pose = 0; pose < kPoses; ++pose) {
+    const std::vector<float> raw = head.pose(random, 8 + random.below(10));
+    head.evaluate(raw);
+    const std::vector<float> joints(head.character.joints.begin(), head.character.joints.end());
+    MienFitFrame frame = mien_fit_frame_default();
+    frame.joints = joints.data();
+    frame.max_iterations = 100;
+    std::vector<float> found(raw.size());
+    MienFitResult result = mien_fit_result_default();
+    ASSERT_EQ(mien_fit_solve(fit.get(), &frame, found.data(), &result), MIEN_OK);
+    EXPECT_TRUE(result.status == MIEN_FIT_CONVERGED || result.status == MIEN_FIT_ITERATIONS);
+    head.evaluate(found);
+    double range = 0, error = 0;
+    for (size_t i = 0; i < joints.size(); ++i) {
+      range = std::fmax(range, std::fabs(joints[i]));
+      error = std::fmax(error, std::fabs(double{head.character.joints[i]} - joints[i]));
+    }
+    const bool good = error <= 1e-3 * range && worst(found, raw, observed) <= 0.01;
+    met += good;
+    if (!good) {
+      printf("pose %d: joints %g of %g, controls %g, %u iterations\n", pose, error, range,
+             worst(found, raw, observed), result.iterations);
+    }
+    // The same bits again.
+    std::vector<float> again(raw.size());
+    ASSERT_EQ(mien_fit_solve(fit.get(), &frame, again.data(), nullptr), MIEN_OK);
+    EXPECT_EQ(found, again);
+  }
+  EXPECT_GE(met, kPoses - 1);
+}
+
+TEST(Fit, FindsTheControlsOfPointsThatWereMovedRigidly) {
+  Head head;
+  Random random = Random::from_seed(81, 2);
+  const uint32_t count = mesh_of(head.deformer.get(), 0).position_count;
+  const std::vector<MienSolvePoint> points = every(count, 7);
+  MienFitDesc desc = sized<MienFitDesc>();
+  desc.deformer = head.deformer.get();
+  desc.points = points.data();
+  desc.point_count = points.size();
+  const FitHandle fit = create_fit(head.rig, desc);
+  ASSERT_TRUE(fit);
+  for (const bool outliers : {false, true}) {
+    const std::vector<float> raw = head.pose(random, 5);
+    const std::vector<float> surface = head.positions(raw);
+    std::vector<float> targets;
+    for (size_t i = 0; i < points.size(); ++i) {
+      const float* p = surface.data() + size_t{points[i].positions[0]} * 3;
+      // A quarter turn about z, and a shift.
+      targets.insert(targets.end(), {-p[1] + 3, p[0] - 2, p[2] + 1});
+      if (outliers && i % 10 == 3) targets[3 * i] += 8;
+      if (outliers && i % 10 == 7) targets[3 * i + 1] = std::numeric_limits<float>::quiet_NaN();
+    }
+    MienFitFrame frame = mien_fit_frame_default();
+    frame.points = targets.data();
+    frame.rigid = outliers ? 0 : 1;
+    frame.robust_scale = outliers ? 0.5f : 0;
+    frame.prior_weight = 1e-4f;
+    frame.max_iterations = 200;
+    if (outliers) {  // where it is: outliers would pull the rigid motion
+      for (size_t i = 0; i < points.size(); ++i) {
+        const float x = targets[3 * i], y = targets[3 * i + 1];
+        targets[3 * i] = y + 2;
+        targets[3 * i + 1] = 3 - x;
+        targets[3 * i + 2] -= 1;
+      }
+    }
+    std::vector<float> found(raw.size());
+    MienFitResult result = mien_fit_result_default();
+    ASSERT_EQ(mien_fit_solve(fit.get(), &frame, found.data(), &result), MIEN_OK);
+    const std::vector<float> solved = head.positions(found);
+    double sum = 0;
+    for (size_t i = 0; i < surface.size(); ++i) sum += std::fabs(double{solved[i]} - surface[i]);
+    EXPECT_LE(sum / static_cast<double>(surface.size()), 0.01) << result.iterations;
+    if (!outliers) {
+      EXPECT_NEAR(result.rotation[1], -1, 1e-3);
+      EXPECT_NEAR(result.translation[0], 3, 1e-2);
+    } else {
+      EXPECT_EQ(result.missing_points, (points.size() + 2) / 10);
+    }
+  }
+}
+
+TEST(Fit, FindsControlsOfImages) {
+  Head head;
+  Random random = Random::from_seed(81, 3);
+  const uint32_t count = mesh_of(head.deformer.get(), 0).position_count;
+  const std::vector<MienSolvePoint> points = every(count, count / 68 + 1);
+  MienFitDesc desc = sized<MienFitDesc>();
+  desc.deformer = head.deformer.get();
+  desc.points = points.data();
+  desc.point_count = points.size();
+  const FitHandle fit = create_fit(head.rig, desc);
+  const std::vector<float> raw = head.pose(random, 5);
+  const std::vector<float> surface = head.positions(raw);
+  MienFitCamera camera = {{1500, 1500}, {640, 360}, {1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, -160, 100}};
+  std::vector<float> images;
+  for (const MienSolvePoint& point : points) {
+    const float* p = surface.data() + size_t{point.positions[0]} * 3;
+    const float z = p[2] + camera.translation[2];
+    images.push_back(1500 * p[0] / z + 640);
+    images.push_back(1500 * (p[1] + camera.translation[1]) / z + 360);
+  }
+  MienFitFrame frame = mien_fit_frame_default();
+  frame.images = images.data();
+  frame.camera = &camera;
+  frame.prior_weight = 0.1f;
+  frame.max_iterations = 200;
+  std::vector<float> found(raw.size());
+  MienFitResult result = mien_fit_result_default();
+  ASSERT_EQ(mien_fit_solve(fit.get(), &frame, found.data(), &result), MIEN_OK);
+  EXPECT_LE(result.point_residual, 0.5) << "pixels, after " << result.iterations;
+}
+
+TEST(Fit, TellsWhyItStops) {
+  Head head(MIEN_PRESET_SMALL);
+  const FitHandle fit = create_fit(head.rig, sized<MienFitDesc>());
+  std::vector<float> found(head.character.raw.count), nothing(head.character.joints.count);
+  MienFitFrame frame = mien_fit_frame_default();
+  MienFitResult result = mien_fit_result_default();
+  ASSERT_EQ(mien_fit_solve(fit.get(), &frame, found.data(), &result), MIEN_OK);
+  EXPECT_EQ(result.status, MIEN_FIT_NO_DATA);
+  std::fill(nothing.begin(), nothing.end(), std::numeric_limits<float>::quiet_NaN());
+  frame.joints = nothing.data();
+  ASSERT_EQ(mien_fit_solve(fit.get(), &frame, found.data(), &result), MIEN_OK);
+  EXPECT_EQ(result.status, MIEN_FIT_NO_DATA);
+  head.evaluate(std::vector<float>(found.size(), 0.5f));
+  const std::vector<float> joints(head.character.joints.begin(), head.character.joints.end());
+  frame.joints = joints.data();
+  frame.max_iterations = 1;
+  ASSERT_EQ(mien_fit_solve(fit.get(), &frame, found.data(), &result), MIEN_OK);
+  EXPECT_EQ(result.status, MIEN_FIT_ITERATIONS);
+  EXPECT_EQ(result.iterations, 1u);
+  frame.canceled = [](void*) -> uint32_t { return 1; };
+  ASSERT_EQ(mien_fit_solve(fit.get(), &frame, found.data(), &result), MIEN_OK);
+  EXPECT_EQ(result.status, MIEN_FIT_CANCELED);
+  frame = mien_fit_frame_default();
+  frame.joints = joints.data();
+  frame.max_seconds = 1e-12;
+  ASSERT_EQ(mien_fit_solve(fit.get(), &frame, found.data(), &result), MIEN_OK);
+  EXPECT_EQ(result.status, MIEN_FIT_TIME);
+}
+
+TEST(Fit, RefusesWrongArguments) {
+  Head head(MIEN_PRESET_SMALL);
+  MienFitDesc desc = sized<MienFitDesc>();
+  desc.lod = 99;
+  create_fit(head.rig, desc, MIEN_ERROR_LOD);
+  desc = sized<MienFitDesc>();
+  const uint32_t controls[] = {1, 0, 100000};
+  desc.controls = controls;
+  desc.control_count = 2;
+  create_fit(head.rig, desc, MIEN_ERROR_INVALID_ARGUMENT);
+  desc.controls = controls + 2;
+  desc.control_count = 1;
+  create_fit(head.rig, desc, MIEN_ERROR_INDEX);
+  desc = sized<MienFitDesc>();
+  const std::vector<float> high(head.character.raw.count, -1.0f);
+  desc.upper = high.data();
+  create_fit(head.rig, desc, MIEN_ERROR_INVALID_ARGUMENT);
+  desc = sized<MienFitDesc>();
+  MienSolvePoint point = {0, {0, 0, 1000000}, {1, 0, 0}};
+  desc.points = &point;
+  desc.point_count = 1;
+  create_fit(head.rig, desc, MIEN_ERROR_NULL_ARGUMENT);
+  desc.deformer = head.deformer.get();
+  create_fit(head.rig, desc, MIEN_ERROR_INDEX);
+  point.positions[2] = 0;
+  const FitHandle fit = create_fit(head.rig, desc);
+  std::vector<float> found(head.character.raw.count);
+  MienFitFrame frame = mien_fit_frame_default();
+  const float image[] = {1, 2, 3};
+  frame.images = image;
+  EXPECT_EQ(mien_fit_solve(fit.get(), &frame, found.data(), nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  frame = mien_fit_frame_default();
+  frame.prior_weight = -1;
+  EXPECT_EQ(mien_fit_solve(fit.get(), &frame, found.data(), nullptr), MIEN_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(mien_fit_solve(nullptr, &frame, found.data(), nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  MienFit* made = nullptr;
+  EXPECT_EQ(mien_fit_create(nullptr, &desc, &made, nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_fit_create(head.rig.get(), nullptr, &made, nullptr), MIEN_ERROR_NULL_ARGUMENT);
+}
+
+TEST(Fit, SurvivesEveryFailedAllocation) {
+  Head head(MIEN_PRESET_TINY);
+  CountingAllocator memory;
+  const MienAllocator allocator = memory.get();
+  MienSolvePoint point = {0, {0, 0, 0}, {1, 0, 0}};
+  MienFitDesc desc = sized<MienFitDesc>();
+  desc.deformer = head.deformer.get();
+  desc.points = &point;
+  desc.point_count = 1;
+  desc.allocator = &allocator;
+  for (size_t k = 1;; ++k) {
+    memory.restart();
+    memory.fail_at = k;
+    MienFit* made = nullptr;
+    const MienStatus status = mien_fit_create(head.rig.get(), &desc, &made, nullptr);
+    mien_fit_destroy(made);
+    EXPECT_EQ(memory.live, 0u) << k;
+    if (memory.failed == 0) {
+      EXPECT_EQ(status, MIEN_OK);
+      break;
+    }
+    EXPECT_EQ(status, MIEN_ERROR_MEMORY) << k;
+  }
+}
+
+}  // namespace
+}  // namespace mien
