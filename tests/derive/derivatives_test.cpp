@@ -8,11 +8,11 @@
 #include <cmath>
 #include <functional>
 
+#include "integrations/program/model/ml_model.h"
+#include "integrations/program/model/rbf_model.h"
+#include "integrations/program/model/rotation_model.h"
 #include "tests/support/deform_rig.h"
-#include "tests/support/ml_model.h"
 #include "tests/support/random_layer_rig.h"
-#include "tests/support/rbf_model.h"
-#include "tests/support/rotation_model.h"
 
 namespace mien {
 namespace {
@@ -243,7 +243,8 @@ void compare_layer_rig(const LayerRig& rig, uint32_t rotation, Random& random, C
         },
         1e-5, smooth);
     // At coarser LODs the model orders the columns of some quaternion joints otherwise than files need.
-    const std::vector<double> evaluated = flat(joints_of(rig, character.joints, quaternions), here);
+    const std::vector<double> evaluated =
+        flat(joints_of(rig, character.joints.data, character.joints.count, quaternions), here);
     const std::vector<double> modeled = flat(here, here);
     for (size_t i = 0; i < smooth.size(); ++i) {
       if (std::fabs(evaluated[i] - modeled[i]) > 1e-3) smooth[i] = false;
