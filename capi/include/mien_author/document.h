@@ -356,7 +356,8 @@ MIEN_AUTHOR_CHECKED MienStatus mien_document_copy_layers(MienDocument* document,
 /* Copies mesh `mesh` of another document: over the mesh of the same name, or as a new one at the LODs where it
  * is there and that this document has. Joints and channels are found by name; a joint that is not here
  * hands its influence to its nearest ancestor that is, targets of other channels are left out.
- * Fails with MIEN_ERROR_INDEX if there is no such mesh, MIEN_ERROR_MISMATCH if the documents differ in axes,
+ * Fails with MIEN_ERROR_INDEX if there is no such mesh, MIEN_ERROR_INVALID_ARGUMENT if both documents are
+ * the same, MIEN_ERROR_MISMATCH if the documents differ in axes,
  * units or rotations, or no joint of a position is here, MIEN_ERROR_DNA_STRUCTURE,
  * MIEN_ERROR_DNA_REFERENCE, MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE if one of them is not valid,
  * MIEN_ERROR_MEMORY if the allocator returns NULL. */
@@ -368,7 +369,7 @@ MIEN_AUTHOR_CHECKED MienStatus mien_document_copy_mesh(MienDocument* document,
  * the joints of the same names, behind the own ones, at the LODs that list them there. Joints that both
  * have stay as they are, but a root that has a parent there becomes its child. Joints that both have must
  * stand in the same place of the model, within `tolerance` in the unit of the file.
- * Fails with MIEN_ERROR_MISMATCH if the documents differ in axes, units or rotations, or in the place of a
+ * Fails with MIEN_ERROR_INVALID_ARGUMENT if both documents are the same, MIEN_ERROR_MISMATCH if the documents differ in axes, units or rotations, or in the place of a
  * joint, MIEN_ERROR_DNA_STRUCTURE, MIEN_ERROR_DNA_REFERENCE, MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE
  * if one of them is not valid or the result would not be, MIEN_ERROR_MEMORY if the allocator returns NULL. */
 MIEN_AUTHOR_CHECKED MienStatus mien_document_merge_joints(MienDocument* document,

@@ -5071,6 +5071,8 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
          "they do not fit the layers that stay"),
     ),
     "mien_document_copy_mesh": (
+        (Status.INVALID_ARGUMENT,
+         "both documents are the same"),
         (Status.MISMATCH,
          "the documents differ in axes, units or rotations, or no joint of a position is"
          " here"),
@@ -5088,6 +5090,8 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
          "one of them is not valid"),
     ),
     "mien_document_merge_joints": (
+        (Status.INVALID_ARGUMENT,
+         "both documents are the same"),
         (Status.MISMATCH,
          "the documents differ in axes, units or rotations, or in the place of a joint"),
         (Status.MEMORY,

@@ -4948,11 +4948,11 @@ extern "C" {
     /// name; a joint that is not here hands its influence to its nearest ancestor that is, targets
     /// of other channels are left out.
     ///
-    /// Fails with `MIEN_ERROR_INDEX` if there is no such mesh, `MIEN_ERROR_MISMATCH` if the
-    /// documents differ in axes, units or rotations, or no joint of a position is here,
-    /// `MIEN_ERROR_DNA_STRUCTURE`, `MIEN_ERROR_DNA_REFERENCE`, `MIEN_ERROR_DNA_LIMIT` or
-    /// `MIEN_ERROR_DNA_VALUE` if one of them is not valid, `MIEN_ERROR_MEMORY` if the allocator
-    /// returns NULL.
+    /// Fails with `MIEN_ERROR_INDEX` if there is no such mesh, `MIEN_ERROR_INVALID_ARGUMENT` if
+    /// both documents are the same, `MIEN_ERROR_MISMATCH` if the documents differ in axes, units
+    /// or rotations, or no joint of a position is here, `MIEN_ERROR_DNA_STRUCTURE`,
+    /// `MIEN_ERROR_DNA_REFERENCE`, `MIEN_ERROR_DNA_LIMIT` or `MIEN_ERROR_DNA_VALUE` if one of them
+    /// is not valid, `MIEN_ERROR_MEMORY` if the allocator returns NULL.
     pub fn mien_document_copy_mesh(document: *mut MienDocument, from: *const MienDocument, mesh: u32, out_mesh: *mut u32, error: *mut MienError) -> MienStatus;
 
     /// Adds the joints of another document whose names this one lacks, such as those of a body to
@@ -4961,10 +4961,11 @@ extern "C" {
     /// its child. Joints that both have must stand in the same place of the model, within
     /// `tolerance` in the unit of the file.
     ///
-    /// Fails with `MIEN_ERROR_MISMATCH` if the documents differ in axes, units or rotations, or in
-    /// the place of a joint, `MIEN_ERROR_DNA_STRUCTURE`, `MIEN_ERROR_DNA_REFERENCE`,
-    /// `MIEN_ERROR_DNA_LIMIT` or `MIEN_ERROR_DNA_VALUE` if one of them is not valid or the result
-    /// would not be, `MIEN_ERROR_MEMORY` if the allocator returns NULL.
+    /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if both documents are the same,
+    /// `MIEN_ERROR_MISMATCH` if the documents differ in axes, units or rotations, or in the place
+    /// of a joint, `MIEN_ERROR_DNA_STRUCTURE`, `MIEN_ERROR_DNA_REFERENCE`, `MIEN_ERROR_DNA_LIMIT`
+    /// or `MIEN_ERROR_DNA_VALUE` if one of them is not valid or the result would not be,
+    /// `MIEN_ERROR_MEMORY` if the allocator returns NULL.
     pub fn mien_document_merge_joints(document: *mut MienDocument, from: *const MienDocument, tolerance: f64, error: *mut MienError) -> MienStatus;
 
     /// Removes the joints that another document does not have by name, as

@@ -2735,7 +2735,8 @@ macro_rules! errors {
          - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if they do not fit the layers that stay"
     };
     (mien_document_copy_mesh) => {
-        "- [`Status::MISMATCH`](crate::Status::MISMATCH) if the documents differ in axes, units or rotations, or no joint of a position is here\n\
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if both documents are the same\n\
+         - [`Status::MISMATCH`](crate::Status::MISMATCH) if the documents differ in axes, units or rotations, or no joint of a position is here\n\
          - [`Status::INDEX`](crate::Status::INDEX) if there is no such mesh\n\
          - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator returns NULL\n\
          - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if one of them is not valid\n\
@@ -2744,7 +2745,8 @@ macro_rules! errors {
          - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if one of them is not valid"
     };
     (mien_document_merge_joints) => {
-        "- [`Status::MISMATCH`](crate::Status::MISMATCH) if the documents differ in axes, units or rotations, or in the place of a joint\n\
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if both documents are the same\n\
+         - [`Status::MISMATCH`](crate::Status::MISMATCH) if the documents differ in axes, units or rotations, or in the place of a joint\n\
          - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator returns NULL\n\
          - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if one of them is not valid or the result would not be\n\
          - [`Status::DNA_REFERENCE`](crate::Status::DNA_REFERENCE) if one of them is not valid or the result would not be\n\
