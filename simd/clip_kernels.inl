@@ -44,6 +44,61 @@ inline void add_residuals(const uint32_t* codes, ClipLanes& lanes) {
   }
 }
 
+inline float clip_value(uint32_t ordered) {
+  const uint32_t above = 0u - (ordered >> 31);
+  return float_of(ordered ^ (~above | 1u << 31));
+}
+
+/// The integer, truncated to 24 bits, divided by the scale; ordered as floats.
+inline uint32_t ordered_of_number(uint32_t number, float scale) {
+  const uint32_t negative = 0u - (number >> 31), magnitude = (number ^ negative) - negative;
+  uint32_t low = magnitude >> 24;
+  low |= low >> 1;
+  low |= low >> 2;
+  low |= low >> 4;
+  const float value = static_cast<float>(static_cast<int32_t>(magnitude & ~low & 0x7FFFFFFF));
+  return (bits_of(value / scale) | 1u << 31) ^ negative;
+}
+
+/// Orders 2 and 3. Floats are predicted by their values, because differences of ordered bits jump where
+/// the exponent changes.
+inline void add_to_curves(const uint32_t* codes, ClipLanes& lanes) {
+  MIEN_LANES
+  for (uint32_t k = 0; k < kClipLanes; ++k) {
+    const uint32_t residual = (codes[k] >> 1) ^ (0u - (codes[k] & 1));
+    const uint32_t present = lanes.present[k];
+    const uint32_t last = lanes.last[k] + ((lanes.slope[k] + residual) & present);
+    const int32_t order = lanes.order[k], age = lanes.age[k];
+    const uint32_t floats = 0u - static_cast<uint32_t>((order >= 2) & (lanes.unit[k] != 0));
+
+    constexpr float kLimit = 1u << 30;
+    float value = clip_value(last) * lanes.scale[k];
+    value = value < kLimit ? value : kLimit;  // damaged samples; NaN
+    value = value > -kLimit ? value : -kLimit;
+    const auto scaled = static_cast<uint32_t>(static_cast<int32_t>(value));
+    const uint32_t number = (last & ~floats) | (scaled & floats);
+
+    // The bend needs two differences, its change three.
+    const uint32_t second = 0u - static_cast<uint32_t>((order >= 2) & (age >= 2));
+    const uint32_t third = 0u - static_cast<uint32_t>((order >= 3) & (age >= 3));
+    const uint32_t difference = number - lanes.number[k], bend = difference - lanes.difference[k];
+    const uint32_t slope =
+        (difference & lanes.linear[k]) + (bend & second) + ((bend - lanes.bend[k]) & third);
+    const uint32_t float_slope = ordered_of_number(number + slope, lanes.scale[k]) - last;
+
+    const auto update = [present](uint32_t before, uint32_t now) {
+      return (before & ~present) | (now & present);
+    };
+    lanes.bit[k] += lanes.width[k];
+    lanes.last[k] = last;
+    lanes.slope[k] = update(lanes.slope[k], (slope & ~floats) | (float_slope & floats));
+    lanes.number[k] = update(lanes.number[k], number);
+    lanes.difference[k] = update(lanes.difference[k], difference);
+    lanes.bend[k] = update(lanes.bend[k], bend);
+    lanes.age[k] = age + static_cast<int32_t>(static_cast<uint32_t>(age < 3) & present);
+  }
+}
+
 void next_samples(const uint8_t* block, ClipLanes* groups, size_t count) {
   // The codes of several groups first, because reading a vector right after its elements were written stalls.
   constexpr size_t kGroups = 8;
@@ -55,7 +110,12 @@ void next_samples(const uint8_t* block, ClipLanes* groups, size_t count) {
       if (lanes[g].turns != 0) read_codes(lanes[g], block, codes[g]);
     }
     for (size_t g = 0; g < some; ++g) {
-      if (lanes[g].turns != 0) add_residuals(codes[g], lanes[g]);
+      if (lanes[g].turns == 0) continue;
+      if (lanes[g].curved[0] != 0) {
+        add_to_curves(codes[g], lanes[g]);
+      } else {
+        add_residuals(codes[g], lanes[g]);
+      }
     }
   }
 }

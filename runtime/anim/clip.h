@@ -31,7 +31,7 @@ namespace mien {
 constexpr int64_t kTicksPerSecond = 705600000;
 
 constexpr char kClipMagic[8] = {'M', 'I', 'E', 'N', 'C', 'L', 'P', '\n'};
-constexpr uint32_t kClipVersion = 2;
+constexpr uint32_t kClipVersion = 3;
 constexpr size_t kClipHeaderSize = 64;
 constexpr size_t kClipPadding = 8;
 constexpr uint32_t kBlockFrames = 64;

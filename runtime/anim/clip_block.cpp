@@ -49,49 +49,49 @@ struct Lane {
   uint32_t at;
 };
 
+uint32_t run_width(const ClipLanes& lanes, uint32_t k, uint32_t code) {
+  const uint32_t bits = lanes.width_bits[k];
+  const bool highest = bits > 0 && code + 1 == 1u << bits;
+  return width_of_code(highest ? lanes.largest[k] : lanes.least[k] + code);
+}
+
 /// A channel whose value does not change in the block.
 void set_constant(float value, Lane lane) {
   lane.of.last[lane.at] = ordered_from_bits(bits_of(value));
   lane.of.present[lane.at] = ~0u;
 }
 
-/// A channel in grid or float mode: leaves the reader at the next channel.
-void read_channel(BitReader& reader, BlockMode mode, uint32_t frame_count, Lane lane) {
+/// Prediction by differences of differences.
+void set_order(uint32_t order, uint32_t first_number, Lane lane) {
   ClipLanes& lanes = lane.of;
-  const auto head = static_cast<uint32_t>(reader.take(mode == kBlockGrid ? 6 : 7));
-  const bool linear = (head & 1) != 0, masked = (head & 2) != 0;
-  const uint32_t parameter = head >> 2;
-  const uint64_t samples = (masked ? read_mask(reader) : ~uint64_t{0}) & low_bits(frame_count);
-  uint32_t first_width = 32 - parameter;
-  if (mode == kBlockGrid) first_width = width_of_code(static_cast<uint32_t>(reader.take(5)));
-  const auto first = static_cast<uint32_t>(reader.take(first_width));
-  if (mode == kBlockGrid) {
-    lanes.last[lane.at] = (first >> 1) ^ (0u - (first & 1));
-    lanes.unit[lane.at] = 0;
-    lanes.scale[lane.at] = kGridScales[parameter];
-  } else {
-    lanes.last[lane.at] = first;
-    lanes.unit[lane.at] = 1u << parameter;
-  }
-  lanes.linear[lane.at] = linear ? ~0u : 0;
-  lanes.samples[lane.at] = samples;
+  lanes.linear[lane.at] = order >= 1 ? ~0u : 0;
+  lanes.order[lane.at] = static_cast<int32_t>(order);
+  if (order >= 2) lanes.curved[0] = 1;
+  lanes.number[lane.at] = first_number;
+}
 
-  // The first sample is a run of its own, of width 0: it repeats the prediction.
-  const uint32_t count = bit_count(samples);
-  const uint32_t residuals = count > 0 ? count - 1 : 0;
-  const uint32_t runs = (residuals + kRunSamples - 1) / kRunSamples;
-  const auto width_bits = static_cast<uint32_t>(reader.take(kWidthSizeBits));
-  if (width_bits > kWidthBits) reader.good = false;
-  const auto least = static_cast<uint32_t>(reader.take(width_bits < kWidthBits ? kWidthBits : 0));
-  const uint64_t widths = reader.take(runs * width_bits);
+/// The widths of the runs, and where the residuals begin and end.
+void read_runs(BitReader& reader, uint32_t run_samples, uint32_t residuals, Lane lane) {
+  ClipLanes& lanes = lane.of;
+  const auto code_bits = static_cast<uint32_t>(reader.take(kWidthCodeSizeBits));
+  if (code_bits > kWidthCodeBits) reader.good = false;
+  const auto least = static_cast<uint32_t>(reader.take(kWidthBits));
+  const auto largest = static_cast<uint32_t>(reader.take(code_bits > 0 ? kWidthBits : 0));
+  const uint32_t runs = (residuals + run_samples - 1) / run_samples;
   uint64_t size = 0;
+  lanes.width_bits[lane.at] = static_cast<uint8_t>(code_bits);
+  lanes.least[lane.at] = static_cast<uint8_t>(least);
+  lanes.largest[lane.at] = static_cast<uint8_t>(largest);
+  lanes.run_samples[lane.at] = static_cast<uint8_t>(run_samples);
+  uint64_t widths = 0;
   for (uint32_t r = 0; r < runs; ++r) {
-    const uint32_t run = r + 1 < runs ? kRunSamples : residuals - r * kRunSamples;
-    size += run * width_of_code(least + (widths >> (r * width_bits) & low_bits(width_bits)));
+    const uint64_t code = reader.take(code_bits);
+    const uint32_t run = r + 1 < runs ? run_samples : residuals - r * run_samples;
+    widths |= code << (r * code_bits);
+    size += run * run_width(lanes, lane.at, static_cast<uint32_t>(code));
   }
   lanes.widths[lane.at] = widths;
-  lanes.width_bits[lane.at] = static_cast<uint8_t>(width_bits);
-  lanes.least[lane.at] = static_cast<uint8_t>(least);
+  // The first sample is a run of its own, of width 0: it repeats the prediction.
   lanes.run_width[lane.at] = 0;
   lanes.left[lane.at] = 1;
   lanes.turn[lane.at] = 0;
@@ -102,6 +102,35 @@ void read_channel(BitReader& reader, BlockMode mode, uint32_t frame_count, Lane 
   } else {
     reader.bit += size;
   }
+}
+
+/// A channel in grid or float mode: leaves the reader at the next channel.
+void read_channel(BitReader& reader, BlockMode mode, uint32_t frame_count, Lane lane) {
+  ClipLanes& lanes = lane.of;
+  const bool grid = mode == kBlockGrid;
+  const auto order = static_cast<uint32_t>(reader.take(2));
+  const bool masked = reader.take(1) != 0, short_runs = reader.take(1) != 0;
+  const auto parameter = static_cast<uint32_t>(reader.take(grid ? 4 : 5));
+  const uint64_t samples = (masked ? read_mask(reader) : ~uint64_t{0}) & low_bits(frame_count);
+  const bool curve = !grid && order >= 2;  // its parameter is not a shift
+  const uint32_t shift = grid || curve ? 0 : parameter;
+  uint32_t first_width = 32 - shift;
+  if (grid) first_width = width_of_code(static_cast<uint32_t>(reader.take(kWidthBits)));
+  const auto first = static_cast<uint32_t>(reader.take(first_width));
+  if (grid) {
+    lanes.last[lane.at] = (first >> 1) ^ (0u - (first & 1));
+    lanes.unit[lane.at] = 0;
+    lanes.scale[lane.at] = kGridScales[parameter];
+  } else {
+    lanes.last[lane.at] = first;
+    lanes.unit[lane.at] = 1u << shift;
+    if (curve) lanes.scale[lane.at] = curve_scale(parameter);
+  }
+  lanes.samples[lane.at] = samples;
+  const uint32_t last = lanes.last[lane.at];
+  set_order(order, curve ? curve_number(last, lanes.scale[lane.at]) : last, lane);
+  const uint32_t count = bit_count(samples);
+  read_runs(reader, short_runs ? kShortRunSamples : kRunSamples, count > 0 ? count - 1 : 0, lane);
 }
 
 /// Sets up the lanes; false if the bytes are not a block. All bounds are checked here: decoding stays within
@@ -141,10 +170,13 @@ void clear_groups(BlockDecoder& decoder) {
     for (uint32_t k = 0; k < kClipLanes; ++k) {
       group.bit[k] = group.width[k] = group.mask[k] = group.last[k] = group.slope[k] = 0;
       group.linear[k] = group.present[k] = 0;
+      group.number[k] = group.difference[k] = group.bend[k] = 0;
+      group.order[k] = group.age[k] = 0;
       group.unit[k] = 1;
       group.scale[k] = 1;
       group.turn[k] = kBlockFrames;
     }
+    group.curved[0] = 0;
     group.turns = 0;
   }
 }
@@ -174,9 +206,9 @@ void turn_lane(ClipLanes& lanes, uint32_t k, uint32_t frame) {
     if (lanes.left[k] == 0) {
       const uint32_t bits = lanes.width_bits[k];
       const auto code = static_cast<uint32_t>(lanes.widths[k] & low_bits(bits));
-      lanes.run_width[k] = static_cast<uint8_t>(width_of_code(lanes.least[k] + code));
+      lanes.run_width[k] = static_cast<uint8_t>(run_width(lanes, k, code));
       lanes.widths[k] >>= bits;
-      lanes.left[k] = kRunSamples;
+      lanes.left[k] = lanes.run_samples[k];
     }
     if (frames > lanes.left[k]) frames = lanes.left[k];
     lanes.left[k] = static_cast<uint8_t>(lanes.left[k] - frames);

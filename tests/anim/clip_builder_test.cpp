@@ -150,12 +150,12 @@ TEST(ClipBuilder, BuildsTheSameBytesEverywhere) {
   ClipInput input(clean_solve(1, 200));
   input.events = {{1000, "a", 0.5f}};
   const std::vector<uint8_t> bytes = input.build();
-  EXPECT_EQ(bytes.size(), 17736u);
-  EXPECT_EQ(load_little_endian<uint32_t>(bytes.data() + kAtChecksum), 180750646u);
+  EXPECT_EQ(bytes.size(), 16488u);
+  EXPECT_EQ(load_little_endian<uint32_t>(bytes.data() + kAtChecksum), 1352537619u);
   input.snaps.assign(kFaceControls, kDefaultSnap);
   const std::vector<uint8_t> snapped = input.build();
-  EXPECT_EQ(snapped.size(), 11816u);
-  EXPECT_EQ(load_little_endian<uint32_t>(snapped.data() + kAtChecksum), 985715242u);
+  EXPECT_EQ(snapped.size(), 11688u);
+  EXPECT_EQ(load_little_endian<uint32_t>(snapped.data() + kAtChecksum), 1427392829u);
 }
 
 TEST(ClipBuilder, ReadsFramesApart) {

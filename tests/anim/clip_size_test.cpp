@@ -34,8 +34,8 @@ double capture_ratio(uint32_t snap) {
   } while (false)
 
 TEST(ClipSize, Lossless) {
-  EXPECT_RATIO(15, ratio(authored_keys(kSeed, kFrames)));
-  EXPECT_RATIO(20, ratio(clean_solve(kSeed, kFrames)));
+  EXPECT_RATIO(30, ratio(authored_keys(kSeed, kFrames)));
+  EXPECT_RATIO(28, ratio(clean_solve(kSeed, kFrames)));
   EXPECT_RATIO(7, ratio(noisy_solve(kSeed, kFrames)));
   EXPECT_RATIO(3.9, ratio(dense_noise(kSeed, kFrames)));
   EXPECT_RATIO(2.4, capture_ratio(kNoSnap));
@@ -56,8 +56,8 @@ TEST(ClipSize, LosslessOfSourcesWithFewDigits) {
 }
 
 TEST(ClipSize, Snapped) {
-  EXPECT_RATIO(50, ratio(authored_keys(kSeed, kFrames), kDefaultSnap));
-  EXPECT_RATIO(60, ratio(clean_solve(kSeed, kFrames), kDefaultSnap));
+  EXPECT_RATIO(66, ratio(authored_keys(kSeed, kFrames), kDefaultSnap));
+  EXPECT_RATIO(66, ratio(clean_solve(kSeed, kFrames), kDefaultSnap));
   EXPECT_RATIO(20, ratio(noisy_solve(kSeed, kFrames), kDefaultSnap));
   EXPECT_RATIO(14, ratio(dense_noise(kSeed, kFrames), kDefaultSnap));
   EXPECT_RATIO(10, capture_ratio(kDefaultSnap));

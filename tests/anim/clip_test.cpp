@@ -336,8 +336,8 @@ TEST(ClipVerify, FindsFloatsThatAreNotFinite) {
   curves.at(0, 0) = 1.41421354f;  // odd bits, on no grid
   curves.at(1, 0) = 1.73205078f;
   const MadeClip made((ClipInput(curves)));
-  // Mode 2, linear 1, masked 1, split 1, run 2, shift 5 bits; then the first float, ordered.
-  const uint64_t first = made.clip.at.blocks * 8 + 12;
+  // Mode 2, order 2, masked 1, short runs 1, shift 5 bits; then the first float, ordered.
+  const uint64_t first = made.clip.at.blocks * 8 + 11;
   Bytes bytes = made.bytes;
   for (uint64_t bit = first + 23; bit < first + 31; ++bit) {
     bytes[bit / 8] |= static_cast<uint8_t>(1u << (bit % 8));

@@ -2,6 +2,8 @@
 // The decoder of clips: every instruction set against a model that takes bit after bit.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <vector>
@@ -34,6 +36,7 @@ std::vector<ClipLanes> random_groups(Random& random, size_t count) {
   for (ClipLanes& group : groups) {
     memset(&group, 0, sizeof(group));
     group.turns = random.chance(0.2) ? 0 : 1;
+    const bool curved = random.chance(0.5);
     for (uint32_t k = 0; k < kClipLanes; ++k) {
       group.bit[k] = static_cast<uint32_t>(random.below(kBlockBytes * 4));
       group.width[k] = static_cast<uint32_t>(random.below(33));
@@ -44,9 +47,59 @@ std::vector<ClipLanes> random_groups(Random& random, size_t count) {
       group.present[k] = random.chance(0.8) ? ~0u : 0;
       group.unit[k] = 1;
       group.scale[k] = 1;
+      if (!curved) continue;
+      group.curved[0] = 1;
+      group.order[k] = static_cast<int32_t>(random.below(4));
+      group.linear[k] = group.order[k] >= 1 ? ~0u : 0;
+      group.slope[k] = 0;
+      if (random.chance(0.5)) group.unit[k] = 0;
+      if (random.chance(0.5)) {  // values near each other: small changes
+        group.last[k] = ordered_from_bits(bits_of(0.5f)) + static_cast<uint32_t>(random.below(99));
+        group.width[k] = static_cast<uint32_t>(random.below(8));
+        group.mask[k] = (1u << group.width[k]) - 1;
+      }
+      group.scale[k] = curve_scale(static_cast<uint32_t>(random.below(32)));
+      group.number[k] = group.unit[k] == 0 || group.order[k] < 2
+                            ? group.last[k]
+                            : curve_number(group.last[k], group.scale[k]);
     }
   }
   return groups;
+}
+
+/// An integer as a float of at most 24 bits: the lower ones are cut off.
+float float_from_number(int64_t number, float scale) {
+  int64_t magnitude = number < 0 ? -number : number;
+  for (int64_t bit = 1; magnitude >> 24 >= bit; bit *= 2) magnitude &= ~bit;
+  const float value = static_cast<float>(magnitude & 0x7FFFFFFF) / scale;
+  return number < 0 ? -value : value;
+}
+
+/// Orders 0 to 3, by differences of differences.
+void continue_curve(uint32_t change, ClipLanes& group, uint32_t k) {
+  const int32_t order = std::min(group.order[k], std::max(group.age[k], 1));
+  group.last[k] += change;
+  uint32_t number = group.last[k];
+  const bool is_float = group.unit[k] != 0 && group.order[k] >= 2;
+  if (is_float) {
+    const double value = double{float_from(bits_from_ordered(number))} * group.scale[k];
+    const double limit = 1 << 30;
+    number = static_cast<uint32_t>(
+        static_cast<int32_t>(std::isnan(value) ? limit : std::max(-limit, std::min(limit, value))));
+  }
+  const uint32_t difference = number - group.number[k], bend = difference - group.difference[k];
+  uint32_t slope = group.order[k] >= 1 ? difference : 0;
+  if (order >= 2) slope += bend;
+  if (order >= 3) slope += bend - group.bend[k];
+  group.slope[k] = slope;
+  if (is_float) {
+    const float next = float_from_number(static_cast<int32_t>(number + slope), group.scale[k]);
+    group.slope[k] = ordered_from_bits(bits_of(next)) - group.last[k];
+  }
+  group.number[k] = number;
+  group.difference[k] = difference;
+  group.bend[k] = bend;
+  group.age[k] = std::min(group.age[k] + 1, 3);
 }
 
 /// docs of runtime/anim/clip_block.h: residuals are zigzag coded, lowest bit first.
@@ -62,6 +115,10 @@ void decode_next(const std::vector<uint8_t>& block, ClipLanes& group) {
     const int64_t residual = code % 2 == 0 ? half : -half - 1;
     const auto change = static_cast<uint32_t>(int64_t{group.slope[k]} + residual);
     group.bit[k] += group.width[k];
+    if (group.curved[0]) {
+      if (group.present[k]) continue_curve(change, group, k);
+      continue;
+    }
     if (group.present[k]) group.last[k] += change;
     group.slope[k] = group.linear[k] ? change : 0;
   }

@@ -181,7 +181,7 @@ MIEN_CHECKED MienStatus mien_clip_event(const MienClip* clip, uint32_t index,
                                         MienClipEvent* out_event);
 
 /* Checks that no byte of a clip has changed since it was written and that all curves can be decoded.
- * Reads the whole clip. Uses up to 36 KiB of stack.
+ * Reads the whole clip. Uses up to 48 KiB of stack.
  * Fails with MIEN_ERROR_CLIP_CHECKSUM if bytes have changed, MIEN_ERROR_CLIP_STRUCTURE if a curve cannot
  * be decoded. */
 MIEN_CHECKED MienStatus mien_clip_verify(const MienClip* clip, MienError* error);
@@ -189,7 +189,7 @@ MIEN_CHECKED MienStatus mien_clip_verify(const MienClip* clip, MienError* error)
 /* Copies `frame_count` frames, starting at `first_frame`: channel c of frame first_frame + n goes to
  * out_values[n * frame_stride + c]. frame_stride is at least the number of channels; 0 means that
  * number. Each call decodes from the start of a block of 64 frames, so reading many frames in one
- * call costs less than reading them one by one. Uses up to 36 KiB of stack.
+ * call costs less than reading them one by one. Uses up to 48 KiB of stack.
  * Fails with MIEN_ERROR_INVALID_ARGUMENT if frame_stride is too small, MIEN_ERROR_INDEX if the
  * clip has fewer frames, MIEN_ERROR_CLIP_STRUCTURE if a curve is damaged; its block in `out_values` is
  * zero. */
