@@ -24,7 +24,7 @@ struct User : Object {
   static constexpr uint32_t kTag = 8;
   const Shared* shared = nullptr;
   Arena arena;
-  explicit User(const Allocator& allocator) : arena(allocator) {}
+  explicit User(const Allocator& from) : arena(from) {}
   ~User() { release(shared); }
 };
 

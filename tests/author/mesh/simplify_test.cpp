@@ -382,8 +382,12 @@ TEST(Simplify, TeethGoWholeAndEyesStay) {
     EXPECT_NE(made.at(0).component[tooth], of_tooth);
     EXPECT_GE(counts[of_eye], 8u) << lod;
     if (counts[of_tooth] == 0 && gone_at == 0) gone_at = lod;
-    if (gone_at == 0) EXPECT_GE(counts[of_tooth], 8u) << lod;
-    if (gone_at != 0) EXPECT_EQ(counts[of_tooth], 0u) << lod;
+    if (gone_at == 0) {
+      EXPECT_GE(counts[of_tooth], 8u) << lod;
+    }
+    if (gone_at != 0) {
+      EXPECT_EQ(counts[of_tooth], 0u) << lod;
+    }
   }
   EXPECT_EQ(gone_at, 5u) << "250 / 32 are less than twelve";
 }
