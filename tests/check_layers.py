@@ -80,6 +80,8 @@ PROGRAM_GRAPH = {
     "scene": ["mien.h", "math", "io", "render"],  # a rig in a pose
     "live": ["mien.h", "io", "gltf"],  # packets of live sources -> rows of controls
     "mesh": ["mien.h", "io"],          # meshes and shapes from files, for `mien author`
+    "diff": ["mien.h", "io"],          # what differs between two DNA files
+    "edit": ["mien.h", "mien_author.h", "io", "mesh"],  # DNA files that are changed
     "play": ["mien.h", "io", "gltf"],  # scenes of `mien play`
     "baseline": [],                    # the sparse matrix that `mien bench` compares with
     "tests": ["mien.h", "mien_author.h", "io", "live"],
@@ -87,7 +89,7 @@ PROGRAM_GRAPH = {
     "tests/render": ["render"],
     "view": ["io"],                    # the page of the viewer, served on this machine
     "commands": ["mien.h", "mien_author.h", "accept", "math", "io", "render", "gltf", "scene", "mesh", "play", "live",
-                 "view", "baseline"],
+                 "view", "edit", "diff", "baseline"],
     "": ["mien.h", "mien_author.h", "io", "commands"],  # main.cpp, without_author.cpp
 }
 

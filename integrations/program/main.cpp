@@ -101,6 +101,8 @@ int run(int argument_count, char** arguments, Session& session) {
       add_accept_command(app, session),
       add_eval_command(app, session),
       add_convert_command(app, session),
+      add_edit_command(app, session),
+      add_diff_command(app, session),
       add_extract_command(app, session),
       add_gen_command(app, session),
       add_demo_head_command(app, session),

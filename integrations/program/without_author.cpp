@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-// For a build without libmien-author: `mien gen`, `mien demo-head` and `mien author` say so.
+// For a build without libmien-author: `mien gen`, `mien demo-head`, `mien author` and `mien edit` say so.
 #include <mien_author.h>
 
 #include <cstring>
+
+#include "integrations/program/commands/commands.h"
 
 namespace {
 
@@ -35,3 +37,18 @@ MienStatus mien_author_report_json(const MienAuthorReport*, MienStringView* out_
 }
 
 void mien_author_report_close(MienAuthorReport*) {}
+
+namespace mien::cli {
+
+Command add_edit_command(CLI::App& app, const Session&) {
+  CLI::App* edit = app.add_subcommand("edit", "Change a DNA file (not in this build)");
+  edit->allow_extras();
+  return {edit, [] {
+            fail(kUsage, "mien edit", "",
+                 "this build of mien cannot change DNA files "
+                 "(MIEN_BUILD_COMPILER=OFF)",
+                 "use a full build");
+          }};
+}
+
+}  // namespace mien::cli

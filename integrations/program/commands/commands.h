@@ -5,6 +5,7 @@
 //                              \-> scene/ (a rig in a pose) -> render/ -> PNG
 //                              \-> gltf/ -> GLB, OBJ
 //     meshes -> mesh/ -> mien_author.h
+//     DNA files -> edit/ (documents) -> mien_author.h; diff/ (two files)
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -30,6 +31,8 @@ Command add_accept_command(CLI::App& app, const Session& session);
 Command add_eval_command(CLI::App& app, const Session& session);
 Command add_bake_command(CLI::App& app, const Session& session);
 Command add_convert_command(CLI::App& app, const Session& session);
+Command add_edit_command(CLI::App& app, const Session& session);
+Command add_diff_command(CLI::App& app, const Session& session);
 Command add_export_command(CLI::App& app, const Session& session);
 Command add_extract_command(CLI::App& app, const Session& session);
 Command add_gen_command(CLI::App& app, const Session& session);

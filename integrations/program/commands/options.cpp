@@ -97,24 +97,6 @@ uint64_t lod_range(uint64_t first, uint64_t last) {
              "see 'mien info' for the LODs that a file has");
 }
 
-/// "0,2-4": bits 0, 2, 3 and 4.
-uint64_t parse_lod_list(const std::string& list) {
-  uint64_t mask = 0;
-  for (const std::string& word : split_at_commas(list)) {
-    const size_t dash = word.find('-', 1);
-    const uint64_t first = parse_number("--lods", word.substr(0, dash), 65535);
-    if (first >= kMaxLods) fail_lod("--lods " + list);
-    const uint64_t last =
-        dash == std::string::npos ? first : parse_number("--lods", word.substr(dash + 1), 65535);
-    if (last < first) {
-      fail_usage("--lods " + list, "a range goes from the finest LOD, the smaller number, up",
-                 "write " + std::to_string(last) + "-" + std::to_string(first));
-    }
-    mask |= lod_range(first, last);
-  }
-  return mask;
-}
-
 uint64_t parse_lods(const LoadOptions& options) {
   if (!options.lods.empty()) return parse_lod_list(options.lods);
   if (!options.max_lod.empty() || !options.min_lod.empty()) {
@@ -165,6 +147,27 @@ const MienCoordinateSystem* find_system(const LoadOptions& options) {
 }
 
 }  // namespace
+
+uint64_t parse_lod_list(const std::string& list) {
+  uint64_t mask = 0;
+  for (const std::string& word : split_at_commas(list)) {
+    const size_t dash = word.find('-', 1);
+    const uint64_t first = parse_number("--lods", word.substr(0, dash), 65535);
+    if (first >= kMaxLods) fail_lod("--lods " + list);
+    const uint64_t last =
+        dash == std::string::npos ? first : parse_number("--lods", word.substr(dash + 1), 65535);
+    if (last < first) {
+      fail_usage("--lods " + list, "a range goes from the finest LOD, the smaller number, up",
+                 "write " + std::to_string(last) + "-" + std::to_string(first));
+    }
+    mask |= lod_range(first, last);
+  }
+  return mask;
+}
+
+MienCoordinateSystem parse_system(const std::string& name) {
+  return system_named(system_names()[parse_word("--system", name)]);
+}
 
 const Words& system_names() {
   static const Words names = [] {

@@ -53,6 +53,12 @@ uint64_t parse_number(const std::string& option, const std::string& word, uint64
 /// if `or_all`.
 uint32_t parse_lod(const std::string& word, bool or_all);
 
+/// "0,2-4": bits 0, 2, 3 and 4.
+uint64_t parse_lod_list(const std::string& list);
+
+/// Wrong usage if no system has the name.
+MienCoordinateSystem parse_system(const std::string& name);
+
 /// -o and --force.
 CLI::Option* add_output_options(CLI::App& app, OutputFile& output, const std::string& text,
                                 const std::string& type_name = "OUT");

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+// mien edit: a DNA file changed, by options that are applied one after the other, all or none.
+#include "integrations/program/commands/edit_options.h"
+#include "integrations/program/commands/options.h"
+#include "integrations/program/diff/dna_diff.h"
+#include "integrations/program/io/output.h"
+#include "integrations/program/io/rig_file.h"
+#include "integrations/program/io/write_dna.h"
+
+namespace mien::cli {
+
+namespace {
+
+struct EditCommand {
+  std::string input;
+  OutputFile output;
+  std::vector<Edit> edits;
+  bool dry_run = false;
+};
+
+Dna finished(const Document& document) {
+  MienDna* dna = nullptr;
+  auto error = sized<MienError>();
+  check(mien_document_to_dna(document.get(), nullptr, &dna, &error), &error, "cannot edit",
+        document.shown);
+  return Dna(dna);
+}
+
+/// A script is applied where it is named.
+std::vector<Edit> with_scripts(const std::vector<Edit>& edits) {
+  std::vector<Edit> all;
+  for (const Edit& edit : join_options(edits)) {
+    if (edit.option != "--script") {
+      all.push_back(edit);
+      continue;
+    }
+    const std::vector<Edit> script = read_edit_script(edit.value);
+    all.insert(all.end(), script.begin(), script.end());
+  }
+  return all;
+}
+
+void print_dry_run(const RigFile& before, const MienDna* after,
+                   const std::vector<std::string>& done) {
+  Output output("-");
+  for (const std::string& sentence : done) output.write(sentence + "\n");
+  output.write(diff_text(diff_dna(before.dna.get(), after)));
+  output.commit();
+}
+
+void run(const EditCommand& command, const Session& session) {
+  if (command.output.path.empty() && !command.dry_run) {
+    fail_usage("mien edit", "there is no file to write", "give -o OUT.dna, or --dry-run");
+  }
+  if (!command.dry_run) {
+    refuse_terminal(command.output.path, session, "a DNA file");
+    refuse_replacing(command.output, {});  // a file may be edited in place
+  }
+  const std::vector<Edit> edits = with_scripts(command.edits);
+  Document document = open_document(command.input, session);
+  const std::vector<std::string> done = apply_edits(document, edits);
+  auto write = sized<MienWriteDesc>();
+  write.version = document.version;
+  write.unknown_layers = MIEN_UNKNOWN_LAYERS_KEEP;
+  const std::string shown = document.shown;
+  const Dna dna = finished(document);
+  document.handle.reset();  // its memory is for the file to be written
+  if (command.dry_run) {
+    auto desc = sized<MienDnaDesc>();
+    desc.layers = MIEN_LAYER_ALL;
+    print_dry_run(open_rig_file(command.input, desc, session), dna.get(), done);
+    return;
+  }
+  for (const std::string& sentence : done) note(session, shown + ": " + sentence);
+  write_dna(dna.get(), write, command.output.path, session);
+}
+
+}  // namespace
+
+Command add_edit_command(CLI::App& app, const Session& session) {
+  auto command = std::make_shared<EditCommand>();
+  CLI::App* edit = app.add_subcommand("edit", "Change a DNA file: names, joints, meshes, LODs");
+  edit->add_option("IN", command->input, "DNA file; - reads standard input")
+      ->type_name("")
+      ->required();
+  add_output_options(*edit, command->output, "File to write; - is standard output");
+  edit->add_flag("-n,--dry-run", command->dry_run, "Print what would change, and write nothing");
+  const auto add = [&](const char* name, const char* type_name, const char* text) {
+    return edit
+        ->add_option_function<std::string>(
+            name,
+            [command, name](const std::string& value) {
+              command->edits.push_back({name, value, ""});
+            },
+            text)
+        ->type_name(type_name)
+        ->trigger_on_parse();
+  };
+  add("--script", "COMMANDS.json", "Edits from a file, a list of [\"--option\", \"value\"]");
+  for (const EditOption& option : edit_options()) {
+    add(option.name, option.type_name, option.text)->group(option.group);
+  }
+  edit->footer(
+      "Edits are applied in the order in which they are given, all of them or, if one fails, "
+      "none.\n"
+      "What is not named stays as it was, byte for byte. IN and OUT may be the same file. See\n"
+      "docs/editing.md.\n\n"
+      "Examples:\n"
+      "  mien edit head.dna --rename joint:FACIAL_C_Jaw=jaw -o engine.dna\n"
+      "  mien edit head.dna --lods 2-7 --clear blend-shapes -o phone.dna\n"
+      "  mien edit head.dna --conform head_lod0_mesh=sculpt.obj -o reshaped.dna\n"
+      "  mien edit head.dna --remove mesh:eyelashes_lod0_mesh --dry-run\n"
+      "  mien edit head.dna --script edits.json -o out.dna");
+  return {edit, [command, &session] { run(*command, session); }};
+}
+
+}  // namespace mien::cli
