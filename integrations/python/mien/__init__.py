@@ -13,11 +13,11 @@
 `Dna` -> `Rig` -> `Instance` or `Batch`. README.md has more; errors are in `mien.errors`.
 """
 from ._api import (Arithmetic, AuthorFlags, BakedCheck, BakedInfo, BlendMode, BoneKind, ClipChannel,
-                   ClipInfo, ClipPlayerInfo, Compose, CoordinateSystem, DeformerInfo, Direction,
+                   ClipInfo, ClipPlayerInfo, Compose, Conformed, CoordinateSystem, DeformerInfo, Direction,
                    DnaField, DnaInfo, DnaLayer, FaceWinding, FieldType, FileAccess, Finding,
                    Generate, Generator, Guard, InstanceStatistics, Interpolation, Isa, Kind, Layer,
-                   LayerGroup, LayerSource, Looping, MeshAxis, MixerInfo, MixInfo, MlMasks, NameMatch, Normals,
-                   Preset, Retrigger, Reuse, RigInfo, RigStatistics, RotationOutput, RotationRule,
+                   LayerGroup, LayerSource, Looping, Match, MeshAxis, MixerInfo, MixInfo, MlMasks, NameMatch, Normals,
+                   Preset, PrunedJoints, PrunedTargets, Retrigger, Reuse, RigInfo, RigStatistics, RotationOutput, RotationRule,
                    RotationSequence, RotationUnit, Severity, SolverStackInfo, Stage, Status,
                    Storage, Symmetry, Transition, TranslationUnit, UnknownLayers, Weights)
 from ._api import VERSION as _VERSION
@@ -29,6 +29,7 @@ from .clip import (Clip, ClipBinding, ClipEvent, ClipPlayer, TICKS_PER_SECOND,
                    arkit_matrix)
 from .deformer import Deformer, DeformerInstance, Mesh, deform_batch, write_vertices_batch
 from .dna import Dna, coordinate_system, coordinate_system_names, validate
+from .document import ControlError, Document
 from .errors import (ArgumentError, AuthorError, BusyError, ClipError, ClosedError, DnaError, Error,
                      FileError, MixError, OutOfMemoryError, OutOfRangeError, UnknownNameError)
 from .instance import Instance
@@ -49,15 +50,16 @@ __all__ = [
     "AuthorBone", "AuthoredRig", "AuthorError", "AuthorFlags", "author_rig", "Baked",
     "BakedCheck", "BakedInfo", "Batch", "BlendMode", "BoneKind", "BusyError", "Clip", "ClipBinding",
     "ClipChannel", "ClipError", "ClipEvent", "ClipInfo", "ClipPlayer", "ClipPlayerInfo",
-    "ClosedError", "Compose", "control_name", "coordinate_system", "coordinate_system_names",
+    "ClosedError", "Compose", "Conformed", "control_name", "ControlError", "coordinate_system", "coordinate_system_names",
     "CoordinateSystem", "CopySolver", "CustomGuard", "CustomSolver", "deform_batch", "Deformer",
     "DeformerInfo", "DeformerInstance", "Direction", "Dna", "DnaError", "DnaField", "DnaInfo",
-    "DnaLayer", "Error", "FaceWinding", "FieldType", "FileAccess", "FileError", "Finding",
+    "DnaLayer", "Document", "Error", "FaceWinding", "FieldType", "FileAccess", "FileError", "Finding",
     "Gaze", "Generate", "Generator", "glare", "Guard", "GuardInfo", "GuardState", "Instance",
     "InstanceStatistics", "Interpolation", "Isa", "isa_available", "isa_name", "Kind",
-    "Landmark", "Layer", "LayerGroup", "LayerSource", "library_path", "Looping", "Mesh", "MeshAxis", "Mix",
+    "Landmark", "Layer", "LayerGroup", "LayerSource", "library_path", "Looping", "Match", "Mesh", "MeshAxis", "Mix",
     "Mixer", "MixerInfo", "MixError", "MixEvent", "MixInfo", "MixLayer", "MlMasks", "NO_CONTROL",
-    "NameMatch", "NO_JOINT", "Normals", "OutOfMemoryError", "OutOfRangeError", "Preset", "Reaction",
+    "NameMatch", "NO_JOINT", "Normals", "OutOfMemoryError", "OutOfRangeError", "Preset", "PrunedJoints",
+    "PrunedTargets", "Reaction",
     "Retrigger", "Reuse", "Rig", "RigInfo", "RigStatistics", "RotationOutput", "RotationRule",
     "RotationSequence", "RotationUnit", "Severity", "SolverPose", "SolverStack",
     "SolverStackInfo", "SolverState", "SpaceSolver", "SpringSolver", "Stage", "Status",

@@ -20,7 +20,7 @@ from operator import index
 from typing import TYPE_CHECKING, Any, Dict, Iterable, NoReturn, Optional, Tuple, TypeVar
 
 from . import _api
-from ._library import lib
+from ._library import author, lib
 from ._api import Status
 from .errors import ArgumentError, ClosedError, OutOfRangeError
 
@@ -58,6 +58,12 @@ class DnaHandle(_Address, _api.MienDna):
     def __del__(self, destroy: Any = lib.mien_dna_close) -> None:
         if self.value:
             destroy(self)
+
+
+class DocumentHandle(_Address, _api.MienDocument):
+    def __del__(self, library: Any = author) -> None:
+        if self.value:
+            library().mien_document_destroy(self)
 
 
 class ReportHandle(_Address, _api.MienReport):

@@ -284,6 +284,11 @@ def validate(file: Any) -> List[Finding]:
         status = lib.mien_dna_validate_file(as_path(file), None, _byref(handle), _byref(error))
     if status:
         fail(status, "cannot validate", error)
+    return findings_of(handle)
+
+
+def findings_of(handle: ReportHandle) -> List[Finding]:
+    """All of a report."""
     errors, warnings = ctypes.c_uint32(), ctypes.c_uint32()
     status = lib.mien_report_counts(handle, _byref(errors), _byref(warnings))
     if status:
