@@ -154,7 +154,7 @@ TEST(Snaps, FailWithoutALeakWhereverMemoryRunsOut) {
     uint8_t snap = 99;
     Error error;
     const Status status =
-        probe_snaps(head.deformer, *binding->binding, 0.02f, allocator, {&snap, 1}, error);
+        probe_snaps(head.deformer, *capi::object(binding), 0.02f, allocator, {&snap, 1}, error);
     ASSERT_TRUE(counting.clean()) << counting.first_wrong;
     if (counting.failed == 0) {
       EXPECT_EQ(status, Status::kOk);
