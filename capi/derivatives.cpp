@@ -24,7 +24,6 @@ MienStatus read_derivatives_desc(const MienRig* rig, const MienDerivativesDesc* 
 }
 
 bool is_point(const Derivatives& d, uint32_t point, uint32_t mesh) {
-  if (point > kLastPoint) return false;
   const bool geometry = point >= MIEN_POINT_LOCALS && point <= MIEN_POINT_POSITIONS;
   if (geometry && !d.deformer) return false;
   return point != MIEN_POINT_POSITIONS || mesh < d.deformer->meshes.count;
@@ -33,6 +32,7 @@ bool is_point(const Derivatives& d, uint32_t point, uint32_t mesh) {
 MienStatus check_way(const MienDerivatives* handle, uint32_t from, uint32_t to, uint32_t mesh) {
   if (MienStatus status = check(handle)) return status;
   const Derivatives& d = *object(handle);
+  if (from > kLastPoint || to > kLastPoint) return MIEN_ERROR_INVALID_ARGUMENT;
   if (!is_point(d, from, mesh) || !is_point(d, to, mesh)) return MIEN_ERROR_INDEX;
   if (!leads_to(static_cast<Point>(from), static_cast<Point>(to))) {
     return MIEN_ERROR_INVALID_ARGUMENT;
@@ -87,6 +87,8 @@ MienStatus mien_derivatives_bytes(const MienRig* rig, const MienDerivativesDesc*
   *out_bytes = 0;
   MienDerivativesDesc known;
   if (MienStatus status = read_derivatives_desc(rig, desc, known, nullptr)) return status;
+  Allocator allocator;
+  if (MienStatus status = read_allocator(known.allocator, allocator, nullptr)) return status;
   *out_bytes = derivatives_size(*object(rig), object(known.deformer));
   return MIEN_OK;
 }
@@ -96,6 +98,7 @@ MienStatus mien_derivatives_size(const MienDerivatives* derivatives, uint32_t po
   if (!out_size) return MIEN_ERROR_NULL_ARGUMENT;
   *out_size = 0;
   if (MienStatus status = check(derivatives)) return status;
+  if (point > kLastPoint) return MIEN_ERROR_INVALID_ARGUMENT;
   if (!is_point(*object(derivatives), point, mesh)) return MIEN_ERROR_INDEX;
   *out_size = point_size(*object(derivatives), static_cast<Point>(point), mesh);
   return MIEN_OK;

@@ -32,7 +32,7 @@ def edited(*pairs):
 
 
 # A function of its own, to be declared in ways that are wrong and right.
-END = "#ifdef __cplusplus\n}\n#endif\n\n#endif /* MIEN_SOLVE_H */"
+END = "#ifdef __cplusplus\n}\n#endif\n\n#endif /* MIEN_NAMES_H */"
 
 
 def with_function(comment, declaration):

@@ -188,9 +188,10 @@ def write_struct(struct, inputs):
 def annotation_of(field):
     kind = scalar_of(field["type"])
     if kind["kind"] == "array":
-        return f"Tuple[{', '.join(['int'] * kind['count'])}]"
+        item = "float" if scalar_of(kind["of"])["name"] in ("float", "double") else "int"
+        return f"Tuple[{', '.join([item] * kind['count'])}]"
     if kind["kind"] == "scalar":
-        return "bool" if field["boolean"] else "float" if kind["name"] == "float" else "int"
+        return "bool" if field["boolean"] else "float" if kind["name"] in ("float", "double") else "int"
     return "Any"
 
 

@@ -109,7 +109,7 @@ struct Binder {
       binding.missing_entries += !there;
       if (there) add_share(source, target, entry.weight);
     }
-    match_names();
+    match_names(raws);
   }
 
   void add_share(uint32_t source, uint32_t target, float weight) {
@@ -119,13 +119,14 @@ struct Binder {
     append(scratch.shares, Share{source, target, weight});
   }
 
-  /// Channels that drive nothing so far, in their order.
-  void match_names() {
+  /// Channels that drive nothing so far, in their order; not those whose name several controls have.
+  void match_names(const NameIndex<RigNames>& raws) {
     ControlFinder finder(raw_names.list);
     bool is_sorted = false;
     const size_t most = scratch.shares.count + most_matched(clip);
     for (uint32_t c = 0; c < clip.channel_count; ++c) {
-      if (scratch.is_used[c]) continue;
+      bool several;
+      if (scratch.is_used[c] || (raws.find(clip.name(c), several) == kNone && several)) continue;
       if (!is_sorted) finder.sort(scratch.by_spelling, scratch.by_alias);
       is_sorted = true;
       const ControlMatch match = finder.match(clip.name(c));

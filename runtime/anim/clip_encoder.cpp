@@ -110,8 +110,11 @@ class Predictor {
  public:
   Predictor(const Samples& samples, uint32_t order, uint32_t first)
       : order_(order), curve_(samples.mode == kBlockFloat && order >= 2), last_(first) {
-    if (curve_) scale_ = curve_scale(samples.curve_scale);
-    number_ = curve_ ? curve_number(first, scale_) : first;
+    number_ = first;
+    if (!curve_) return;
+    scale_ = curve_scale(samples.curve_scale);
+    number_ = curve_number(first, scale_);
+    slope_ = ordered_from_curve(number_, scale_) - first;
   }
 
   /// Of the sample after those that were added.

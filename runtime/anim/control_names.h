@@ -51,6 +51,11 @@ struct NameIndex {
   }
   /// kNoName if none matches, or several do and none is equal.
   uint32_t find(Span<const char> name) const {
+    bool several;
+    return find(name, several);
+  }
+  uint32_t find(Span<const char> name, bool& several) const {
+    several = false;
     const Span<const char> key = without_prefix(name);
     const uint16_t* at =
         std::lower_bound(order.begin(), order.end(), key,
@@ -60,6 +65,7 @@ struct NameIndex {
       if (compare_names(names.name(*at), name) == 0) return *at;
       found = *at;
     }
+    several = matches > 1;
     return matches == 1 ? found : kNoName;
   }
 };

@@ -230,7 +230,7 @@ void compare_layer_rig(const LayerRig& rig, uint32_t rotation, Random& random, C
       // A pose control of 0 may lie on either side of its clamp.
       const bool at_clamp = i >= rig.first_rbf() && std::fabs(character.controls[i]) < 1e-6 &&
                             std::fabs(made[i] - expected[i]) > 1e-3;
-      if (std::fabs(character.controls[i] - modeled_controls[i]) <= 1e-5 && !at_clamp) continue;
+      if (std::fabs(character.controls[i] - modeled_controls[i]) <= 2e-6 && !at_clamp) continue;
       exact = smooth[i] = false;
     }
     expect_slopes({made.begin(), made.end()}, expected, smooth, 1e-3, compared, "control");

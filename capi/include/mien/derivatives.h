@@ -58,7 +58,8 @@ MIEN_CHECKED MienStatus mien_derivatives_create(const MienRig* rig, const MienDe
 /* Destroys derivatives. NULL is allowed. */
 MIEN_API void mien_derivatives_destroy(MienDerivatives* derivatives);
 
-/* Returns the bytes of memory that mien_derivatives_create() would need. */
+/* Returns the bytes of memory that mien_derivatives_create() would need.
+ * Fails with MIEN_ERROR_MISMATCH if the deformer is not of the rig. */
 MIEN_CHECKED MienStatus mien_derivatives_bytes(const MienRig* rig, const MienDerivativesDesc* desc,
                                                uint64_t* out_bytes);
 
@@ -76,7 +77,8 @@ MIEN_CHECKED MienStatus mien_derivatives_size(const MienDerivatives* derivatives
  *   - weights of RBF poses below the threshold: as without a threshold; at a stored pose itself 0
  *   - ReLU at 0: rising
  * Values are saturated nowhere: derivatives of what overflows are those of the formula. Networks and solvers
- * that read controls which are computed after them see constants. */
+ * that read controls which are computed after them see constants.
+ * Fails with MIEN_ERROR_MISMATCH if the instance is not of the rig. */
 MIEN_CHECKED MienStatus mien_derivatives_linearize(MienDerivatives* derivatives,
                                                    const MienInstance* instance, uint32_t stages);
 
@@ -92,7 +94,9 @@ MIEN_CHECKED MienStatus mien_derivatives_forward(MienDerivatives* derivatives, u
 
 /* Multiplies gradients by the transposed matrix, also called vector-Jacobian products: for each of `count`
  * gradients by the numbers at `to`, the gradient by those at `from`; `mesh` and all else as in
- * mien_derivatives_forward(). */
+ * mien_derivatives_forward().
+ * Fails with MIEN_ERROR_INDEX if a point or the mesh does not exist, MIEN_ERROR_INVALID_ARGUMENT if `from`
+ * has no effect on `to` or nothing was linearized. */
 MIEN_CHECKED MienStatus mien_derivatives_reverse(MienDerivatives* derivatives, uint32_t from, uint32_t to,
                                                  uint32_t mesh, uint32_t count, const float* gradients,
                                                  float* outputs);
@@ -114,8 +118,9 @@ MIEN_DEFAULT(MienJacobian, mien_jacobian_default)
 
 /* Computes the matrix of derivatives `from` a point `to` another, `mesh` as above. `out_count` is the number of
  * entries; at most `capacity` of them are written. Allocates nothing.
- * Fails with MIEN_ERROR_INVALID_ARGUMENT if there are more than `capacity`, unless that is 0; otherwise as
- * mien_derivatives_forward(). */
+ * Fails with MIEN_ERROR_INVALID_ARGUMENT if there are more than `capacity`, unless that is 0, if `from` has
+ * no effect on `to` or nothing was linearized, MIEN_ERROR_INDEX if a point, the mesh or a number does not
+ * exist. */
 MIEN_CHECKED MienStatus mien_derivatives_jacobian(MienDerivatives* derivatives, uint32_t from, uint32_t to,
                                                   uint32_t mesh, const MienJacobian* jacobian,
                                                   size_t* out_count);

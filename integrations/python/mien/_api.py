@@ -2844,7 +2844,7 @@ class MienAuthorDesc(Structure):
                  lods: int = 0,
                  groups: int = 0,
                  seed: int = 0,
-                 unit: int = 0,
+                 unit: float = 0,
                  up: int = 0,
                  front: int = 0,
                  symmetry: int = 0,
@@ -2866,7 +2866,7 @@ class MienAuthorDesc(Structure):
                  bone_motions: Any = None,
                  joint_groups: int = 0,
                  overlap_correctives: int = 0,
-                 lod_triangles: int = 0,
+                 lod_triangles: float = 0,
                  lod_meshes: Any = None,
                  lod_mesh_count: int = 0) -> None:
         super().__init__(224)
@@ -2991,9 +2991,9 @@ class MienPlacement(Structure):
     translation: Any
 
     def __init__(self, *,
-                 scale: int = 0,
-                 rotation: Tuple[int, int, int] = (0, 0, 0),
-                 translation: Tuple[int, int, int] = (0, 0, 0)) -> None:
+                 scale: float = 0,
+                 rotation: Tuple[float, float, float] = (0, 0, 0),
+                 translation: Tuple[float, float, float] = (0, 0, 0)) -> None:
         super().__init__(64)
         self.scale = scale
         self.rotation = rotation
@@ -4129,6 +4129,8 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
     "mien_derivatives_bytes": (
         (Status.INVALID_ARGUMENT,
          "an argument is outside its range"),
+        (Status.MISMATCH,
+         "the deformer is not of the rig"),
     ),
     "mien_derivatives_size": (
         (Status.INVALID_ARGUMENT,
@@ -4139,6 +4141,8 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
     "mien_derivatives_linearize": (
         (Status.INVALID_ARGUMENT,
          "an argument is outside its range"),
+        (Status.MISMATCH,
+         "the instance is not of the rig"),
     ),
     "mien_derivatives_forward": (
         (Status.INVALID_ARGUMENT,
@@ -4146,11 +4150,18 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
         (Status.INDEX,
          "a point or the mesh does not exist"),
     ),
-    "mien_derivatives_reverse": (),
+    "mien_derivatives_reverse": (
+        (Status.INVALID_ARGUMENT,
+         "`from` has no effect on `to` or nothing was linearized"),
+        (Status.INDEX,
+         "a point or the mesh does not exist"),
+    ),
     "mien_derivatives_jacobian": (
         (Status.INVALID_ARGUMENT,
-         "there are more than `capacity`, unless that is 0; otherwise as "
-         "mien_derivatives_forward()"),
+         "there are more than `capacity`, unless that is 0, if `from` has no effect on "
+         "`to` or nothing was linearized"),
+        (Status.INDEX,
+         "a point, the mesh or a number does not exist"),
     ),
     "mien_bake_file": (
         (Status.MISMATCH,

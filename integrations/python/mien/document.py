@@ -368,9 +368,10 @@ class Document(Closable):
         x, then y, then z, then moves it."""
         if scale == 0:
             raise ArgumentError("scale is 0")
-        vectors = (ctypes.c_double * 3)
-        placement = _api.MienPlacement(scale=scale, rotation=vectors(*rotation),
-                                       translation=vectors(*translation))
+        x, y, z = rotation
+        along = translation
+        placement = _api.MienPlacement(scale=scale, rotation=(x, y, z),
+                                       translation=(along[0], along[1], along[2]))
         self._call("mien_document_place", _byref(placement))
 
     @raises("mien_document_keep_lods")

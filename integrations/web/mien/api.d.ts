@@ -2686,7 +2686,10 @@ export interface Exports {
   mien_derivatives_create(rig: number, desc: number, out_derivatives: number, error: number): number;
   /** Destroys derivatives. NULL is allowed. */
   mien_derivatives_destroy(derivatives: number): void;
-  /** Returns the bytes of memory that mien_derivatives_create() would need. */
+  /**
+   * Returns the bytes of memory that mien_derivatives_create() would need.
+   * Fails with MIEN_ERROR_MISMATCH if the deformer is not of the rig.
+   */
   mien_derivatives_bytes(rig: number, desc: number, out_bytes: number): number;
   /**
    * Returns how many numbers a point has. `mesh` is the index of the mesh of MIEN_POINT_POSITIONS, else 0.
@@ -2704,6 +2707,7 @@ export interface Exports {
    *   - ReLU at 0: rising
    * Values are saturated nowhere: derivatives of what overflows are those of the formula. Networks and solvers
    * that read controls which are computed after them see constants.
+   * Fails with MIEN_ERROR_MISMATCH if the instance is not of the rig.
    */
   mien_derivatives_linearize(derivatives: number, instance: number, stages: number): number;
   /**
@@ -2719,13 +2723,16 @@ export interface Exports {
    * Multiplies gradients by the transposed matrix, also called vector-Jacobian products: for each of `count`
    * gradients by the numbers at `to`, the gradient by those at `from`; `mesh` and all else as in
    * mien_derivatives_forward().
+   * Fails with MIEN_ERROR_INDEX if a point or the mesh does not exist, MIEN_ERROR_INVALID_ARGUMENT if `from`
+   * has no effect on `to` or nothing was linearized.
    */
   mien_derivatives_reverse(derivatives: number, from: number, to: number, mesh: number, count: number, gradients: number, outputs: number): number;
   /**
    * Computes the matrix of derivatives `from` a point `to` another, `mesh` as above. `out_count` is the number of
    * entries; at most `capacity` of them are written. Allocates nothing.
-   * Fails with MIEN_ERROR_INVALID_ARGUMENT if there are more than `capacity`, unless that is 0; otherwise as
-   * mien_derivatives_forward().
+   * Fails with MIEN_ERROR_INVALID_ARGUMENT if there are more than `capacity`, unless that is 0, if `from` has
+   * no effect on `to` or nothing was linearized, MIEN_ERROR_INDEX if a point, the mesh or a number does not
+   * exist.
    */
   mien_derivatives_jacobian(derivatives: number, from: number, to: number, mesh: number, jacobian: number, out_count: number): number;
   /**

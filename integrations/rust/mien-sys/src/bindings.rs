@@ -3977,6 +3977,8 @@ extern "C" {
     pub fn mien_derivatives_destroy(derivatives: *mut MienDerivatives);
 
     /// Returns the bytes of memory that `mien_derivatives_create()` would need.
+    ///
+    /// Fails with `MIEN_ERROR_MISMATCH` if the deformer is not of the rig.
     pub fn mien_derivatives_bytes(rig: *const MienRig, desc: *const MienDerivativesDesc, out_bytes: *mut u64) -> MienStatus;
 
     /// Returns how many numbers a point has. `mesh` is the index of the mesh of
@@ -4000,6 +4002,8 @@ extern "C" {
     ///
     /// Values are saturated nowhere: derivatives of what overflows are those of the formula.
     /// Networks and solvers that read controls which are computed after them see constants.
+    ///
+    /// Fails with `MIEN_ERROR_MISMATCH` if the instance is not of the rig.
     pub fn mien_derivatives_linearize(derivatives: *mut MienDerivatives, instance: *const MienInstance, stages: u32) -> MienStatus;
 
     /// Multiplies directions by the matrix of derivatives, also called Jacobian-vector products:
@@ -4015,6 +4019,9 @@ extern "C" {
     /// Multiplies gradients by the transposed matrix, also called vector-Jacobian products: for
     /// each of `count` gradients by the numbers at `to`, the gradient by those at `from`; `mesh`
     /// and all else as in `mien_derivatives_forward()`.
+    ///
+    /// Fails with `MIEN_ERROR_INDEX` if a point or the mesh does not exist,
+    /// `MIEN_ERROR_INVALID_ARGUMENT` if `from` has no effect on `to` or nothing was linearized.
     pub fn mien_derivatives_reverse(derivatives: *mut MienDerivatives, from: u32, to: u32, mesh: u32, count: u32, gradients: *const f32, outputs: *mut f32) -> MienStatus;
 
     /// Computes the matrix of derivatives `from` a point `to` another, `mesh` as above.
@@ -4022,7 +4029,8 @@ extern "C" {
     /// nothing.
     ///
     /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if there are more than `capacity`, unless that is
-    /// 0; otherwise as `mien_derivatives_forward()`.
+    /// 0, if `from` has no effect on `to` or nothing was linearized, `MIEN_ERROR_INDEX` if a
+    /// point, the mesh or a number does not exist.
     pub fn mien_derivatives_jacobian(derivatives: *mut MienDerivatives, from: u32, to: u32, mesh: u32, jacobian: *const MienJacobian, out_count: *mut usize) -> MienStatus;
 
     /// Writes a rig and its deformer to a baked file. `deformer` may be NULL. The file is written

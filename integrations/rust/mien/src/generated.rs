@@ -2127,24 +2127,28 @@ macro_rules! errors {
          - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory"
     };
     (mien_derivatives_bytes) => {
-        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range"
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
+         - [`Status::MISMATCH`](crate::Status::MISMATCH) if the deformer is not of the rig"
     };
     (mien_derivatives_size) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
          - [`Status::INDEX`](crate::Status::INDEX) if there is no such point or mesh, or no deformer"
     };
     (mien_derivatives_linearize) => {
-        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range"
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
+         - [`Status::MISMATCH`](crate::Status::MISMATCH) if the instance is not of the rig"
     };
     (mien_derivatives_forward) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `from` has no effect on `to` or nothing was linearized\n\
          - [`Status::INDEX`](crate::Status::INDEX) if a point or the mesh does not exist"
     };
     (mien_derivatives_reverse) => {
-        "- none with valid arguments"
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `from` has no effect on `to` or nothing was linearized\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if a point or the mesh does not exist"
     };
     (mien_derivatives_jacobian) => {
-        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if there are more than `capacity`, unless that is 0; otherwise as `mien_derivatives_forward()`"
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if there are more than `capacity`, unless that is 0, if `from` has no effect on `to` or nothing was linearized\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if a point, the mesh or a number does not exist"
     };
     (mien_bake_file) => {
         "- [`Status::MISMATCH`](crate::Status::MISMATCH) if `deformer` was created for another rig\n\
