@@ -230,10 +230,17 @@ void compare_layer_rig(const LayerRig& rig, uint32_t rotation, Random& random, C
       // A pose control of 0 may lie on either side of its clamp.
       const bool at_clamp = i >= rig.first_rbf() && std::fabs(character.controls[i]) < 1e-6 &&
                             std::fabs(made[i] - expected[i]) > 1e-3;
-      if (std::fabs(character.controls[i] - modeled_controls[i]) <= 2e-6 && !at_clamp) continue;
+      if (std::fabs(character.controls[i] - modeled_controls[i]) <= 1e-5 && !at_clamp) continue;
       exact = smooth[i] = false;
     }
-    expect_slopes({made.begin(), made.end()}, expected, smooth, 1e-3, compared, "control");
+    // Inverses magnify rounding of slopes more than of values: pose controls of solvers have ten times as much.
+    const auto rbf = static_cast<std::ptrdiff_t>(rig.first_rbf());
+    const std::vector<double> slopes(made.begin(), made.end());
+    expect_slopes({slopes.begin(), slopes.begin() + rbf},
+                  {expected.begin(), expected.begin() + rbf},
+                  {smooth.begin(), smooth.begin() + rbf}, 1e-3, compared, "control");
+    expect_slopes({slopes.begin() + rbf, slopes.end()}, {expected.begin() + rbf, expected.end()},
+                  {smooth.begin() + rbf, smooth.end()}, 1e-2, compared, "pose control");
 
     if (!exact) continue;
     const std::vector<ModelJoint> here = model_joints(rig, controls_at(0), lod, quaternions);
@@ -537,7 +544,7 @@ TEST(Derivatives, RefuseWrongArguments) {
   EXPECT_EQ(run(MIEN_POINT_JOINTS, MIEN_POINT_RAW), MIEN_ERROR_INVALID_ARGUMENT);
   EXPECT_EQ(run(MIEN_POINT_JOINTS, MIEN_POINT_CHANNELS), MIEN_ERROR_INVALID_ARGUMENT);
   EXPECT_EQ(run(MIEN_POINT_RAW, MIEN_POINT_SKINS), MIEN_ERROR_INDEX) << "no deformer";
-  EXPECT_EQ(run(MIEN_POINT_RAW, 10), MIEN_ERROR_INDEX);
+  EXPECT_EQ(run(MIEN_POINT_RAW, 10), MIEN_ERROR_INVALID_ARGUMENT);
   EXPECT_EQ(
       mien_derivatives_forward(d.get(), MIEN_POINT_RAW, MIEN_POINT_JOINTS, 0, 1, nullptr, out),
       MIEN_ERROR_NULL_ARGUMENT);
