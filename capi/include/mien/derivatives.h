@@ -64,7 +64,7 @@ MIEN_CHECKED MienStatus mien_derivatives_bytes(const MienRig* rig, const MienDer
                                                uint64_t* out_bytes);
 
 /* Returns how many numbers a point has. `mesh` is the index of the mesh of MIEN_POINT_POSITIONS, else 0.
- * Fails with MIEN_ERROR_INDEX if there is no such point or mesh, or no deformer. */
+ * Fails with MIEN_ERROR_INDEX if there is no such mesh, or the point needs a deformer and there is none. */
 MIEN_CHECKED MienStatus mien_derivatives_size(const MienDerivatives* derivatives, uint32_t point,
                                               uint32_t mesh, size_t* out_size);
 
@@ -86,7 +86,7 @@ MIEN_CHECKED MienStatus mien_derivatives_linearize(MienDerivatives* derivatives,
  * `count` directions, rows of mien_derivatives_size() numbers at `from`, how the numbers at `to` change.
  * Rows follow each other without gaps; `outputs` has `count` rows and must not overlap `directions`. Several
  * directions in one call are faster than one by one, and have the same bits. Allocates nothing.
- * Fails with MIEN_ERROR_INDEX if a point or the mesh does not exist, MIEN_ERROR_INVALID_ARGUMENT if `from`
+ * Fails with MIEN_ERROR_INDEX if a point lacks its deformer or mesh, MIEN_ERROR_INVALID_ARGUMENT if `from`
  * has no effect on `to` or nothing was linearized. */
 MIEN_CHECKED MienStatus mien_derivatives_forward(MienDerivatives* derivatives, uint32_t from, uint32_t to,
                                                  uint32_t mesh, uint32_t count, const float* directions,
@@ -95,7 +95,7 @@ MIEN_CHECKED MienStatus mien_derivatives_forward(MienDerivatives* derivatives, u
 /* Multiplies gradients by the transposed matrix, also called vector-Jacobian products: for each of `count`
  * gradients by the numbers at `to`, the gradient by those at `from`; `mesh` and all else as in
  * mien_derivatives_forward().
- * Fails with MIEN_ERROR_INDEX if a point or the mesh does not exist, MIEN_ERROR_INVALID_ARGUMENT if `from`
+ * Fails with MIEN_ERROR_INDEX if a point lacks its deformer or mesh, MIEN_ERROR_INVALID_ARGUMENT if `from`
  * has no effect on `to` or nothing was linearized. */
 MIEN_CHECKED MienStatus mien_derivatives_reverse(MienDerivatives* derivatives, uint32_t from, uint32_t to,
                                                  uint32_t mesh, uint32_t count, const float* gradients,
@@ -119,8 +119,8 @@ MIEN_DEFAULT(MienJacobian, mien_jacobian_default)
 /* Computes the matrix of derivatives `from` a point `to` another, `mesh` as above. `out_count` is the number of
  * entries; at most `capacity` of them are written. Allocates nothing.
  * Fails with MIEN_ERROR_INVALID_ARGUMENT if there are more than `capacity`, unless that is 0, if `from` has
- * no effect on `to` or nothing was linearized, MIEN_ERROR_INDEX if a point, the mesh or a number does not
- * exist. */
+ * no effect on `to` or nothing was linearized, MIEN_ERROR_INDEX if a point lacks its deformer or mesh, or
+ * a number does not exist. */
 MIEN_CHECKED MienStatus mien_derivatives_jacobian(MienDerivatives* derivatives, uint32_t from, uint32_t to,
                                                   uint32_t mesh, const MienJacobian* jacobian,
                                                   size_t* out_count);

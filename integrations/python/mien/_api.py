@@ -4136,7 +4136,7 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
         (Status.INVALID_ARGUMENT,
          "an argument is outside its range"),
         (Status.INDEX,
-         "there is no such point or mesh, or no deformer"),
+         "there is no such mesh, or the point needs a deformer and there is none"),
     ),
     "mien_derivatives_linearize": (
         (Status.INVALID_ARGUMENT,
@@ -4148,20 +4148,20 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
         (Status.INVALID_ARGUMENT,
          "`from` has no effect on `to` or nothing was linearized"),
         (Status.INDEX,
-         "a point or the mesh does not exist"),
+         "a point lacks its deformer or mesh"),
     ),
     "mien_derivatives_reverse": (
         (Status.INVALID_ARGUMENT,
          "`from` has no effect on `to` or nothing was linearized"),
         (Status.INDEX,
-         "a point or the mesh does not exist"),
+         "a point lacks its deformer or mesh"),
     ),
     "mien_derivatives_jacobian": (
         (Status.INVALID_ARGUMENT,
          "there are more than `capacity`, unless that is 0, if `from` has no effect on "
          "`to` or nothing was linearized"),
         (Status.INDEX,
-         "a point, the mesh or a number does not exist"),
+         "a point lacks its deformer or mesh, or a number does not exist"),
     ),
     "mien_bake_file": (
         (Status.MISMATCH,

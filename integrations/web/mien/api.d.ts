@@ -2693,7 +2693,7 @@ export interface Exports {
   mien_derivatives_bytes(rig: number, desc: number, out_bytes: number): number;
   /**
    * Returns how many numbers a point has. `mesh` is the index of the mesh of MIEN_POINT_POSITIONS, else 0.
-   * Fails with MIEN_ERROR_INDEX if there is no such point or mesh, or no deformer.
+   * Fails with MIEN_ERROR_INDEX if there is no such mesh, or the point needs a deformer and there is none.
    */
   mien_derivatives_size(derivatives: number, point: number, mesh: number, out_size: number): number;
   /**
@@ -2715,7 +2715,7 @@ export interface Exports {
    * `count` directions, rows of mien_derivatives_size() numbers at `from`, how the numbers at `to` change.
    * Rows follow each other without gaps; `outputs` has `count` rows and must not overlap `directions`. Several
    * directions in one call are faster than one by one, and have the same bits. Allocates nothing.
-   * Fails with MIEN_ERROR_INDEX if a point or the mesh does not exist, MIEN_ERROR_INVALID_ARGUMENT if `from`
+   * Fails with MIEN_ERROR_INDEX if a point lacks its deformer or mesh, MIEN_ERROR_INVALID_ARGUMENT if `from`
    * has no effect on `to` or nothing was linearized.
    */
   mien_derivatives_forward(derivatives: number, from: number, to: number, mesh: number, count: number, directions: number, outputs: number): number;
@@ -2723,7 +2723,7 @@ export interface Exports {
    * Multiplies gradients by the transposed matrix, also called vector-Jacobian products: for each of `count`
    * gradients by the numbers at `to`, the gradient by those at `from`; `mesh` and all else as in
    * mien_derivatives_forward().
-   * Fails with MIEN_ERROR_INDEX if a point or the mesh does not exist, MIEN_ERROR_INVALID_ARGUMENT if `from`
+   * Fails with MIEN_ERROR_INDEX if a point lacks its deformer or mesh, MIEN_ERROR_INVALID_ARGUMENT if `from`
    * has no effect on `to` or nothing was linearized.
    */
   mien_derivatives_reverse(derivatives: number, from: number, to: number, mesh: number, count: number, gradients: number, outputs: number): number;
@@ -2731,8 +2731,8 @@ export interface Exports {
    * Computes the matrix of derivatives `from` a point `to` another, `mesh` as above. `out_count` is the number of
    * entries; at most `capacity` of them are written. Allocates nothing.
    * Fails with MIEN_ERROR_INVALID_ARGUMENT if there are more than `capacity`, unless that is 0, if `from` has
-   * no effect on `to` or nothing was linearized, MIEN_ERROR_INDEX if a point, the mesh or a number does not
-   * exist.
+   * no effect on `to` or nothing was linearized, MIEN_ERROR_INDEX if a point lacks its deformer or mesh, or
+   * a number does not exist.
    */
   mien_derivatives_jacobian(derivatives: number, from: number, to: number, mesh: number, jacobian: number, out_count: number): number;
   /**

@@ -3984,7 +3984,8 @@ extern "C" {
     /// Returns how many numbers a point has. `mesh` is the index of the mesh of
     /// `MIEN_POINT_POSITIONS`, else 0.
     ///
-    /// Fails with `MIEN_ERROR_INDEX` if there is no such point or mesh, or no deformer.
+    /// Fails with `MIEN_ERROR_INDEX` if there is no such mesh, or the point needs a deformer and
+    /// there is none.
     pub fn mien_derivatives_size(derivatives: *const MienDerivatives, point: u32, mesh: u32, out_size: *mut usize) -> MienStatus;
 
     /// Computes the derivatives at the values of `instance`, which must be of the rig and have
@@ -4012,7 +4013,7 @@ extern "C" {
     /// and must not overlap `directions`. Several directions in one call are faster than one by
     /// one, and have the same bits. Allocates nothing.
     ///
-    /// Fails with `MIEN_ERROR_INDEX` if a point or the mesh does not exist,
+    /// Fails with `MIEN_ERROR_INDEX` if a point lacks its deformer or mesh,
     /// `MIEN_ERROR_INVALID_ARGUMENT` if `from` has no effect on `to` or nothing was linearized.
     pub fn mien_derivatives_forward(derivatives: *mut MienDerivatives, from: u32, to: u32, mesh: u32, count: u32, directions: *const f32, outputs: *mut f32) -> MienStatus;
 
@@ -4020,7 +4021,7 @@ extern "C" {
     /// each of `count` gradients by the numbers at `to`, the gradient by those at `from`; `mesh`
     /// and all else as in `mien_derivatives_forward()`.
     ///
-    /// Fails with `MIEN_ERROR_INDEX` if a point or the mesh does not exist,
+    /// Fails with `MIEN_ERROR_INDEX` if a point lacks its deformer or mesh,
     /// `MIEN_ERROR_INVALID_ARGUMENT` if `from` has no effect on `to` or nothing was linearized.
     pub fn mien_derivatives_reverse(derivatives: *mut MienDerivatives, from: u32, to: u32, mesh: u32, count: u32, gradients: *const f32, outputs: *mut f32) -> MienStatus;
 
@@ -4029,8 +4030,8 @@ extern "C" {
     /// nothing.
     ///
     /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if there are more than `capacity`, unless that is
-    /// 0, if `from` has no effect on `to` or nothing was linearized, `MIEN_ERROR_INDEX` if a
-    /// point, the mesh or a number does not exist.
+    /// 0, if `from` has no effect on `to` or nothing was linearized, `MIEN_ERROR_INDEX` if a point
+    /// lacks its deformer or mesh, or a number does not exist.
     pub fn mien_derivatives_jacobian(derivatives: *mut MienDerivatives, from: u32, to: u32, mesh: u32, jacobian: *const MienJacobian, out_count: *mut usize) -> MienStatus;
 
     /// Writes a rig and its deformer to a baked file. `deformer` may be NULL. The file is written

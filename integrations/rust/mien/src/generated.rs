@@ -2132,7 +2132,7 @@ macro_rules! errors {
     };
     (mien_derivatives_size) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
-         - [`Status::INDEX`](crate::Status::INDEX) if there is no such point or mesh, or no deformer"
+         - [`Status::INDEX`](crate::Status::INDEX) if there is no such mesh, or the point needs a deformer and there is none"
     };
     (mien_derivatives_linearize) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
@@ -2140,15 +2140,15 @@ macro_rules! errors {
     };
     (mien_derivatives_forward) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `from` has no effect on `to` or nothing was linearized\n\
-         - [`Status::INDEX`](crate::Status::INDEX) if a point or the mesh does not exist"
+         - [`Status::INDEX`](crate::Status::INDEX) if a point lacks its deformer or mesh"
     };
     (mien_derivatives_reverse) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `from` has no effect on `to` or nothing was linearized\n\
-         - [`Status::INDEX`](crate::Status::INDEX) if a point or the mesh does not exist"
+         - [`Status::INDEX`](crate::Status::INDEX) if a point lacks its deformer or mesh"
     };
     (mien_derivatives_jacobian) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if there are more than `capacity`, unless that is 0, if `from` has no effect on `to` or nothing was linearized\n\
-         - [`Status::INDEX`](crate::Status::INDEX) if a point, the mesh or a number does not exist"
+         - [`Status::INDEX`](crate::Status::INDEX) if a point lacks its deformer or mesh, or a number does not exist"
     };
     (mien_bake_file) => {
         "- [`Status::MISMATCH`](crate::Status::MISMATCH) if `deformer` was created for another rig\n\
