@@ -73,8 +73,11 @@ void set_order(uint32_t order, uint32_t first_number, Lane lane) {
 /// The widths of the runs, and where the residuals begin and end.
 void read_runs(BitReader& reader, uint32_t run_samples, uint32_t residuals, Lane lane) {
   ClipLanes& lanes = lane.of;
-  const auto code_bits = static_cast<uint32_t>(reader.take(kWidthCodeSizeBits));
-  if (code_bits > kWidthCodeBits) reader.good = false;
+  auto code_bits = static_cast<uint32_t>(reader.take(kWidthCodeSizeBits));
+  if (code_bits > kWidthCodeBits) {
+    reader.good = false;
+    code_bits = 0;
+  }
   const auto least = static_cast<uint32_t>(reader.take(kWidthBits));
   const auto largest = static_cast<uint32_t>(reader.take(code_bits > 0 ? kWidthBits : 0));
   const uint32_t runs = (residuals + run_samples - 1) / run_samples;

@@ -72,6 +72,12 @@ def cost(*arguments, runs=3, stdin=None, **more):
     return min(seconds), min(peak)
 
 
+def growth(small, large, **more):
+    """How many times the CPU time of one command another takes. What the program takes to start is no part of it."""
+    start = cost("--version")[0]
+    return (cost(*large, **more)[0] - start) / max(cost(*small, **more)[0] - start, 1e-2)
+
+
 def make(*arguments):
     """A file that tests start from."""
     done = run(*arguments)
