@@ -40,12 +40,12 @@ void commit_weights(Edit& edit, uint32_t mesh) {
 }
 
 /// Weights of a vertex in native order.
-struct Influence {
+struct SkinInfluence {
   uint32_t joint;
   double weight;
 };
 
-bool write_vertex(Arena& arena, const Influence* from, uint32_t count, VertexSkinWeights& out) {
+bool write_vertex(Arena& arena, const SkinInfluence* from, uint32_t count, VertexSkinWeights& out) {
   NewArray<uint16_t> joints;
   NewArray<float> weights;
   if (!make(arena, count, joints) || !make(arena, count, weights)) return false;
@@ -59,7 +59,7 @@ bool write_vertex(Arena& arena, const Influence* from, uint32_t count, VertexSki
 }
 
 /// Moves the `limit` largest of `list` to its front, in their order, and scales them to `sum`.
-uint32_t keep_largest(Influence* list, uint32_t count, uint32_t limit, double sum) {
+uint32_t keep_largest(SkinInfluence* list, uint32_t count, uint32_t limit, double sum) {
   while (count > limit) {
     uint32_t least = count - 1;
     for (uint32_t i = count - 1; i-- > 0;) {
@@ -94,7 +94,7 @@ Status set_skin_weights(Document& document, uint32_t mesh, const uint16_t* joint
   }
   if (Status s = check_limit(influences, error); s != Status::kOk) return s;
   Arena& arena = edit.arena();
-  Span<Influence> row;
+  Span<SkinInfluence> row;
   if (!make(arena, influences, row) || !make(arena, positions, changed.skin_weights))
     return no_memory(error, "an edit");
   const uint32_t joint_count = edit.view.defn.joint_names.count;
@@ -135,7 +135,7 @@ Status change_weights(Document& document, uint32_t mesh, const Concerns& concern
   for (const VertexSkinWeights& vertex : changed.skin_weights)
     most = std::max(most, vertex.weights.count);
   Arena scratch(document.allocator());
-  const Span<Influence> row = scratch.array<Influence>(most);
+  const Span<SkinInfluence> row = scratch.array<SkinInfluence>(most);
   if (row.count != most) return no_memory(error, "an edit");
   for (VertexSkinWeights& vertex : changed.skin_weights) {
     double sum = 0;
@@ -157,7 +157,9 @@ Status change_weights(Document& document, uint32_t mesh, const Concerns& concern
 Status normalize_skin_weights(Document& document, uint32_t mesh, Error& error) {
   return change_weights(
       document, mesh, [](uint32_t, double sum) { return sum > 0 && std::abs(sum - 1) > 1e-6; },
-      [](Influence* list, uint32_t count, double) { return keep_largest(list, count, count, 1); },
+      [](SkinInfluence* list, uint32_t count, double) {
+        return keep_largest(list, count, count, 1);
+      },
       error);
 }
 
@@ -165,7 +167,7 @@ Status limit_influences(Document& document, uint32_t mesh, uint32_t influences, 
   if (Status s = check_limit(influences, error); s != Status::kOk) return s;
   return change_weights(
       document, mesh, [&](uint32_t count, double) { return count > influences; },
-      [&](Influence* list, uint32_t count, double sum) {
+      [&](SkinInfluence* list, uint32_t count, double sum) {
         return keep_largest(list, count, influences, sum);
       },
       error);
@@ -245,7 +247,7 @@ Status smooth_skin_weights(Document& document, uint32_t mesh, uint32_t iteration
   }
 
   // Rows of up to `influences` weights per place; sums of a vertex in an array over all joints.
-  Span<Influence> now, then, row;
+  Span<SkinInfluence> now, then, row;
   Span<uint32_t> now_counts, then_counts;
   Span<double> sums;
   uint32_t widest = influences;
@@ -270,7 +272,7 @@ Status smooth_skin_weights(Document& document, uint32_t mesh, uint32_t iteration
       uint32_t count = 0;
       const auto add = [&](uint32_t from, double share) {
         for (uint32_t i = 0; i < now_counts[from]; ++i) {
-          const Influence& influence = now[size_t{from} * widest + i];
+          const SkinInfluence& influence = now[size_t{from} * widest + i];
           if (sums[influence.joint] == 0 && influence.weight * share != 0)
             row[count++].joint = influence.joint;
           sums[influence.joint] += influence.weight * share;
@@ -288,7 +290,7 @@ Status smooth_skin_weights(Document& document, uint32_t mesh, uint32_t iteration
       }
       // As many as it keeps, heaviest last to fall.
       if (count > influences) {
-        std::sort(row.data, row.data + count, [](const Influence& a, const Influence& b) {
+        std::sort(row.data, row.data + count, [](const SkinInfluence& a, const SkinInfluence& b) {
           return a.weight != b.weight ? a.weight > b.weight : a.joint < b.joint;
         });
       }

@@ -10,8 +10,6 @@ namespace mien::author {
 
 namespace {
 
-Vec3 as_vec3(Vec3f v) { return {double{v.x}, double{v.y}, double{v.z}}; }
-
 /// Half of what both displacements do along the longer one is taken back once.
 Vec3 damped_sum(Vec3 a, Vec3 b) {
   const Vec3 longer = dot(a, a) >= dot(b, b) ? a : b, shorter = dot(a, a) >= dot(b, b) ? b : a;

@@ -10,7 +10,6 @@ namespace mien::author {
 
 namespace {
 
-Vec3 as_vec3(Vec3f v) { return {double{v.x}, double{v.y}, double{v.z}}; }
 Vec3f as_vec3f(Vec3 v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }

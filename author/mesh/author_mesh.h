@@ -41,6 +41,7 @@ struct Frame {
 struct Vec3f {
   float x = 0, y = 0, z = 0;
 };
+inline Vec3 as_vec3(Vec3f v) { return {double{v.x}, double{v.y}, double{v.z}}; }
 
 struct Uv {
   float u = 0, v = 0;

@@ -11,11 +11,11 @@ namespace mien::author {
 namespace {
 
 template <class... T>
-Status bad(Error& error, const char* format, T... values) {
+Status bad_lod(Error& error, const char* format, T... values) {
   return fail(error, Status::kAuthorMesh, kNoOffset, format, values...);
 }
 
-Status no_memory(Error& error) {
+Status no_memory_for_lods(Error& error) {
   return fail(error, Status::kMemory, kNoOffset, "no memory for the meshes of LODs");
 }
 
@@ -64,17 +64,18 @@ class LodTaker {
     const size_t count = lod.corners.count / 3;
     Span<uint32_t> parts, corners, uvs, starts;
     if (count == 0 || lod.corners.count % 3 != 0) {
-      return bad(error, "LOD %zu has %zu corners: 3 for each triangle are needed, and a triangle",
-                 l, lod.corners.count);
+      return bad_lod(error,
+                     "LOD %zu has %zu corners: 3 for each triangle are needed, and a triangle", l,
+                     lod.corners.count);
     }
     if (lod.corners.count > std::numeric_limits<uint32_t>::max()) {
-      return bad(error, "LOD %zu has %zu corners: %u are allowed", l, lod.corners.count,
-                 std::numeric_limits<uint32_t>::max());
+      return bad_lod(error, "LOD %zu has %zu corners: %u are allowed", l, lod.corners.count,
+                     std::numeric_limits<uint32_t>::max());
     }
     if (!author::make(scratch, count, parts) || !author::make(scratch, 3 * count, corners) ||
         !author::make(scratch, mesh_.corner_uvs.empty() ? 0 : 3 * count, uvs) ||
         !author::make(scratch, mesh_.parts.count + 1, starts)) {
-      return no_memory(error);
+      return no_memory_for_lods(error);
     }
     Status status = check_uvs(lod, l, error);
     for (size_t t = 0; t < count && status == Status::kOk; ++t) {
@@ -84,7 +85,7 @@ class LodTaker {
     if (status != Status::kOk) return status;
     for (size_t p = 0; p + 1 < starts.count; ++p) starts[p + 1] += starts[p];
     Span<uint32_t> next;
-    if (!author::make(scratch, mesh_.parts.count, next)) return no_memory(error);
+    if (!author::make(scratch, mesh_.parts.count, next)) return no_memory_for_lods(error);
     for (size_t p = 0; p < next.count; ++p) next[p] = starts[p];
     for (size_t t = 0; t < count; ++t) {
       const size_t to = 3 * size_t{next[parts[t]]++};
@@ -107,16 +108,16 @@ class LodTaker {
   Status check_uvs(const LodSource& lod, size_t l, Error& error) const {
     if (lod.corner_uvs.empty()) return Status::kOk;
     if (mesh_.corner_uvs.empty()) {
-      return bad(error, "LOD %zu has UVs, but the mesh has none", l);
+      return bad_lod(error, "LOD %zu has UVs, but the mesh has none", l);
     }
     if (lod.corner_uvs.count != lod.corners.count) {
-      return bad(error, "LOD %zu has %zu corners, but UVs for %zu", l, lod.corners.count,
-                 lod.corner_uvs.count);
+      return bad_lod(error, "LOD %zu has %zu corners, but UVs for %zu", l, lod.corners.count,
+                     lod.corner_uvs.count);
     }
     for (size_t c = 0; c < lod.corner_uvs.count; ++c) {
       if (lod.corner_uvs[c] < mesh_.uvs.count) continue;
-      return bad(error, "corner %zu of LOD %zu names UV %u, but there are %zu", c, l,
-                 lod.corner_uvs[c], mesh_.uvs.count);
+      return bad_lod(error, "corner %zu of LOD %zu names UV %u, but there are %zu", c, l,
+                     lod.corner_uvs[c], mesh_.uvs.count);
     }
     return Status::kOk;
   }
@@ -135,23 +136,23 @@ class LodTaker {
     const size_t n = source_.positions.count / 3;
     for (size_t k = 0; k < 3; ++k) {
       if (c[k] >= n) {
-        return bad(error, "corner %zu of LOD %zu names position %u, but there are %zu", 3 * t + k,
-                   l, c[k], n);
+        return bad_lod(error, "corner %zu of LOD %zu names position %u, but there are %zu",
+                       3 * t + k, l, c[k], n);
       }
       if (copies_.of(c[k]).empty()) {
-        return bad(error, "corner %zu of LOD %zu names position %u, which is in no face", 3 * t + k,
-                   l, c[k]);
+        return bad_lod(error, "corner %zu of LOD %zu names position %u, which is in no face",
+                       3 * t + k, l, c[k]);
       }
       if (c[k] != c[(k + 1) % 3]) continue;
-      return bad(error, "triangle %zu of LOD %zu has position %u twice", t, l, c[k]);
+      return bad_lod(error, "triangle %zu of LOD %zu has position %u twice", t, l, c[k]);
     }
     for (const uint32_t copy : copies_.of(c[0])) {
       out = part_of_[copy];
       if (copy_in(c[1], out) != kNone && copy_in(c[2], out) != kNone) return Status::kOk;
     }
-    return bad(error,
-               "triangle %zu of LOD %zu has positions %u, %u and %u: no object has all three", t, l,
-               c[0], c[1], c[2]);
+    return bad_lod(error,
+                   "triangle %zu of LOD %zu has positions %u, %u and %u: no object has all three",
+                   t, l, c[0], c[1], c[2]);
   }
 
   /// Where charts meet, a vertex has several coordinates: the nearest ones most likely belong to
@@ -204,14 +205,15 @@ Status take_lod_meshes(const MeshSource& source, const ReadMesh& read, Span<cons
                        Arena& arena, const Allocator& allocator, Span<LodMesh>& out, Error& error) {
   Arena scratch(allocator);
   LodTaker taker(source, read, scratch);
-  if (!make(arena, lods.count + 1, out) || !taker.make()) return no_memory(error);
+  if (!make(arena, lods.count + 1, out) || !taker.make()) return no_memory_for_lods(error);
   out[0].mesh = read.mesh;
   for (size_t l = 1; l < out.count; ++l) {
     Arena for_lod(allocator);
     LodTriangles triangles;
     const Status status = taker.take(lods[l - 1], l, for_lod, triangles, error);
     if (status != Status::kOk) return status;
-    if (!make_lod_mesh(read.mesh, triangles, arena, allocator, out[l])) return no_memory(error);
+    if (!make_lod_mesh(read.mesh, triangles, arena, allocator, out[l]))
+      return no_memory_for_lods(error);
   }
   return Status::kOk;
 }

@@ -9,7 +9,7 @@ namespace {
 
 double along(Vec3 p, uint32_t axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
 
-constexpr uint32_t kLeaf = 8;
+constexpr uint32_t kLeafPoints = 8;
 
 }  // namespace
 
@@ -40,7 +40,7 @@ bool PointTree::build(Span<const Vec3> points, Arena& arena) {
   stack[depth++] = {0, static_cast<uint32_t>(points.count)};
   while (depth > 0) {
     const Range range = stack[--depth];
-    if (range.to - range.from <= kLeaf) continue;
+    if (range.to - range.from <= kLeafPoints) continue;
     Vec3 low = points[order_[range.from]], high = low;
     for (uint32_t i = range.from; i < range.to; ++i) {
       const Vec3 p = points[order_[i]];
@@ -68,7 +68,7 @@ void PointTree::search(Query& query, uint32_t from, uint32_t to) const {
     const Vec3 d = points_[order_[slot]] - query.at;
     query.offer({dot(d, d), order_[slot]});
   };
-  if (to - from <= kLeaf) {
+  if (to - from <= kLeafPoints) {
     for (uint32_t i = from; i < to; ++i) look_at(i);
     return;
   }

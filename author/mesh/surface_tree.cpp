@@ -10,7 +10,7 @@ namespace mien::author {
 
 namespace {
 
-constexpr uint32_t kLeaf = 4;
+constexpr uint32_t kLeafFaces = 4;
 
 double part(Vec3 v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 
@@ -67,7 +67,7 @@ void SurfaceTree::split(uint32_t node, uint32_t first, uint32_t count) {
   }
   nodes_[node].box = box;
   nodes_[node].first = first;
-  if (count <= kLeaf) {
+  if (count <= kLeafFaces) {
     nodes_[node].count = count;
     return;
   }

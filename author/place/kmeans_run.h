@@ -7,11 +7,6 @@
 
 namespace mien::author {
 
-inline double squared_distance(Vec3 a, Vec3 b) {
-  const Vec3 d = a - b;
-  return dot(d, d);
-}
-
 struct Gap {
   double distance;
   uint32_t mean;

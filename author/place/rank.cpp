@@ -9,15 +9,6 @@
 
 namespace mien::author {
 
-namespace {
-
-double squared_distance(Vec3 a, Vec3 b) {
-  const Vec3 d = a - b;
-  return dot(d, d);
-}
-
-}  // namespace
-
 bool rank_by_deletion(Span<const Vec3> points, Span<const double> weights, Span<const Vec3> means,
                       Span<const uint32_t> joints, Arena& scratch, Span<uint32_t> order,
                       Span<double> objectives) {

@@ -11,8 +11,8 @@
 namespace mien {
 namespace {
 
-constexpr uint32_t kNone = kNoName, kSeveral = kNone - 1;  // instead of a control
-constexpr uint64_t kNoHash = 0;                            // of what matches nothing
+constexpr uint32_t kUnmatched = kNoName, kSeveral = kUnmatched - 1;  // instead of a control
+constexpr uint64_t kNoHash = 0;                                      // of what matches nothing
 
 uint64_t hash_of(const ControlSpelling& spelling) {
   if (spelling.empty()) return kNoHash;
@@ -89,30 +89,30 @@ void ControlFinder::sort(Span<ControlKey> by_spelling, Span<ControlKey> by_alias
 }
 
 /// The control of the same name without regard to case, `.` being `_`, with or without what stands before its
-/// last dot. kNone if several are.
+/// last dot. kUnmatched if several are.
 uint32_t ControlFinder::find_folded(Span<const char> name) const {
   const uint32_t* exact = std::lower_bound(
       names_.sorted.begin(), names_.sorted.end(), name,
       [&](uint32_t i, Span<const char> wanted) { return compare_names(names_[i], wanted) < 0; });
   if (exact != names_.sorted.end() && compare_names(names_[*exact], name) == 0) return *exact;
   // With lists, the spelling finds it in less time.
-  if (!by_spelling_.empty()) return kNone;
-  uint32_t found = kNone;
+  if (!by_spelling_.empty()) return kUnmatched;
+  uint32_t found = kUnmatched;
   const Span<const char> key = short_of(name);
   for (uint32_t i = 0; i < names_.count(); ++i) {
     if (compare_folded(short_of(names_[i]), key) != 0) continue;
-    if (found != kNone) return kNone;
+    if (found != kUnmatched) return kUnmatched;
     found = i;
   }
   return found;
 }
 
 uint32_t ControlFinder::find_spelled(const ControlSpelling& spelling) const {
-  if (spelling.empty()) return kNone;
-  uint32_t found = kNone;
+  if (spelling.empty()) return kUnmatched;
+  uint32_t found = kUnmatched;
   const auto take = [&](uint32_t control) {
     if (!(spell_control(names_[control]) == spelling)) return true;
-    const bool is_first = found == kNone;
+    const bool is_first = found == kUnmatched;
     found = is_first ? control : kSeveral;
     return is_first;
   };
@@ -132,9 +132,9 @@ uint32_t ControlFinder::find_spelled(const ControlSpelling& spelling) const {
 
 /// The control that the same row of aliases knows; of several the one whose name is first in the row.
 uint32_t ControlFinder::find_known(const KnownControl& known) const {
-  if (!known.known()) return kNone;
+  if (!known.known()) return kUnmatched;
   if (by_alias_.empty()) {
-    ControlKey best = {0, kNone, ~uint32_t{0}};
+    ControlKey best = {0, kUnmatched, ~uint32_t{0}};
     for (uint32_t i = 0; i < names_.count(); ++i) {
       const KnownControl other = know_control(spell_control(names_[i]));
       if (other.row != known.row || other.side != known.side || other.rank >= best.rank) continue;
@@ -144,7 +144,7 @@ uint32_t ControlFinder::find_known(const KnownControl& known) const {
   }
   const ControlKey wanted = {hash_of(known), 0, 0};
   const ControlKey* at = std::lower_bound(by_alias_.begin(), by_alias_.end(), wanted, before);
-  return at != by_alias_.end() && at->hash == wanted.hash ? at->control : kNone;
+  return at != by_alias_.end() && at->hash == wanted.hash ? at->control : kUnmatched;
 }
 
 bool ControlFinder::add_control(const char* name, float weight, ControlMatch& out) const {
@@ -198,12 +198,12 @@ ControlMatch ControlFinder::match(Span<const char> name) const {
     return match;
   };
   const uint32_t folded = find_folded(name);
-  if (folded != kNone) return one(Match::kAsWritten, folded);
+  if (folded != kUnmatched) return one(Match::kAsWritten, folded);
   const ControlSpelling spelling = spell_control(name);
   if (spelling.empty()) return {};
   const uint32_t spelled = find_spelled(spelling);
   if (spelled == kSeveral) return {};
-  if (spelled != kNone) return one(Match::kSpelling, spelled);
+  if (spelled != kUnmatched) return one(Match::kSpelling, spelled);
 
   const bool has_pair = spelling.side == Side::kNone && !is_direction(spelling);
   if (has_pair) {
@@ -218,7 +218,7 @@ ControlMatch ControlFinder::match(Span<const char> name) const {
     return several;
   }
   const uint32_t alias = find_known(known);
-  if (alias != kNone) return one(Match::kAlias, alias);
+  if (alias != kUnmatched) return one(Match::kAlias, alias);
   if (has_pair) {
     const uint32_t left = find_known(know_control(with_side(spelling, Side::kLeft)));
     const uint32_t right = find_known(know_control(with_side(spelling, Side::kRight)));

@@ -16,7 +16,7 @@ static_assert(sizeof(SkinRun) == 24 && sizeof(TargetRun) == 16, "no padding");
 /// Indices and counts first, which are checked when the deformer is opened; then values, of which
 /// any are safe.
 template <class AnyDeformer, class Visitor>
-void visit(AnyDeformer& deformer, Visitor& visitor) {
+void visit_deformer(AnyDeformer& deformer, Visitor& visitor) {
   const auto numbers = [&](auto&... fields) { (visitor.number(fields), ...); };
   const auto arrays = [&](auto&... spans) { (visitor.array(spans), ...); };
   auto& skeleton = deformer.skeleton;
@@ -42,14 +42,14 @@ void visit(AnyDeformer& deformer, Visitor& visitor) {
 
 PartMeasure measure_part(const Deformer& deformer) {
   PartMeasure measure;
-  visit(deformer, measure);
+  visit_deformer(deformer, measure);
   return measure;
 }
 
 BakedPart write_part(const Deformer& deformer, uint8_t* bytes) {
   const PartMeasure measure = measure_part(deformer);
   PartWriter writer(measure, bytes);
-  visit(deformer, writer);
+  visit_deformer(deformer, writer);
   return measure.entry(PartKind::kDeformer, kDeformerPartVersion);
 }
 
@@ -79,7 +79,7 @@ Status open_baked_deformer(const Baked& baked, const Rig& rig, const KernelTable
   skeleton.rotation = rig.rotation;
   skeleton.parents = rig.joint_parents;
   PartReader reader(baked, *baked.deformer, kDeformerPartVersion, measure_part(*deformer), error);
-  visit(*deformer, reader);
+  visit_deformer(*deformer, reader);
   Status status = reader.finish();
   if (status == Status::kOk) {
     status = check_deformer(*deformer, baked.check == BakedCheck::kFull, error);

@@ -115,7 +115,7 @@ static_assert(sizeof(MlStep) == 56 && sizeof(MlJoint) == 24, "");
 static_assert(sizeof(TwistSwing) == 8, "");
 
 template <class AnyRig, class Visitor>
-void visit(AnyRig& rig, Visitor& visitor) {
+void visit_rig(AnyRig& rig, Visitor& visitor) {
   visit_numbers(rig, visitor);
   visit_arrays(rig, visitor);
 }
@@ -124,14 +124,14 @@ void visit(AnyRig& rig, Visitor& visitor) {
 
 PartMeasure measure_part(const Rig& rig) {
   PartMeasure measure;
-  visit(rig, measure);
+  visit_rig(rig, measure);
   return measure;
 }
 
 BakedPart write_part(const Rig& rig, uint8_t* bytes) {
   const PartMeasure measure = measure_part(rig);
   PartWriter writer(measure, bytes);
-  visit(rig, writer);
+  visit_rig(rig, writer);
   return measure.entry(PartKind::kRig, kRigPartVersion);
 }
 
@@ -143,7 +143,7 @@ Status open_baked_rig(const Baked& baked, const KernelTable* kernels, const Allo
     return fail(error, Status::kMemory, kNoOffset, "no memory for a rig of %zu bytes", sizeof(Rig));
   }
   PartReader reader(baked, *baked.rig, kRigPartVersion, measure_part(*rig), error);
-  visit(*rig, reader);
+  visit_rig(*rig, reader);
   Status status = reader.finish();
   if (status == Status::kOk) {
     status = check_rig(*rig, baked.rig->size, baked.check == BakedCheck::kFull, error);

@@ -417,7 +417,7 @@ bool check_rotations(const RigChecker& c) {
   if (!c.ok(good, "rotations of joint groups")) return false;
   const uint64_t blocks = table.block_count(), steps = table.columns.count / kBlockLanes;
   const uint64_t lanes = blocks * kBlockLanes;
-  good = blocks == padded(table.turns.count) / kBlockLanes &&
+  good = blocks == padded(uint64_t{table.turns.count}) / kBlockLanes &&
          table.steps_at_lod.count == blocks * rig.lod_count &&
          table.lane_steps_at_lod.count == lanes * rig.lod_count &&
          values == steps * 4 * kBlockLanes && is_runs(table.first_steps, blocks, steps) &&
@@ -445,7 +445,8 @@ bool check_rotations(const RigChecker& c) {
 bool check_twists(const RigChecker& c) {
   const Rig& rig = c.rig;
   const TwistSwingTable& table = rig.twist_swing;
-  const uint64_t blocks = padded(table.outputs.count) / kBlockLanes, lanes = blocks * kBlockLanes;
+  const uint64_t blocks = padded(uint64_t{table.outputs.count}) / kBlockLanes,
+                 lanes = blocks * kBlockLanes;
   bool good = table.inputs.count == 4 * lanes && table.lanes.count == kTwistSwingRows * lanes &&
               table.blocks_at_lod.count == rig.lod_count &&
               below(table.inputs, rig.control_count) && below(table.blocks_at_lod, blocks + 1);
@@ -482,7 +483,7 @@ bool check_solvers(const RigChecker& c) {
     }
     (parts ? rotations : inputs) += parts ? plan.input_count / width : plan.input_count;
     poses += plan.pose_count;
-    lanes += padded(plan.pose_count);
+    lanes += padded(uint64_t{plan.pose_count});
     if (!c.ok(inputs <= rbf.inputs.count && rotations <= rbf.swings.count &&
                   poses <= rbf.poses.count && lanes <= rbf.pose_scales.count &&
                   (plan.first_control == kNoFirstControl ||
@@ -490,8 +491,8 @@ bool check_solvers(const RigChecker& c) {
               "RBF solvers")) {
       return false;
     }
-    targets += padded(plan.pose_count) * std::max(plan.input_count, 1u);
-    if (plan.interpolative) inverses += padded(plan.pose_count) * plan.pose_count;
+    targets += padded(uint64_t{plan.pose_count}) * std::max(plan.input_count, 1u);
+    if (plan.interpolative) inverses += padded(uint64_t{plan.pose_count}) * plan.pose_count;
     if (!c.ok(targets <= rbf.targets.count && inverses <= rbf.inverses.count, "RBF solvers")) {
       return false;
     }
@@ -532,17 +533,17 @@ bool check_layers(const RigChecker& c, uint64_t& widest) {
   uint64_t value = 0, bias = 0;
   for (const NetworkLayer& layer : ml.layers) {
     const bool in_order = layer.first_value == value && layer.first_bias == bias;
-    bias += padded(layer.output_count);
+    bias += padded(uint64_t{layer.output_count});
     if (!c.ok(in_order && bias <= ml.biases.count && layer.function <= 4 &&
-                  padded(layer.output_count) <= padded(ml.widest_layer) &&
+                  padded(uint64_t{layer.output_count}) <= padded(uint64_t{ml.widest_layer}) &&
                   layer.input_count <= ml.widest_layer &&
                   (layer.output_count != 0 || layer.input_count == 0),
               "network layers")) {
       return false;
     }
-    value += padded(layer.output_count) * layer.input_count;
+    value += padded(uint64_t{layer.output_count}) * layer.input_count;
     if (!c.ok(value <= values, "network layers")) return false;
-    widest = std::max({widest, padded(layer.output_count), uint64_t{layer.input_count}});
+    widest = std::max({widest, padded(uint64_t{layer.output_count}), uint64_t{layer.input_count}});
   }
   return true;
 }
@@ -584,7 +585,7 @@ bool check_steps(const RigChecker& c, uint64_t& widest) {
                 (step.mask == kNoMask || step.mask < rig.mask_count);
     gathered += step.gather_count;
     dependencies += step.dependency_count;
-    outputs += padded(step.output_count);
+    outputs += padded(uint64_t{step.output_count});
     good = good && outputs <= ml.buffer_size && dependencies <= ml.dependencies.count &&
            gathered <= ml.controls.count;
     if (good && runs) {

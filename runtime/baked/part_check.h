@@ -23,10 +23,6 @@ struct Checker {
   }
 };
 
-inline uint64_t padded(uint64_t count) {
-  return (count + kBlockLanes - 1) / kBlockLanes * kBlockLanes;
-}
-
 /// The largest of some numbers, and the bits that any of them has.
 template <class T>
 struct Extent {

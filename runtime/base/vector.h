@@ -19,6 +19,10 @@ inline double dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 inline Vec3 cross(Vec3 a, Vec3 b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
+inline double squared_distance(Vec3 a, Vec3 b) {
+  const Vec3 d = a - b;
+  return dot(d, d);
+}
 inline double length(Vec3 v) { return std::sqrt(dot(v, v)); }
 inline bool is_zero(Vec3 v) { return v.x == 0 && v.y == 0 && v.z == 0; }
 

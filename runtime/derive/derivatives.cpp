@@ -6,16 +6,15 @@
 namespace mien {
 namespace {
 
-size_t padded(size_t count) { return align_up(count, kBlockLanes); }
-
 void place_networks(const Rig& rig, Placer& placer, Derivatives& d) {
   const MlTable& ml = rig.ml;
   size_t slopes = 0, transposed = 0, widest = 0;
   for (const NetworkLayer& layer : ml.layers) {
-    transposed += padded(layer.input_count) * layer.output_count;
-    widest = std::max({widest, padded(layer.output_count), padded(layer.input_count)});
+    transposed += padded(size_t{layer.input_count}) * layer.output_count;
+    widest =
+        std::max({widest, padded(size_t{layer.output_count}), padded(size_t{layer.input_count})});
   }
-  widest = std::max(widest, padded(ml.widest_layer));
+  widest = std::max(widest, padded(size_t{ml.widest_layer}));
   d.ml_masks = placer.array<float>(ml.steps.count);
   d.first_transposed = placer.array<uint64_t>(ml.layers.count);
   d.first_slope = placer.array<uint64_t>(ml.steps.count);

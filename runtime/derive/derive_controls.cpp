@@ -167,7 +167,7 @@ void pull_maps(Derivatives& d) {
   }
 }
 
-#define MIEN_LANES(L)                           \
+#define MIEN_CONTROL_LANES(L)                   \
   template void push_gui<L>(Derivatives&);      \
   template void pull_gui<L>(Derivatives&);      \
   template void push_psds<L>(Derivatives&);     \
@@ -176,7 +176,7 @@ void pull_maps(Derivatives& d) {
   template void pull_channels<L>(Derivatives&); \
   template void push_maps<L>(Derivatives&);     \
   template void pull_maps<L>(Derivatives&);
-MIEN_LANES(1)
-MIEN_LANES(kBatchLanes)
+MIEN_CONTROL_LANES(1)
+MIEN_CONTROL_LANES(kBatchLanes)
 
 }  // namespace mien

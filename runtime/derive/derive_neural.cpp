@@ -12,8 +12,6 @@
 namespace mien {
 namespace {
 
-size_t padded(size_t count) { return align_up(count, kBlockLanes); }
-
 const float* weights_of(const Derivatives& d, const NetworkLayer& layer) {
   const float* all = d.rig->half_storage ? d.forward_weights.data : d.rig->ml.values.data;
   return all + layer.first_value;
@@ -307,7 +305,7 @@ void pack_networks(Derivatives& d) {
             row[c * kBlockLanes];
       }
     }
-    value += padded(layer.input_count) * layer.output_count;
+    value += padded(size_t{layer.input_count}) * layer.output_count;
   }
 }
 

@@ -210,14 +210,14 @@ void pull_skins(Derivatives& d) {
   }
 }
 
-#define MIEN_LANES(L)                         \
+#define MIEN_POSE_LANES(L)                    \
   template void push_locals<L>(Derivatives&); \
   template void pull_locals<L>(Derivatives&); \
   template void push_models<L>(Derivatives&); \
   template void pull_models<L>(Derivatives&); \
   template void push_skins<L>(Derivatives&);  \
   template void pull_skins<L>(Derivatives&);
-MIEN_LANES(1)
-MIEN_LANES(kBatchLanes)
+MIEN_POSE_LANES(1)
+MIEN_POSE_LANES(kBatchLanes)
 
 }  // namespace mien

@@ -53,7 +53,7 @@ Status check_curve_list(const MixDesc& desc, Span<const uint16_t> list, bool onc
 
 bool within(float value, float low, float high) { return value >= low && value <= high; }
 
-bool is_time(int64_t ticks) { return ticks >= 0 && ticks <= kMaxFadeTicks; }
+bool is_fade_time(int64_t ticks) { return ticks >= 0 && ticks <= kMaxFadeTicks; }
 
 bool is_gaze(const LayerDesc& layer) {
   return layer.source == LayerSource::kGenerator && layer.generator == Generator::kGaze;
@@ -135,7 +135,7 @@ Status check_layers(const MixDesc& desc, uint32_t curves, Error& error) {
             "one such layer at most",
             i, count);
       }
-    } else if (!is_time(layer.delay) || layer.stream_frames < 2 ||
+    } else if (!is_fade_time(layer.delay) || layer.stream_frames < 2 ||
                layer.stream_frames > kMaxStreamFrames) {
       return wrong(error, "layer %zu: .delay %lld, .stream_frames %u; %s, frames 2 ... %u", i,
                    static_cast<long long>(layer.delay), layer.stream_frames, kTimeRange,
@@ -170,8 +170,8 @@ Status check_reactions(const MixDesc& desc, Error& error) {
                    "reaction %zu: .level_off %g, .level_on %g; they are 0 ... 1, in this order", i,
                    double{reaction.level_off}, double{reaction.level_on});
     }
-    if (!is_time(reaction.cooldown) || !is_time(reaction.adapt_ticks) ||
-        !is_time(reaction.recover_ticks)) {
+    if (!is_fade_time(reaction.cooldown) || !is_fade_time(reaction.adapt_ticks) ||
+        !is_fade_time(reaction.recover_ticks)) {
       return wrong(error, "reaction %zu: .cooldown, .adapt_ticks or .recover_ticks; %s", i,
                    kTimeRange);
     }
@@ -182,8 +182,8 @@ Status check_reactions(const MixDesc& desc, Error& error) {
                      stroke.pose, desc.poses.count, static_cast<uint32_t>(stroke.mode),
                      kBlendModes);
       }
-      if (!is_time(stroke.delay) || !is_time(stroke.attack) || !is_time(stroke.hold) ||
-          !is_time(stroke.release)) {
+      if (!is_fade_time(stroke.delay) || !is_fade_time(stroke.attack) ||
+          !is_fade_time(stroke.hold) || !is_fade_time(stroke.release)) {
         return wrong(error, "reaction %zu, stroke %zu: .delay, .attack, .hold or .release; %s", i,
                      s, kTimeRange);
       }

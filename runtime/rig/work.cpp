@@ -6,10 +6,6 @@
 namespace mien {
 namespace {
 
-uint64_t padded(uint32_t count) {
-  return (uint64_t{count} + kBlockLanes - 1) / kBlockLanes * kBlockLanes;
-}
-
 uint32_t count_lods(const Rig& rig, uint64_t lods) {
   uint32_t count = 0;
   for (uint32_t l = 0; l < rig.lod_count; ++l) count += lods >> l & 1;
@@ -19,7 +15,7 @@ uint32_t count_lods(const Rig& rig, uint64_t lods) {
 /// Distances, weights and interpolation, which kernels compute, then what the poses drive.
 uint64_t solver_steps(const RbfTable& rbf, uint32_t index, uint64_t budget) {
   const RbfSolverPlan& plan = rbf.plans[index];
-  const uint64_t lanes = padded(plan.pose_count);
+  const uint64_t lanes = padded(uint64_t{plan.pose_count});
   uint64_t steps = 64 + lanes * (plan.input_count / 4 + 4);
   if (plan.interpolative) steps += lanes * plan.pose_count / 4;
   if (plan.first_control != kNoFirstControl) return steps;
@@ -36,7 +32,7 @@ uint64_t layer_steps(const MlTable& ml, const MlStep& step, uint64_t budget) {
   uint64_t steps = 0;
   for (uint32_t l = 0; l < step.layer_count && steps <= budget; ++l) {
     const NetworkLayer& layer = ml.layers[step.first_layer + l];
-    steps += 32 + padded(layer.output_count) * (uint64_t{layer.input_count} + 8) / 2;
+    steps += 32 + padded(uint64_t{layer.output_count}) * (uint64_t{layer.input_count} + 8) / 2;
   }
   return steps;
 }

@@ -47,8 +47,6 @@ void set_designed(const Shapes& shapes, const Skeleton& skeleton, const JointDel
 /// Edges of lips have to meet, even where no blend shape helps.
 double importance(const Vertex& v) { return v.edge ? 20 : 1; }
 
-Vec3 mirrored(Vec3 v) { return {-v.x, v.y, v.z}; }
-
 }  // namespace
 
 void pose_joints(const Skeleton& skeleton, const JointDeltas& deltas, const uint32_t* active,

@@ -24,6 +24,9 @@ inline Color mix(Color a, Color b, double t) {
   return {author::mix(a.r, b.r, t), author::mix(a.g, b.g, t), author::mix(a.b, b.b, t)};
 }
 
+/// The same place on the other side of the head.
+inline Vec3 mirrored(Vec3 v) { return {-v.x, v.y, v.z}; }
+
 /// As with more blood under the skin; keeps dark skin dark.
 Color redder(Color c, double amount);
 

@@ -13,7 +13,7 @@ using author::smooth_step;
 namespace {
 
 /// A joint of the skin, at a place in the front view; left half and middle only.
-struct Place {
+struct SkinJoint {
   const char* name;
   double x, y;
   uint8_t tier, group;
@@ -29,7 +29,7 @@ enum Group : uint8_t {
   kCheekGroup
 };
 
-constexpr Place kPlaces[] = {
+constexpr SkinJoint kPlaces[] = {
     {"LipUpper", 0, -5.55, 0, kMouthGroup, false},
     {"LipLower", 0, -6.65, 0, kJawGroup, true},
     {"Chin", 0, -9.3, 0, kJawGroup, true},
@@ -148,7 +148,7 @@ Skeleton::Skeleton(const Form& form) {
                                 kRightEyeGroup, false);
   for (uint16_t* pair : {eye, upper_lid, half_lid, lower_lid}) pair[1] = joints[pair[0]].twin;
 
-  for (const Place& place : kPlaces) {
+  for (const SkinJoint& place : kPlaces) {
     const Side side = place.below ? Side::kBelow : Side::kAbove;
     const FacePoint at = form.face(form.angle_of(place.x, place.y), place.y, side);
     Vec3 position = at.closed;

@@ -20,8 +20,6 @@ constexpr const char* kPartNames[kPartCount] = {"head",     "teeth", "tongue", "
 /// Smaller offsets are not stored.
 constexpr double kLeastOffset = 0.002;
 
-Vec3 mirrored(Vec3 v) { return {-v.x, v.y, v.z}; }
-
 Text mesh_name(Part part, uint32_t lod) {
   return Text().add(kPartNames[static_cast<int>(part)]).add("_lod").add(uint64_t{lod}).add("_mesh");
 }

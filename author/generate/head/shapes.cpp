@@ -105,8 +105,6 @@ bool moves_jaw(Motion m) {
          m == Motion::kTongueOut || m == Motion::kFunnel;
 }
 
-Vec3 mirrored(Vec3 v) { return {-v.x, v.y, v.z}; }
-
 }  // namespace
 
 uint32_t list_correctives(Corrective (&out)[kMaxCorrectives]) {

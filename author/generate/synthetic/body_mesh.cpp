@@ -10,7 +10,7 @@ namespace {
 struct TubeGrid {
   uint32_t sides, rings;
 };
-constexpr TubeGrid kGrids[kBodyLodCount] = {{8, 4}, {8, 3}, {8, 2}, {4, 2}};
+constexpr TubeGrid kTubeGrids[kBodyLodCount] = {{8, 4}, {8, 3}, {8, 2}, {4, 2}};
 
 // Eighths of a turn; four sides take every other.
 constexpr double kHalf = 0.70710678118654752;
@@ -131,7 +131,7 @@ bool make_body_meshes(const Body& body, Arena& arena, dna::DnaView& out) {
     return false;
   }
   for (uint32_t lod = 0; lod < kBodyLodCount; ++lod) {
-    TubeMaker maker(body, arena, kGrids[lod]);
+    TubeMaker maker(body, arena, kTubeGrids[lod]);
     Text name = Text().add("body_lod").add(uint64_t{lod}).add("_mesh");
     if (!copy_text(arena, name, out.defn.mesh_names[lod]) || !maker.fill(out.geom.meshes[lod])) {
       return false;

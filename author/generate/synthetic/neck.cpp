@@ -11,17 +11,17 @@ namespace {
 constexpr float kSine = 0.25881904510252074f, kCosine = 0.96592582628906831f;
 
 /// Axis and sign of each direction, in the order of the pose controls.
-struct Turn {
+struct Direction {
   uint8_t axis;
   float sine;
 };
-constexpr Turn kTurns[] = {{0, -kSine}, {0, kSine},  {1, kSine},
-                           {1, -kSine}, {2, -kSine}, {2, kSine}};
+constexpr Direction kDirections[] = {{0, -kSine}, {0, kSine},  {1, kSine},
+                                     {1, -kSine}, {2, -kSine}, {2, kSine}};
 
 /// In pose `pose` one of the joints is turned in one direction, the others are at rest.
 float target_of(uint32_t pose, uint32_t input) {
   const uint32_t joint = input / 4, part = input % 4;
-  const Turn& turn = kTurns[pose / 3];
+  const Direction& turn = kDirections[pose / 3];
   if (joint != 2 - pose % 3) return part == 3 ? 1.0f : 0.0f;  // U, M, D: head, neck_02, neck_01
   return part == 3 ? kCosine : part == turn.axis ? turn.sine : 0.0f;
 }

@@ -10,7 +10,7 @@
 namespace mien {
 namespace {
 
-Status no_scratch(Error& error) {
+Status no_memory_for_controls(Error& error) {
   return fail(error, Status::kMemory, kNoOffset, "no memory to compile the controls");
 }
 
@@ -43,7 +43,7 @@ void fill_table(const dna::ConditionalTable& from, ControlTable& table) {
 Status fill_driven_raw(const ControlTable& table, uint32_t raw_count, Arena& scratch,
                        Span<uint16_t>& driven, Error& error) {
   Span<uint8_t> marks = scratch.array<uint8_t>(raw_count);
-  if (raw_count && !marks.data) return no_scratch(error);
+  if (raw_count && !marks.data) return no_memory_for_controls(error);
   for (uint16_t output : table.outputs) marks[output] = 1;
   uint32_t count = 0;
   for (uint32_t i = 0; i < raw_count; ++i) {
@@ -67,7 +67,7 @@ Status fill_reverse(const ControlTable& table, uint32_t gui_count, Arena& scratc
                     ReverseTable& reverse, Error& error) {
   const uint32_t row_count = static_cast<uint32_t>(table.inputs.count);
   Span<uint32_t> leader = scratch.array<uint32_t>(row_count);  // [row]: first row of its group
-  if (row_count && !leader.data) return no_scratch(error);
+  if (row_count && !leader.data) return no_memory_for_controls(error);
   Span<uint32_t> rows = reverse.rows;
   for (uint32_t r = 0; r < row_count; ++r) rows[r] = r;
   // Compared by bits, because NaN has no order.
@@ -177,7 +177,7 @@ Status fill_psds(const dna::DnaView& view, Span<uint8_t> reach, Arena& scratch, 
   Span<uint32_t> depth = scratch.array<uint32_t>(count);  // of the longest chain after it
   if (!first.data || !last_use.data || !waits_for.data || !order.data || !depth.data ||
       (entries && (!by_psd.data || !next_use.data))) {
-    return no_scratch(error);
+    return no_memory_for_controls(error);
   }
   constexpr uint32_t kNone = ~uint32_t{0};
   std::fill(last_use.begin(), last_use.end(), kNone);

@@ -22,8 +22,6 @@ MlOperationType type_of(const MlOperation& operation) {
   return static_cast<MlOperationType>(operation.type);
 }
 
-uint32_t padded(uint32_t count) { return static_cast<uint32_t>(align_up(count, kBlockLanes)); }
-
 /// What each operation becomes, before there is memory for it. Networks without operations are seen
 /// as one step each, which gathers the network's inputs and scatters its outputs.
 struct Visit {

@@ -23,8 +23,6 @@ constexpr float kMaxScale = 1e9f;  // of a pose, as RbfArgs asks
 
 enum Function : uint16_t { kGaussian, kExponential, kLinear, kCubic, kQuintic };
 
-uint32_t padded(uint32_t count) { return static_cast<uint32_t>(align_up(count, kBlockLanes)); }
-
 bool is_interpolative(const dna::RbfSolver& solver) { return solver.solver_type == 1; }
 
 /// Distance of two targets. In single precision and in this order because files were made for it:

@@ -32,28 +32,28 @@ uint32_t count_joints(const dna::DnaView& view, const dna::JointGroup& group, Ro
   return count;
 }
 
-constexpr uint32_t kNone = ~uint32_t{0};
+constexpr uint32_t kNoRotation = ~uint32_t{0};
 
 /// Scratch of planning.
 struct Scratch {
-  Span<uint32_t> position;        // [joint]: its angle joint or turn in this group, or kNone
+  Span<uint32_t> position;        // [joint]: its angle joint or turn in this group, or kNoRotation
   Span<uint32_t> first_rows;      // [column] of the widest group
   Span<uint32_t> columns_at_lod;  // [lod]
 };
 
 /// Lists the joints of a kind in order of their first row. Of turns, rows of zeros and rows that no
-/// LOD reaches do not count: they must not undo what another group turned. `position` is all kNone,
+/// LOD reaches do not count: they must not undo what another group turned. `position` is all kNoRotation,
 /// before and after.
 uint32_t list_angle_joints(const dna::DnaView& view, const dna::JointGroup& group,
                            const Span<uint32_t>& position, AngleJoint* out) {
   uint32_t count = 0;
   for (uint32_t r = 0; r < group.output_indices.count; ++r) {
     const uint32_t output = group.output_indices[r], joint = output / kFileAttributes;
-    if (kind_of(view, true, output) != RowKind::kAngle || position[joint] != kNone) continue;
+    if (kind_of(view, true, output) != RowKind::kAngle || position[joint] != kNoRotation) continue;
     position[joint] = count;
     out[count++] = {static_cast<uint16_t>(joint), static_cast<uint16_t>(r)};
   }
-  for (uint32_t i = 0; i < count; ++i) position[out[i].joint] = kNone;
+  for (uint32_t i = 0; i < count; ++i) position[out[i].joint] = kNoRotation;
   return count;
 }
 
@@ -65,21 +65,21 @@ uint32_t list_turns(const dna::DnaView& view, const GroupColumns& columns, uint3
     const uint32_t output = group.output_indices[r], joint = output / kFileAttributes;
     if (kind_of(view, false, output) != RowKind::kTurn) continue;
     if (r >= rows_at_lod(group.lods, 0) || columns.is_zero(r)) continue;
-    if (position[joint] == kNone) {
+    if (position[joint] == kNoRotation) {
       position[joint] = count;
       out[count] = {};
       out[count].group = g;
       out[count].joint = static_cast<uint16_t>(joint);
-      std::fill(out[count].rows, out[count].rows + 3, kNone);
+      std::fill(out[count].rows, out[count].rows + 3, kNoRotation);
       for (uint32_t l = 0; l < view.desc.lod_count; ++l) {
         out[count].lods |= uint64_t{rows_at_lod(group.lods, l) > r} << l;
       }
       out[count++].reach = lod_reach(group.lods, view.desc.lod_count, r);
     }
     uint32_t& row = out[position[joint]].rows[output % kFileAttributes - 3];
-    if (row == kNone) row = r;
+    if (row == kNoRotation) row = r;
   }
-  for (uint32_t i = 0; i < count; ++i) position[out[i].joint] = kNone;
+  for (uint32_t i = 0; i < count; ++i) position[out[i].joint] = kNoRotation;
   return count;
 }
 
@@ -90,7 +90,7 @@ void for_each_step(const GroupColumns& columns, const PlannedTurn& turn, const u
   for (uint32_t k = 0; k < count; ++k) {
     bool any = false;
     for (const uint32_t row : turn.rows) {
-      any = any || (row != kNone && columns.is_nonzero(row, order[k]));
+      any = any || (row != kNoRotation && columns.is_nonzero(row, order[k]));
     }
     if (any) f(k);
   }
@@ -106,7 +106,7 @@ void fill_step(const dna::JointGroup& group, const PlannedTurn& turn, uint32_t c
                const Rig& rig) {
   float angles[3] = {};
   for (int axis = 0; axis < 3; ++axis) {
-    if (turn.rows[axis] == kNone) continue;
+    if (turn.rows[axis] == kNoRotation) continue;
     angles[axis] =
         saturated(group.values[size_t{turn.rows[axis]} * group.input_indices.count + column]);
   }
@@ -157,7 +157,7 @@ Status plan_rotations(const dna::DnaView& view, const JointPlan& joints, const R
       (widest && !scratch.first_rows.data) || (rig.lod_count && !scratch.columns_at_lod.data)) {
     return no_memory(error);
   }
-  std::fill(scratch.position.begin(), scratch.position.end(), kNone);
+  std::fill(scratch.position.begin(), scratch.position.end(), kNoRotation);
 
   uint32_t turn = 0, angle_joint = 0, column = 0;
   for (uint32_t g = 0; g < groups.count; ++g) {

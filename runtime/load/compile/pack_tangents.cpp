@@ -18,7 +18,7 @@ struct TangentSums {
   double angles[2] = {0, 0};
 };
 
-Vec3 load(const float* from) { return {from[0], from[1], from[2]}; }
+Vec3 load_tangent(const float* from) { return {from[0], from[1], from[2]}; }
 
 /// `v` without its part along the unit vector `n`, normalized.
 Vec3 project(Vec3 v, Vec3 n) { return normalized(v - n * dot(n, v)); }
@@ -49,7 +49,8 @@ void add_triangle(const DeformMesh& mesh, const uint32_t* triangle, bool inward,
   Vec3 p[3];
   double u[3], v[3];
   for (int k = 0; k < 3; ++k) {
-    p[k] = load(mesh.positions.data + size_t{mesh.vertex_position_indices[triangle[k]]} * 3);
+    p[k] =
+        load_tangent(mesh.positions.data + size_t{mesh.vertex_position_indices[triangle[k]]} * 3);
     u[k] = mesh.texture_coordinates[size_t{triangle[k]} * 2];
     v[k] = mesh.texture_coordinates[size_t{triangle[k]} * 2 + 1];
   }
@@ -61,7 +62,7 @@ void add_triangle(const DeformMesh& mesh, const uint32_t* triangle, bool inward,
   const Vec3 direction = (edge1 * v2 - edge2 * v1) * (area > 0 ? 1 : -1);
   const int mirrored = (area < 0) != inward;
   for (int k = 0; k < 3; ++k) {
-    const Vec3 n = load(mesh.normals.data + size_t{triangle[k]} * 3);
+    const Vec3 n = load_tangent(mesh.normals.data + size_t{triangle[k]} * 3);
     const Vec3 tangent = project(direction, n);
     const Vec3 to_next = project(p[(k + 1) % 3] - p[k], n);
     const Vec3 to_previous = project(p[(k + 2) % 3] - p[k], n);
@@ -85,7 +86,7 @@ Status fill_tangents(const MeshSource& source, bool inward, DeformMesh& mesh) {
     const int mirrored = vertex.angles[1] > vertex.angles[0];
     Vec3 tangent = normalized(vertex.sums[mirrored]);
     const bool has_direction = !is_zero(tangent);
-    if (!has_direction) tangent = perpendicular(load(mesh.normals.data + size_t{v} * 3));
+    if (!has_direction) tangent = perpendicular(load_tangent(mesh.normals.data + size_t{v} * 3));
     float* out = mesh.tangents.data + size_t{v} * 4;
     out[0] = static_cast<float>(tangent.x);
     out[1] = static_cast<float>(tangent.y);
