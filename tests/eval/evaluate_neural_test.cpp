@@ -355,7 +355,7 @@ TEST(MlJoints, ScalesOfAnotherSystemLoseTheirSigns) {
   EXPECT_EQ(scales_of(stated), (Scales{0.5f, -0.5f, -0.25f}));
 }
 
-// docs/rig-evaluation.md, 12.10 "What is missing has a default"
+// docs/rig-evaluation.md, 12.10 "Missing data has a default"
 TEST(Networks, LeakyReluWithoutParameterLeaksAHundredth) {
   LayerRig rig;
   rig.base.raw_count = kRaw;

@@ -79,7 +79,7 @@ static void open_clip(const char* path, MienClip** clip, MienClipBinding** bindi
 
 def recipes():
     text = (ROOT / "docs" / "mixing.md").read_text(encoding="utf-8")
-    section = text[text.index("## 7. Recipes"):text.index("### A scene with all of it")]
+    section = text[text.index("## 7. Recipes"):text.index("### A complete scene")]
     return {match.group(1): (json.loads(match.group(2)), match.group(3))
             for match in RECIPE.finditer(section)}
 
