@@ -80,6 +80,9 @@ foreach(name IN LISTS python_tests)
   set_tests_properties(python_${name}_test PROPERTIES
     LABELS python ENVIRONMENT "${python_environment}" TIMEOUT 600)
 endforeach()
+if(MIEN_SANITIZE MATCHES "address")
+  set_property(TEST python_callbacks_test python_lifetime_test python_misuse_test APPEND PROPERTY LABELS sanitized)
+endif()
 
 # ---- C++ --------------------------------------------------------------------------------------------
 
