@@ -11,6 +11,7 @@
  *   MienBatch             scratch memory for evaluating many instances in one call
  *   MienDeformer          the geometry of a file, packed for deformation; immutable
  *   MienDeformerInstance  one character: its joint matrices and deformed meshes
+ *   MienDerivatives       derivatives of a rig by its controls, and the memory to compute them
  *   MienBaked             an open file that holds a packed rig and its deformer
  *   MienClip              compressed curves of named channels; immutable
  *   MienClipPlayer        plays a clip for one character

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * libmien-author: creates DNA files. It is a separate library on top of libmien, because programs that
- * only evaluate and deform rigs do not need it. The rules of mien.h apply.
+ * libmien-author: creates and edits DNA files. It is a separate library on top of libmien, because programs
+ * that only evaluate and deform rigs do not need it. The rules of mien.h apply.
  * */
 #ifndef MIEN_AUTHOR_H
 #define MIEN_AUTHOR_H
@@ -169,12 +169,12 @@ enum MienAuthorFlags {
     MIEN_AUTHOR_PAPER = 1,            /* only the published method, plus the neck cut: no symmetry, no
                                          weighting by motion, no joints for jaw and eyes */
     MIEN_AUTHOR_NO_NECK_CUT = 2,      /* the face mask may include parts of the neck */
-    MIEN_AUTHOR_MASK_FROM_SHAPES = 4, /* the face mask is what shapes move: for heads that are not human */
+    MIEN_AUTHOR_MASK_FROM_SHAPES = 4, /* the face mask is where shapes move: for heads that are not human */
     MIEN_AUTHOR_AREA_DENSITY = 8,     /* weight positions by the area around them: for scans */
     MIEN_AUTHOR_NO_TARGETS = 16,      /* no blend shape targets for the motion that joints cannot produce */
     MIEN_AUTHOR_GROUP_IN_SPACE = 32,  /* group by distance in space, not in depth: for comparison */
-    MIEN_AUTHOR_METAHUMAN_NAMES = 64  /* names of bones as MetaHuman heads have them, where they have a
-                                         counterpart: neck_01, FACIAL_C_Jaw; not of the caller's bones */
+    MIEN_AUTHOR_METAHUMAN_NAMES = 64  /* use the bone names of MetaHuman heads where they have a
+                                         counterpart: neck_01, FACIAL_C_Jaw; not for the caller's bones */
 };
 
 /* How to rig a mesh. bones, weights, depth_groups, mask, lod_joints, bone_groups, bone_motions and
@@ -210,7 +210,7 @@ typedef struct MienAuthorDesc {
     const uint8_t* mask;               /* one per position of the mesh: nonzero in the face mask, where
                                           facial bones are placed. NULL: computed */
     const uint32_t* lod_joints;        /* maximum number of facial joints in each of `lods` LODs (mirrored
-                                          pairs stay together); never increasing, and the first has all.
+                                          pairs stay together); never increasing, and LOD 0 has all.
                                           NULL: 240, 160, 110, 75, 50, 32, 20, 12, scaled to
                                           facial_joints */
     const uint32_t* bone_groups;       /* joint group of each of `bones`, 0 to 255. NULL: computed */

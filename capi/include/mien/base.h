@@ -32,7 +32,7 @@
 #define MIEN_CHECKED MIEN_API
 #endif
 
-/* Calling convention of callbacks. They return to the library: they neither throw nor jump past it. */
+/* Calling convention of callbacks. They must return to the library, without throwing or longjmp(). */
 #if defined(_WIN32) && !defined(_WIN64)
 #define MIEN_CALLBACK __cdecl
 #else

@@ -300,14 +300,15 @@ typedef struct MienClipBindingDesc {
 MIEN_DEFAULT(MienClipBindingDesc, mien_clip_binding_desc_default)
 
 /* Binds a clip to a rig by names. A channel drives the raw control with its name. If there is none, it
- * drives the GUI control with its name, which is then mapped as by mien_rig_map_gui_to_raw(). If there
- * is none either, it drives the controls of its entries in the matrix, which are summed in the order of
- * the matrix. Names match without regard to case; `.` matches `_`; the prefix `CTRL_expressions.` may be
- * missing. If several names match, only an exact match counts. A channel that drives nothing so far drives the
- * controls that mien_rig_match() finds for its name, such as mouthSmile_L for mouthSmileLeft; these are summed
- * behind those of the matrix. A raw control that a channel drives by name is driven by nothing else, and one that
- * the matrix or mien_rig_match() drives is not driven by GUI controls. Names without a match are not an error: see mien_clip_binding_info(). `clip` may be closed and `rig` may be
- * destroyed afterwards. Destroy with mien_clip_binding_destroy().
+ * drives the GUI control with its name, which is then mapped as by mien_rig_map_gui_to_raw(). If there is
+ * none either, it drives the controls of its entries in the matrix, which are summed in the order of the
+ * matrix. Names match without regard to case; `.` matches `_`; the prefix `CTRL_expressions.` may be
+ * missing. If several names match, only an exact match counts. A channel that drives nothing so far drives
+ * the controls that mien_rig_match() finds for its name, such as mouthSmile_L for mouthSmileLeft; these are
+ * summed after those of the matrix. A raw control that a channel drives by name is driven by nothing else,
+ * and one that the matrix or mien_rig_match() drives is not driven by GUI controls. Names without a match
+ * are not an error: see mien_clip_binding_info(). `clip` may be closed and `rig` may be destroyed
+ * afterwards. Destroy with mien_clip_binding_destroy().
  * Fails with MIEN_ERROR_INVALID_ARGUMENT if a weight is not finite, MIEN_ERROR_CLIP_LIMIT if channels
  * drive more than 4095 GUI controls. */
 MIEN_CHECKED MienStatus mien_clip_binding_create(const MienClip* clip, const MienRig* rig,

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Derivatives of a rig: how joint values, matrices and positions change with controls, and back.
- * The rules of mien.h apply.
+ * Derivatives of joint values, matrices and positions with respect to controls, forward and in reverse. The
+ * rules of mien.h apply.
  */
 #ifndef MIEN_DERIVATIVES_H
 #define MIEN_DERIVATIVES_H
@@ -14,15 +14,15 @@ extern "C" {
 
 /* ---- Derivatives ----------------------------------------------------------------------------- */
 
-/* Points of the chain from controls to positions, and the numbers that they have:
+/* Points on the way from controls to positions:
  *
  *     GUI -> RAW -> CONTROLS -> JOINTS -> LOCALS -> MODELS -> SKINS -> POSITIONS
  *                       |-> CHANNELS ------------------------------------^
  *                       |-> MAPS
  *
- * A derivative leads from a point to one that it has an effect on. Between RAW and CONTROLS run networks,
- * RBF solvers and correctives; CONTROLS is what the joint stage, channels and maps read. From JOINTS on,
- * channel weights are constant. See docs/derivatives.md. */
+ * Derivatives lead from one point to a later one that depends on it. Networks, RBF solvers and correctives
+ * run between RAW and CONTROLS; the joint stage, channels and maps read CONTROLS. From JOINTS on, channel
+ * weights are constant. See docs/derivatives.md. */
 enum MienPoint {
     MIEN_POINT_GUI = 0,       /* GUI controls */
     MIEN_POINT_RAW = 1,       /* raw controls */
@@ -36,21 +36,21 @@ enum MienPoint {
     MIEN_POINT_MAPS = 9       /* animated map weights */
 };
 
-/* Derivatives of one rig, and the memory to compute them. Needed by one thread at a time. */
+/* Derivatives of one rig, and the memory to compute them. Belongs to one thread at a time. */
 typedef struct MienDerivatives MienDerivatives;
 
 /* How to create derivatives. */
 typedef struct MienDerivativesDesc {
     size_t struct_size;
-    const MienDeformer* deformer;   /* of the rig. NULL: none; then points from LOCALS to POSITIONS are
-                                       missing */
+    const MienDeformer* deformer;   /* of the rig. NULL: none, and no points from LOCALS to
+                                       POSITIONS */
     const MienAllocator* allocator; /* NULL: the heap */
 } MienDerivativesDesc;
 MIEN_DEFAULT(MienDerivativesDesc, mien_derivatives_desc_default)
 
-/* Creates derivatives. `desc` may be NULL. `rig` may be destroyed afterwards, and so may the deformer. One
- * block of memory has the weights of networks once more and room for 32 directions. Destroy with
- * mien_derivatives_destroy().
+/* Creates derivatives. `desc` may be NULL. `rig` may be destroyed afterwards, and so may the deformer.
+ * Takes one block of memory, which holds a copy of the weights of networks and room for 32 directions.
+ * Destroy with mien_derivatives_destroy().
  * Fails with MIEN_ERROR_MISMATCH if the deformer is not of the rig. */
 MIEN_CHECKED MienStatus mien_derivatives_create(const MienRig* rig, const MienDerivativesDesc* desc,
                                                 MienDerivatives** out_derivatives, MienError* error);
@@ -58,7 +58,7 @@ MIEN_CHECKED MienStatus mien_derivatives_create(const MienRig* rig, const MienDe
 /* Destroys derivatives. NULL is allowed. */
 MIEN_API void mien_derivatives_destroy(MienDerivatives* derivatives);
 
-/* Returns the bytes of memory that mien_derivatives_create() would need.
+/* Returns the number of bytes that mien_derivatives_create() would allocate.
  * Fails with MIEN_ERROR_MISMATCH if the deformer is not of the rig. */
 MIEN_CHECKED MienStatus mien_derivatives_bytes(const MienRig* rig, const MienDerivativesDesc* desc,
                                                uint64_t* out_bytes);
@@ -68,32 +68,33 @@ MIEN_CHECKED MienStatus mien_derivatives_bytes(const MienRig* rig, const MienDer
 MIEN_CHECKED MienStatus mien_derivatives_size(const MienDerivatives* derivatives, uint32_t point,
                                               uint32_t mesh, size_t* out_size);
 
-/* Computes the derivatives at the values of `instance`, which must be of the rig and have been evaluated, at
- * the LOD of that evaluation. `stages` are those that have derivatives, MIEN_STAGE_ALL or some of them: what
- * the others write counts as constant. Allocates nothing.
- * Where a function has no derivative, the one to the side is given that lets a solver go on:
- *   - controls of 0 and 1: into the interval, for correctives, GUI controls and maps
- *   - where two intervals of a conditional table meet: the steeper one
- *   - weights of RBF poses below the threshold: as without a threshold; at a stored pose itself 0
- *   - ReLU at 0: rising
- * Values are saturated nowhere: derivatives of what overflows are those of the formula. Networks and solvers
- * that read controls which are computed after them see constants.
+/* Computes the derivatives at the values of `instance`, which must belong to the rig and have been
+ * evaluated, at the LOD of that evaluation. `stages` selects the stages to differentiate, MIEN_STAGE_ALL or
+ * some of them: the results of the others count as constants. Does not allocate or lock.
+ * Where a function has no derivative, a one-sided one is used, so that solvers do not get stuck:
+ *   - controls at 0 or 1, for correctives, GUI controls and maps: into the interval
+ *   - where two intervals of a conditional table meet: that of the steeper one
+ *   - RBF poses with a weight below the threshold: as without a threshold; at a stored pose: 0
+ *   - ReLU at 0: as above 0
+ * Saturation is ignored: values that overflow have the derivatives of the formula. Controls that a network
+ * or solver reads before they are computed count as constants.
  * Fails with MIEN_ERROR_MISMATCH if the instance is not of the rig. */
 MIEN_CHECKED MienStatus mien_derivatives_linearize(MienDerivatives* derivatives,
                                                    const MienInstance* instance, uint32_t stages);
 
-/* Multiplies directions by the matrix of derivatives, also called Jacobian-vector products: for each of
- * `count` directions, rows of mien_derivatives_size() numbers at `from`, how the numbers at `to` change.
- * Rows follow each other without gaps; `outputs` has `count` rows and must not overlap `directions`. Several
- * directions in one call are faster than one by one, and have the same bits. Allocates nothing.
+/* Multiplies directions by the matrix of derivatives (Jacobian-vector products). Each of the `count`
+ * directions is a row of mien_derivatives_size() numbers at `from`; its output is the resulting change of
+ * the numbers at `to`. Rows follow each other without gaps; `outputs` has `count` rows and must not overlap
+ * `directions`. Several directions in one call are faster than one by one, and give the same bits. Does not
+ * allocate or lock.
  * Fails with MIEN_ERROR_INDEX if a point lacks its deformer or mesh, MIEN_ERROR_INVALID_ARGUMENT if `from`
  * has no effect on `to` or nothing was linearized. */
 MIEN_CHECKED MienStatus mien_derivatives_forward(MienDerivatives* derivatives, uint32_t from, uint32_t to,
                                                  uint32_t mesh, uint32_t count, const float* directions,
                                                  float* outputs);
 
-/* Multiplies gradients by the transposed matrix, also called vector-Jacobian products: for each of `count`
- * gradients by the numbers at `to`, the gradient by those at `from`; `mesh` and all else as in
+/* Multiplies gradients by the transposed matrix (vector-Jacobian products): turns each of `count` gradients
+ * with respect to the numbers at `to` into the gradient with respect to those at `from`. All else is as in
  * mien_derivatives_forward().
  * Fails with MIEN_ERROR_INDEX if a point lacks its deformer or mesh, MIEN_ERROR_INVALID_ARGUMENT if `from`
  * has no effect on `to` or nothing was linearized. */
@@ -116,11 +117,12 @@ typedef struct MienJacobian {
 } MienJacobian;
 MIEN_DEFAULT(MienJacobian, mien_jacobian_default)
 
-/* Computes the matrix of derivatives `from` a point `to` another, `mesh` as above. `out_count` is the number of
- * entries; at most `capacity` of them are written. Allocates nothing.
- * Fails with MIEN_ERROR_INVALID_ARGUMENT if there are more than `capacity`, unless that is 0, if `from` has
- * no effect on `to` or nothing was linearized, MIEN_ERROR_INDEX if a point lacks its deformer or mesh, or
- * a number does not exist. */
+/* Computes the matrix of the derivatives of the numbers at `to` with respect to those at `from`, with
+ * `mesh` as above. `out_count` is the number of entries; at most `capacity` of them are written. Does not
+ * allocate or lock.
+ * Fails with MIEN_ERROR_INVALID_ARGUMENT if `capacity` is too small and not 0, if `from` has no effect on
+ * `to` or nothing was linearized, MIEN_ERROR_INDEX if a point lacks its deformer or mesh, or an input or
+ * output does not exist. */
 MIEN_CHECKED MienStatus mien_derivatives_jacobian(MienDerivatives* derivatives, uint32_t from, uint32_t to,
                                                   uint32_t mesh, const MienJacobian* jacobian,
                                                   size_t* out_count);

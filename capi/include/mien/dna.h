@@ -329,11 +329,10 @@ typedef struct MienWriteDesc {
 MIEN_DEFAULT(MienWriteDesc, mien_write_desc_default)
 
 /* Writes a DNA file in canonical form: byte for byte the original if that was canonical and was loaded
- * completely. Layers that were not loaded are written empty. Another version may not have layers that
- * others need, such as the ML operations of networks; a file that could not be opened again is never
- * written. The file is written under a temporary name and renamed, so that a failure leaves `path`
- * unchanged. An existing file keeps its permissions; a symbolic link is followed, unless it leads
- * nowhere.
+ * completely. Layers that were not loaded are written empty. Another version may lack layers that others
+ * need, such as the ML operations of networks; a file that could not be opened again is never written. The
+ * file is written under a temporary name and renamed, so that a failure leaves `path` unchanged. An
+ * existing file keeps its permissions; a symbolic link is followed, unless it leads nowhere.
  * Fails with MIEN_ERROR_FILE_WRITE if the file cannot be written, MIEN_ERROR_DNA_LAYER if RBF behavior
  * was loaded without the machine-learned behavior of its file (whose controls are numbered before its
  * own), MIEN_ERROR_DNA_STRUCTURE, MIEN_ERROR_DNA_REFERENCE or MIEN_ERROR_DNA_VALUE if the file could

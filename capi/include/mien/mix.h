@@ -14,11 +14,11 @@ extern "C" {
 
 /* ---- Mix ------------------------------------------------------------------------------------- */
 
-/* What is mixed for one rig, and how. A row holds one value per curve. The curves are the raw controls of
- * the rig, then pose variables: numbers of the caller that are mixed by the same rules (gaze, head turn,
- * breath). Each step of a MienMixer applies the layers in order, then reactions, guards, layers and
- * reactions that act after the guards, antagonists, and limits. docs/mixing.md explains each stage. One
- * mix serves any number of mixers and threads. Immutable. */
+/* A description of what is mixed for one rig, and how. A row holds one value per curve. The curves are the
+ * raw controls of the rig, then pose variables: numbers of the caller that are mixed by the same rules
+ * (gaze, head turn, breath). Each step of a MienMixer applies the layers in order, then reactions, guards,
+ * layers and reactions that act after the guards, antagonists, and limits. docs/mixing.md explains each
+ * stage. One mix serves any number of mixers and threads. Immutable. */
 typedef struct MienMix MienMix;
 
 /* The purpose of a layer. Guards protect the result of base and speech from the other groups. */
@@ -112,7 +112,7 @@ enum MienRetrigger {
     MIEN_RETRIGGER_IGNORE = 2
 };
 
-/* What a face does in response to a stimulus, such as a bright light. */
+/* The response of a face to a stimulus, such as a bright light. */
 typedef struct MienMixReaction {
     int64_t cooldown;             /* ticks; minimum time between two starts of strokes that are not held */
     int64_t adapt_ticks;          /* time constant of adaptation to a lasting stimulus */

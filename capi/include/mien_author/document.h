@@ -15,10 +15,10 @@ extern "C" {
 
 /* ---- Documents -------------------------------------------------------------------------------- */
 
-/* A DNA file that can be changed: its fields by the paths of mien_dna_field(), and as a whole by
- * operations that keep together what refers to each other. Every change happens completely or, if
- * the call fails, not at all. What is not changed stays as it is, byte for byte. Memory is taken for what
- * is changed only, beyond a copy of the file that was opened. */
+/* A DNA file that can be changed: field by field, with the paths of mien_dna_field(), and by operations
+ * that keep all references consistent. Every change happens completely or, if the call fails, not at all.
+ * Everything else stays as it is, byte for byte. Memory is taken for a copy of the file that was opened,
+ * and for changed fields. */
 typedef struct MienDocument MienDocument;
 
 typedef struct MienDocumentDesc {
@@ -31,8 +31,8 @@ MIEN_DEFAULT(MienDocumentDesc, mien_document_desc_default)
  * `dna` may be NULL, for an empty document of version 2.8 with all layers. `dna` may be closed
  * afterwards. Destroy with mien_document_destroy().
  * Fails with MIEN_ERROR_DNA_LAYER if `dna` has RBF behavior without the machine-learned behavior of its
- * file, MIEN_ERROR_DNA_STRUCTURE, MIEN_ERROR_DNA_REFERENCE or MIEN_ERROR_DNA_VALUE if what was loaded
- * would not open by itself, MIEN_ERROR_DNA_LIMIT if it has more than 4 GiB. */
+ * file, MIEN_ERROR_DNA_STRUCTURE, MIEN_ERROR_DNA_REFERENCE or MIEN_ERROR_DNA_VALUE if the loaded part would
+ * not open by itself, MIEN_ERROR_DNA_LIMIT if it exceeds 4 GiB. */
 MIEN_AUTHOR_CHECKED MienStatus mien_document_create(const MienDna* dna, const MienDocumentDesc* desc,
                                                     MienDocument** out_document, MienError* error);
 
@@ -41,21 +41,22 @@ MIEN_AUTHOR_API void mien_document_destroy(MienDocument* document);
 
 /* ---- Documents: fields ------------------------------------------------------------------------ */
 
-/* Finds a field by its path, as mien_dna_field(). byte_offset is MIEN_NO_OFFSET.
+/* Finds a field by its path, like mien_dna_field(). Its byte_offset is MIEN_NO_OFFSET.
  * Fails with MIEN_ERROR_NAME if there is no such field, MIEN_ERROR_INDEX if an index in the path is past
  * the end.
  * See docs/dna-format.md, 6 "Layers, field by field". */
 MIEN_AUTHOR_CHECKED MienStatus mien_document_field(const MienDocument* document, const char* path,
                                                    MienDnaField* out_field, MienError* error);
 
-/* Returns the name of field `index` of the record at a path, as mien_dna_child_name(). The string is static.
+/* Returns the name of field `index` of the record at a path, like mien_dna_child_name(). The string is
+ * static.
  * Fails with MIEN_ERROR_NAME if there is no such field, MIEN_ERROR_INDEX if `index` or an index in the
  * path is past the end, MIEN_ERROR_INVALID_ARGUMENT if the field is not a record. */
 MIEN_AUTHOR_CHECKED MienStatus mien_document_child_name(const MienDocument* document,
                                                         const char* path, uint32_t index,
                                                         MienStringView* out_name, MienError* error);
 
-/* Copies `count` elements of a field, beginning with element `first`, to `out`, as
+/* Copies `count` elements of a field, beginning with element `first`, to `out`, like
  * mien_dna_read_floats(). `out` may be NULL if `count` is 0.
  * Fails with MIEN_ERROR_NAME if there is no such field, MIEN_ERROR_INDEX if the range or an index in
  * the path is past the end, MIEN_ERROR_INVALID_ARGUMENT if the field does not hold numbers of this
@@ -78,9 +79,9 @@ MIEN_AUTHOR_CHECKED MienStatus mien_document_read_string(const MienDocument* doc
                                                          MienStringView* out_string,
                                                          MienError* error);
 
-/* Returns the bytes of an array of numbers or of a string where they are: big-endian and unaligned, as in
- * a file. Contents change with mien_document_write_floats(), mien_document_write_integers(),
- * mien_document_undo(): the view is valid until the document is changed.
+/* Returns the bytes of an array of numbers or of a string in place: big-endian and unaligned, as in a file.
+ * Contents change with mien_document_write_floats(), mien_document_write_integers(), mien_document_undo():
+ * the view is valid until the document is changed.
  * Fails with MIEN_ERROR_NAME if there is no such field, MIEN_ERROR_INDEX if an index in the path is
  * past the end, MIEN_ERROR_INVALID_ARGUMENT if the field is neither an array nor a string. */
 MIEN_AUTHOR_CHECKED MienStatus mien_document_bytes(const MienDocument* document, const char* path,
@@ -109,8 +110,8 @@ MIEN_AUTHOR_CHECKED MienStatus mien_document_write_string(MienDocument* document
                                                           MienError* error);
 
 /* Replaces `removed_count` elements of an array or list, beginning with element `first`, by
- * `inserted_count` new ones: zeros, empty strings, or records of these. What refers to elements by
- * their number stays as it is. Copies the array, or the list without its contents.
+ * `inserted_count` new ones: zeros, empty strings, or records of these. References to elements by number do
+ * not change. Copies the array, or the list without its contents.
  * Fails with MIEN_ERROR_NAME if there is no such field, MIEN_ERROR_INDEX if the range or an index in
  * the path is past the end, MIEN_ERROR_INVALID_ARGUMENT if the field is neither an array nor a list, or
  * would have more than 2^32 - 1 elements, MIEN_ERROR_MEMORY if the allocator returns NULL. */
@@ -118,7 +119,7 @@ MIEN_AUTHOR_CHECKED MienStatus mien_document_splice(MienDocument* document, cons
                                                     uint64_t first, uint64_t removed_count,
                                                     uint64_t inserted_count, MienError* error);
 
-/* Gives an array or list `count` elements: drops the last ones or adds new ones, as
+/* Gives an array or list `count` elements: drops the last ones or adds new ones, like
  * mien_document_splice().
  * Fails like mien_document_splice(). */
 MIEN_AUTHOR_CHECKED MienStatus mien_document_resize(MienDocument* document, const char* path,
@@ -127,23 +128,23 @@ MIEN_AUTHOR_CHECKED MienStatus mien_document_resize(MienDocument* document, cons
 /* ---- Documents: undoing ----------------------------------------------------------------------- */
 
 /* Remembers the current state, at the cost of some KB. Mark 0 always exists: the state in which the
- * document was created. Memory of changes before a mark is kept until the document is destroyed or an
- * earlier mark restored.
+ * document was created. Changes before a mark keep their memory until the document is destroyed or an
+ * earlier mark is restored.
  * Fails with MIEN_ERROR_MEMORY if the allocator returns NULL. */
 MIEN_AUTHOR_CHECKED MienStatus mien_document_mark(MienDocument* document, uint64_t* out_mark,
                                                   MienError* error);
 
-/* Goes back to the state at a mark: `mark` is a number of mien_document_mark(), or 0. Later marks are
- * gone, this one stays. Does not allocate or lock.
- * Fails with MIEN_ERROR_INDEX if `mark` is not a mark of the document, or gone. */
+/* Goes back to the state at a mark: `mark` is a number from mien_document_mark(), or 0. Later marks become
+ * invalid, this one stays valid. Does not allocate or lock.
+ * Fails with MIEN_ERROR_INDEX if `mark` is not a valid mark of the document. */
 MIEN_AUTHOR_CHECKED MienStatus mien_document_undo(MienDocument* document, uint64_t mark,
                                                   MienError* error);
 
 /* ---- Documents: operations -------------------------------------------------------------------- */
 
-/* Operations check the document first, as a file is checked when it is opened, and fail with the status of the
- * first field that is not valid. They keep together what refers to each other; elements that are
- * removed renumber the others. */
+/* Operations first check the document, as a file is checked when it is opened, and fail with the status of
+ * the first field that is not valid. They keep all references consistent; removing elements renumbers the
+ * others. */
 
 /* Finds the index of a name; of equal names, the first. `kind` is a MIEN_KIND_...: GUI, raw, ML and RBF
  * controls, joints, blend shape channels, animated maps, meshes.
@@ -161,12 +162,13 @@ MIEN_AUTHOR_CHECKED MienStatus mien_document_rename(MienDocument* document, uint
                                                     uint32_t index, const char* name,
                                                     MienError* error);
 
-/* Removes joints, blend shape channels, animated maps or meshes, and what refers to them: names, LOD lists,
- * rows of tables, targets, networks' regions. `indices` has `index_count` elements. Children of a joint go to its nearest ancestor that stays, or
- * become roots, and keep their neutral place in the world; motions that are relative to the parent keep
- * their numbers. The joint's skin weights go to the same ancestor, or to the first joint that stays.
- * Quaternion joints move as before within 1e-2 degrees; where columns of a joint group would rotate
- * them in another order, each of its quaternion joints gets a joint group of its own.
+/* Removes joints, blend shape channels, animated maps or meshes, and everything that refers to them: names,
+ * LOD lists, rows of tables, targets, regions of networks. `indices` has `index_count` elements. Children
+ * of a joint go to its nearest ancestor that stays, or become roots, and keep their neutral place in the
+ * world; motions that are relative to the parent keep their numbers. The joint's skin weights go to the
+ * same ancestor, or to the first joint that stays. Quaternion joints move as before within 1e-2 degrees;
+ * where the columns of a joint group would rotate them in another order, each quaternion joint of the group
+ * gets a joint group of its own.
  * Fails with MIEN_ERROR_INDEX if an index is past the end, MIEN_ERROR_INVALID_ARGUMENT if elements of the
  * kind cannot be removed, or no joint would be left for the skin weights, MIEN_ERROR_DNA_STRUCTURE,
  * MIEN_ERROR_DNA_REFERENCE, MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE if the document is not valid,
@@ -175,13 +177,13 @@ MIEN_AUTHOR_CHECKED MienStatus mien_document_remove(MienDocument* document, uint
                                                     const uint32_t* indices, size_t index_count,
                                                     MienError* error);
 
-/* Removes all blend shape channels with their targets, all animated maps, or, for MIEN_KIND_JOINT, all that
- * moves joints. `kind` is a MIEN_KIND_....
+/* Removes all blend shape channels with their targets, all animated maps, or, for MIEN_KIND_JOINT,
+ * everything that moves joints. `kind` is a MIEN_KIND_....
  * Fails like mien_document_remove(), but not with MIEN_ERROR_INDEX. */
 MIEN_AUTHOR_CHECKED MienStatus mien_document_clear(MienDocument* document, uint32_t kind,
                                                    MienError* error);
 
-/* Removes what moves these joints: their rows of joint groups, twists, swings and ML joints.
+/* Removes everything that moves these joints: their rows of joint groups, twists, swings and ML joints.
  * Fails like mien_document_remove(). */
 MIEN_AUTHOR_CHECKED MienStatus mien_document_clear_joints(MienDocument* document,
                                                           const uint32_t* joints,
@@ -190,16 +192,16 @@ MIEN_AUTHOR_CHECKED MienStatus mien_document_clear_joints(MienDocument* document
 /* Sets neutral transforms of joints from `first_joint` on, relative to their parents, in the units and
  * axes of the file: translations, 3 floats per joint, and rotations, 3 floats per joint. Either may be
  * left out: `translations` may be NULL; `rotations` may be NULL.
- * Fails with MIEN_ERROR_INDEX if there are not so many joints, MIEN_ERROR_INVALID_ARGUMENT if a number is
- * not finite, MIEN_ERROR_DNA_STRUCTURE, MIEN_ERROR_DNA_REFERENCE, MIEN_ERROR_DNA_LIMIT or
- * MIEN_ERROR_DNA_VALUE if the document is not valid, MIEN_ERROR_MEMORY if the allocator returns NULL. */
+ * Fails with MIEN_ERROR_INDEX if there are fewer joints, MIEN_ERROR_INVALID_ARGUMENT if a number is not
+ * finite, MIEN_ERROR_DNA_STRUCTURE, MIEN_ERROR_DNA_REFERENCE, MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE
+ * if the document is not valid, MIEN_ERROR_MEMORY if the allocator returns NULL. */
 MIEN_AUTHOR_CHECKED MienStatus mien_document_set_neutral(MienDocument* document, uint32_t first_joint,
                                                          const float* translations,
                                                          const float* rotations, size_t count,
                                                          MienError* error);
 
-/* Sets all positions of a mesh, 3 floats per position. Normals stay: deformers recompute them, or write
- * geom.meshes[i].normals.
+/* Sets all positions of a mesh, 3 floats per position. Normals do not change: deformers recompute them by
+ * default; otherwise write geom.meshes[i].normals.
  * Fails with MIEN_ERROR_INDEX if `mesh` is past the end, MIEN_ERROR_INVALID_ARGUMENT if the mesh has another
  * number of positions, or a number is not finite, MIEN_ERROR_MEMORY if the allocator returns NULL. */
 MIEN_AUTHOR_CHECKED MienStatus mien_document_set_positions(MienDocument* document, uint32_t mesh,
@@ -208,9 +210,9 @@ MIEN_AUTHOR_CHECKED MienStatus mien_document_set_positions(MienDocument* documen
                                                            MienError* error);
 
 /* Sets the target of blend shape channel `channel` on mesh `mesh`: 3 floats per delta, of the positions
- * `vertices`. `vertices` may be NULL for the first `count` positions. Deltas of zero are left out; without
- * any other, the target is removed. The pair of mesh and channel in defn.meshBlendShapeChannelMapping
- * follows.
+ * `vertices`. `vertices` may be NULL for the first `count` positions. Deltas of zero are left out; if there
+ * are no others, the target is removed. The pair of mesh and channel in defn.meshBlendShapeChannelMapping
+ * is added or removed with it.
  * Fails with MIEN_ERROR_INDEX if `mesh`, `channel` or a vertex is past the end, MIEN_ERROR_INVALID_ARGUMENT
  * if there are more deltas than positions, or a number is not finite, MIEN_ERROR_DNA_STRUCTURE,
  * MIEN_ERROR_DNA_REFERENCE, MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE if the document is not valid,
@@ -229,7 +231,7 @@ typedef struct MienPrunedTargets {
 MIEN_DEFAULT(MienPrunedTargets, mien_pruned_targets_default)
 
 /* Removes deltas not longer than `tolerance`, in the unit of the file, and targets that have none left.
- * `out_pruned` gets how many.
+ * `out_pruned` gets their numbers.
  * Fails with MIEN_ERROR_INVALID_ARGUMENT if `tolerance` is negative or not finite, MIEN_ERROR_DNA_STRUCTURE,
  * MIEN_ERROR_DNA_REFERENCE, MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE if the document is not valid,
  * MIEN_ERROR_MEMORY if the allocator returns NULL. */
@@ -237,7 +239,7 @@ MIEN_AUTHOR_CHECKED MienStatus mien_document_prune_targets(MienDocument* documen
                                                            MienPrunedTargets* out_pruned,
                                                            MienError* error);
 
-/* Which entries of the joint matrix are small: those not above these, in the units of the file. */
+/* The largest magnitudes of entries of the joint matrix that count as small, in the units of the file. */
 typedef struct MienPruneJointsDesc {
     size_t struct_size;
     float translation;
@@ -247,22 +249,23 @@ typedef struct MienPruneJointsDesc {
 } MienPruneJointsDesc;
 MIEN_DEFAULT(MienPruneJointsDesc, mien_prune_joints_desc_default)
 
-/* What mien_document_prune_joints() did, and the largest distance by which it moved a position. */
+/* The effect of mien_document_prune_joints(): removed entries, and the largest distance by which a position
+ * moved. */
 typedef struct MienPrunedJoints {
     size_t struct_size;
     uint64_t entry_count; /* entries of the joint matrix that were not 0 */
-    uint64_t removed_count; /* of these, now 0 */
+    uint64_t removed_count; /* of these, set to 0 */
     double worst_distance;  /* in the unit of the file */
-    uint32_t worst_control; /* number of the raw control, or corrective with its raw controls, at 1 */
+    uint32_t worst_control; /* the raw control at 1, or the corrective whose raw controls were at 1 */
     uint32_t worst_mesh;
     uint32_t worst_position;
     uint32_t reserved;
 } MienPrunedJoints;
 MIEN_DEFAULT(MienPrunedJoints, mien_pruned_joints_default)
 
-/* Sets small entries of the joint matrix to 0, and removes columns and rows of joint groups without any
- * other. Measures what that does to the positions of LOD 0: over each raw control at 1, and each
- * corrective with all its raw controls at 1. `desc` is required.
+/* Sets small entries of the joint matrix to 0, and removes columns and rows of joint groups that have no
+ * others. Measures how far that moves the positions of LOD 0, with each raw control at 1, and with all raw
+ * controls of each corrective at 1. `desc` is required.
  * Fails with MIEN_ERROR_INVALID_ARGUMENT if a field of `desc` is negative or not finite,
  * MIEN_ERROR_DNA_STRUCTURE, MIEN_ERROR_DNA_REFERENCE, MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE if the
  * document is not valid, MIEN_ERROR_MEMORY if the allocator returns NULL. */
@@ -290,22 +293,22 @@ MIEN_AUTHOR_CHECKED MienStatus mien_document_set_weights(MienDocument* document,
 MIEN_AUTHOR_CHECKED MienStatus mien_document_normalize_weights(MienDocument* document, uint32_t mesh,
                                                                MienError* error);
 
-/* Keeps the `influences` largest weights of each position of mesh `mesh` that has more, in their order, scaled to the
- * sum that all had.
+/* Keeps the `influences` largest weights of each position of mesh `mesh`, in their order, scaled to the
+ * previous sum.
  * Fails like mien_document_normalize_weights(), and with MIEN_ERROR_INVALID_ARGUMENT if `influences` is 0. */
 MIEN_AUTHOR_CHECKED MienStatus mien_document_limit_influences(MienDocument* document, uint32_t mesh,
                                                               uint32_t influences, MienError* error);
 
-/* Smooths the weights of mesh `mesh` `iterations` times: those of each position become (1 - strength) of its own
- * and strength of the mean of its neighbors along edges. Positions at the same place count as one. Each
- * keeps at most `influences`, with a sum of 1.
+/* Smooths the weights of mesh `mesh` `iterations` times: those of each position become (1 - strength) times
+ * its own plus strength times the mean of its neighbors along edges. Positions at the same place count as
+ * one. Each keeps at most `influences`, with a sum of 1.
  * Fails like mien_document_limit_influences(), and with MIEN_ERROR_INVALID_ARGUMENT if `strength` is not 0
  * to 1, or there are more than 1000 iterations. */
 MIEN_AUTHOR_CHECKED MienStatus mien_document_smooth_weights(MienDocument* document, uint32_t mesh,
                                                             uint32_t iterations, float strength,
                                                             uint32_t influences, MienError* error);
 
-/* Where a character goes: scaled about the origin, then rotated about it, then moved. */
+/* How to place a character: it is scaled about the origin, then rotated about it, then moved. */
 typedef struct MienPlacement {
     size_t struct_size;
     double scale;          /* above 0. 0: 1 */
@@ -325,15 +328,15 @@ MIEN_AUTHOR_CHECKED MienStatus mien_document_place(MienDocument* document,
                                                    const MienPlacement* placement,
                                                    MienError* error);
 
-/* Keeps the LODs whose bits are set in `lods`, as MienDnaDesc.lods.
- * Fails with MIEN_ERROR_LOD if there is none of them, MIEN_ERROR_DNA_STRUCTURE, MIEN_ERROR_DNA_REFERENCE,
+/* Keeps the LODs whose bits are set in `lods`, like MienDnaDesc.lods.
+ * Fails with MIEN_ERROR_LOD if none of them exists, MIEN_ERROR_DNA_STRUCTURE, MIEN_ERROR_DNA_REFERENCE,
  * MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE if the document is not valid, MIEN_ERROR_MEMORY if the
  * allocator returns NULL.
  * See docs/dna-format.md, 10 "Choosing LODs". */
 MIEN_AUTHOR_CHECKED MienStatus mien_document_keep_lods(MienDocument* document, uint64_t lods,
                                                        MienError* error);
 
-/* Converts to another coordinate system, as MienDnaDesc.system. `system` is required.
+/* Converts to another coordinate system, like MienDnaDesc.system. `system` is required.
  * Fails with MIEN_ERROR_DNA_VALUE if the rig cannot be converted or the document is not valid,
  * MIEN_ERROR_DNA_STRUCTURE, MIEN_ERROR_DNA_REFERENCE or MIEN_ERROR_DNA_LIMIT if the document is not valid,
  * MIEN_ERROR_MEMORY if the allocator returns NULL.
@@ -347,36 +350,38 @@ MIEN_AUTHOR_CHECKED MienStatus mien_document_convert(MienDocument* document,
 /* Copies the layers of another document whose bits are set. `layers` is a MIEN_LAYER_..., combined with |.
  * Layers that refer to each other are copied together.
  * Fails with MIEN_ERROR_INVALID_ARGUMENT if `layers` has other bits, MIEN_ERROR_DNA_STRUCTURE,
- * MIEN_ERROR_DNA_REFERENCE, MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE if they do not fit the layers that
- * stay, MIEN_ERROR_MEMORY if the allocator returns NULL. */
+ * MIEN_ERROR_DNA_REFERENCE, MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE if they do not fit the other
+ * layers, MIEN_ERROR_MEMORY if the allocator returns NULL. */
 MIEN_AUTHOR_CHECKED MienStatus mien_document_copy_layers(MienDocument* document,
                                                          const MienDocument* from, uint32_t layers,
                                                          MienError* error);
 
-/* Copies mesh `mesh` of another document: over the mesh of the same name, or as a new one at the LODs where it
- * is there and that this document has. Joints and channels are found by name; a joint that is not here
- * hands its influence to its nearest ancestor that is, targets of other channels are left out.
+/* Copies mesh `mesh` of another document. It replaces the mesh of the same name, or becomes a new one, at
+ * its LODs in the other document as far as this document has them. Joints and channels are found by name;
+ * the influence of a missing joint goes to its nearest ancestor that exists here, and targets of missing
+ * channels are left out.
  * Fails with MIEN_ERROR_INDEX if there is no such mesh, MIEN_ERROR_INVALID_ARGUMENT if both documents are
- * the same, MIEN_ERROR_MISMATCH if the documents differ in axes,
- * units or rotations, or no joint of a position is here, MIEN_ERROR_DNA_STRUCTURE,
- * MIEN_ERROR_DNA_REFERENCE, MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE if one of them is not valid,
- * MIEN_ERROR_MEMORY if the allocator returns NULL. */
+ * the same, MIEN_ERROR_MISMATCH if the documents differ in axes, units or rotations, or this one has no
+ * joint of a position, MIEN_ERROR_DNA_STRUCTURE, MIEN_ERROR_DNA_REFERENCE, MIEN_ERROR_DNA_LIMIT or
+ * MIEN_ERROR_DNA_VALUE if one of them is not valid, MIEN_ERROR_MEMORY if the allocator returns NULL. */
 MIEN_AUTHOR_CHECKED MienStatus mien_document_copy_mesh(MienDocument* document,
                                                        const MienDocument* from, uint32_t mesh,
                                                        uint32_t* out_mesh, MienError* error);
 
 /* Adds the joints of another document whose names this one lacks, such as those of a body to a head: below
- * the joints of the same names, behind the own ones, at the LODs that list them there. Joints that both
- * have stay as they are, but a root that has a parent there becomes its child. Joints that both have must
- * stand in the same place of the model, within `tolerance` in the unit of the file.
- * Fails with MIEN_ERROR_INVALID_ARGUMENT if both documents are the same, MIEN_ERROR_MISMATCH if the documents differ in axes, units or rotations, or in the place of a
- * joint, MIEN_ERROR_DNA_STRUCTURE, MIEN_ERROR_DNA_REFERENCE, MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE
- * if one of them is not valid or the result would not be, MIEN_ERROR_MEMORY if the allocator returns NULL. */
+ * the joints with the names of their parents, numbered after the existing ones, at the LODs that list them
+ * in the other document. Joints of both documents stay as they are, but a root that has a parent in the
+ * other one becomes its child. They must have the same place in model space, within `tolerance` in the unit
+ * of the file.
+ * Fails with MIEN_ERROR_INVALID_ARGUMENT if both documents are the same, MIEN_ERROR_MISMATCH if they differ
+ * in axes, units or rotations, or in the place of a joint, MIEN_ERROR_DNA_STRUCTURE,
+ * MIEN_ERROR_DNA_REFERENCE, MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE if one of them is not valid or the
+ * result would not be, MIEN_ERROR_MEMORY if the allocator returns NULL. */
 MIEN_AUTHOR_CHECKED MienStatus mien_document_merge_joints(MienDocument* document,
                                                           const MienDocument* from,
                                                           double tolerance, MienError* error);
 
-/* Removes the joints that another document does not have by name, as mien_document_remove().
+/* Removes the joints whose names another document lacks, like mien_document_remove().
  * Fails with MIEN_ERROR_INVALID_ARGUMENT if no joint would be left for the skin weights,
  * MIEN_ERROR_DNA_STRUCTURE, MIEN_ERROR_DNA_REFERENCE, MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE if
  * `document` is not valid, MIEN_ERROR_MEMORY if the allocator returns NULL. */
@@ -388,8 +393,8 @@ MIEN_AUTHOR_CHECKED MienStatus mien_document_split_joints(MienDocument* document
 
 /* How positions of one mesh are found on another. */
 enum MienMatch {
-    MIEN_MATCH_SURFACE = 0, /* the nearest place in space */
-    MIEN_MATCH_UV = 1       /* the nearest place in the texture */
+    MIEN_MATCH_SURFACE = 0, /* the nearest point in space */
+    MIEN_MATCH_UV = 1       /* the nearest point in the texture */
 };
 
 /* How mien_document_project() works. */
@@ -402,11 +407,11 @@ typedef struct MienProjectDesc {
 } MienProjectDesc;
 MIEN_DEFAULT(MienProjectDesc, mien_project_desc_default)
 
-/* Gives mesh `mesh` the skin weights and targets of mesh `source`, interpolated at the place of each position:
- * a coarser LOD from a finer one. Joints that no LOD of the mesh lists hand their influence to the nearest
- * ancestor that one does; targets of channels that none lists are left out. Where these LODs list no
- * joints or channels, all stay. `out_farthest` gets the largest distance to a place: in the unit of the file,
- * or of the texture.
+/* Gives mesh `mesh` the skin weights and targets of mesh `source`, interpolated at the point of `source`
+ * nearest to each position: a coarser LOD from a finer one. The influence of joints that no LOD of the mesh
+ * lists goes to the nearest ancestor that one of them lists; targets of channels that none lists are left
+ * out. If these LODs list no joints or channels at all, all are kept. `out_farthest` gets the largest
+ * distance to a nearest point, in the unit of the file or of the texture.
  * Fails with MIEN_ERROR_INDEX if `mesh` or `source` is past the end, MIEN_ERROR_INVALID_ARGUMENT if they are
  * the same, or lack triangles, texture coordinates or weights, MIEN_ERROR_DNA_STRUCTURE,
  * MIEN_ERROR_DNA_REFERENCE, MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE if the document is not valid,
@@ -427,19 +432,19 @@ MIEN_AUTHOR_CHECKED MienStatus mien_document_make_lod(MienDocument* document, ui
                                                       const MienProjectDesc* desc,
                                                       double* out_farthest, MienError* error);
 
-/* How the rig followed a mesh. */
+/* How far the rig moved to follow a mesh. */
 typedef struct MienConformed {
     size_t struct_size;
-    double joint_distance; /* the farthest that a joint moved, in the unit of the file */
-    uint32_t joint;        /* which */
+    double joint_distance; /* largest distance by which a joint moved, in the unit of the file */
+    uint32_t joint;        /* that joint */
     uint32_t reserved;
 } MienConformed;
 MIEN_DEFAULT(MienConformed, mien_conformed_default)
 
-/* Gives mesh `mesh` new positions, 3 floats per position, such as a head that an artist reshaped, and lets the
- * rig follow: joints move as the surface around them does, and keep their orientation; targets turn and
- * scale with the surface, translations that controls add to joints scale, normals turn. `others` is 0,
- * or 1 to move the other meshes, too. Motions of the whole mesh are followed exactly.
+/* Gives mesh `mesh` new positions, 3 floats per position, such as a head that an artist reshaped, and lets
+ * the rig follow: joints move with the surface around them and keep their orientation; targets rotate and
+ * scale with the surface, translations that controls add to joints scale with it, and normals rotate.
+ * `others` is 0, or 1 to move the other meshes, too. A motion of the whole mesh is followed exactly.
  * Fails with MIEN_ERROR_INDEX if `mesh` is past the end, MIEN_ERROR_INVALID_ARGUMENT if the mesh has another
  * number of positions, or a number is not finite, MIEN_ERROR_DNA_STRUCTURE, MIEN_ERROR_DNA_REFERENCE,
  * MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE if the document is not valid, MIEN_ERROR_MEMORY if the
@@ -452,27 +457,27 @@ MIEN_AUTHOR_CHECKED MienStatus mien_document_conform(MienDocument* document, uin
 /* How mien_document_transplant() works. */
 typedef struct MienTransplantDesc {
     size_t struct_size;
-    uint32_t match;      /* MIEN_MATCH_..., for meshes of the same name; where their faces are the same, positions
-                            of the same number correspond */
+    uint32_t match;      /* MIEN_MATCH_..., for meshes of the same name; positions of the same number correspond
+                            if the meshes have the same faces */
     uint32_t influences; /* at most, per position. 0: 8 */
 } MienTransplantDesc;
 MIEN_DEFAULT(MienTransplantDesc, mien_transplant_desc_default)
 
-/* What a raw control that both rigs have does differently to the positions of LOD 0, at 1. */
+/* How differently a raw control of both rigs, at 1, moves the positions of LOD 0. */
 typedef struct MienControlError {
     double worst;     /* distance of a position, in the unit of the file */
     double rms;
-    double moved;     /* the farthest that the control moved a position before */
-    uint32_t control; /* its number in the new rig */
+    double moved;     /* largest distance by which the control moved a position before */
+    uint32_t control; /* its index in the new rig */
     uint32_t reserved;
 } MienControlError;
 
 /* Gives a character the rig of a template: controls, joints, behavior, and LODs of document `rig`. The
  * character keeps its shape. Its meshes keep topology and positions where the template has a mesh of the
- * same name, and get weights and targets from it; other meshes are the template's, moved with the surface. Joints that
- * both have by name stand where the character's stood, others move with the surface. `out_errors` has
- * `capacity` elements, one for each raw control that both rigs have, and may be shorter; `out_errors`
- * may be NULL; `out_count` gets how many were written.
+ * same name, and get weights and targets from it; other meshes are the template's, moved with the surface.
+ * Joints with names of joints of the character keep the places of those, others move with the surface.
+ * `out_errors` has `capacity` elements, one for each raw control of both rigs, or fewer; `out_errors` may
+ * be NULL; `out_count` gets the number written.
  * Fails with MIEN_ERROR_MISMATCH if the documents differ in axes, units or rotations,
  * MIEN_ERROR_INVALID_ARGUMENT if no mesh of LOD 0 has the name of one of the template, or meshes lack
  * triangles or texture coordinates, MIEN_ERROR_DNA_STRUCTURE, MIEN_ERROR_DNA_REFERENCE,
@@ -486,19 +491,19 @@ MIEN_AUTHOR_CHECKED MienStatus mien_document_transplant(MienDocument* document,
 
 /* ---- Documents: results ----------------------------------------------------------------------- */
 
-/* Checks all that opening a file checks, and opens the document as a file. `document` may be destroyed
- * afterwards. Close with mien_dna_close().
+/* Opens the document as a file, with all checks of opening a file. `document` may be destroyed afterwards.
+ * Close with mien_dna_close().
  * Fails with MIEN_ERROR_DNA_TRUNCATED, MIEN_ERROR_DNA_STRUCTURE, MIEN_ERROR_DNA_REFERENCE,
- * MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE if the document is not a valid file, of which the message
- * names the first field; mien_document_validate() lists them all.
+ * MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE if the document is not a valid file; the message names the
+ * first invalid field, mien_document_validate() lists them all.
  * See docs/dna-format.md, 13 "What is checked". */
 MIEN_AUTHOR_CHECKED MienStatus mien_document_to_dna(const MienDocument* document,
                                                     const MienDocumentDesc* desc, MienDna** out_dna,
                                                     MienError* error);
 
-/* Checks the document as mien_dna_validate_memory() would check its file. `document` may be destroyed
- * afterwards. Destroy with mien_report_destroy().
- * Fails with MIEN_ERROR_DNA_LIMIT if the file would have more than 4 GiB. */
+/* Checks the document like mien_dna_validate_memory() its file. `document` may be destroyed afterwards.
+ * Destroy with mien_report_destroy().
+ * Fails with MIEN_ERROR_DNA_LIMIT if the file would exceed 4 GiB. */
 MIEN_AUTHOR_CHECKED MienStatus mien_document_validate(const MienDocument* document,
                                                       const MienValidateDesc* desc,
                                                       MienReport** out_report, MienError* error);

@@ -427,15 +427,15 @@ class VertexFormat(IntEnum):
 
 
 class Point(IntEnum):
-    """Points of the chain from controls to positions, and the numbers that they have:
+    """Points on the way from controls to positions:
 
         GUI -> RAW -> CONTROLS -> JOINTS -> LOCALS -> MODELS -> SKINS -> POSITIONS
                           |-> CHANNELS ------------------------------------^
                           |-> MAPS
 
-    A derivative leads from a point to one that it has an effect on. Between RAW and CONTROLS
-    run networks, RBF solvers and correctives; CONTROLS is what the joint stage, channels and
-    maps read. From JOINTS on, channel weights are constant. See docs/derivatives.md.
+    Derivatives lead from one point to a later one that depends on it. Networks, RBF solvers and
+    correctives run between RAW and CONTROLS; the joint stage, channels and maps read CONTROLS.
+    From JOINTS on, channel weights are constant. See docs/derivatives.md.
     """
 
     #: GUI controls
@@ -600,7 +600,7 @@ class NameMatch(IntEnum):
     ALIAS = 3
     #: the controls of the left and the right side
     BOTH_SIDES = 4
-    #: an expression that is several controls
+    #: an expression of several controls
     EXPRESSION = 5
 
 
@@ -689,7 +689,7 @@ class AuthorFlags(IntFlag):
     PAPER = 1
     #: the face mask may include parts of the neck
     NO_NECK_CUT = 2
-    #: the face mask is what shapes move: for heads that are not human
+    #: the face mask is where shapes move: for heads that are not human
     MASK_FROM_SHAPES = 4
     #: weight positions by the area around them: for scans
     AREA_DENSITY = 8
@@ -697,17 +697,17 @@ class AuthorFlags(IntFlag):
     NO_TARGETS = 16
     #: group by distance in space, not in depth: for comparison
     GROUP_IN_SPACE = 32
-    #: names of bones as MetaHuman heads have them, where they have a counterpart: neck_01,
-    #: FACIAL_C_Jaw; not of the caller's bones
+    #: use the bone names of MetaHuman heads where they have a counterpart: neck_01, FACIAL_C_Jaw;
+    #: not for the caller's bones
     METAHUMAN_NAMES = 64
 
 
 class Match(IntEnum):
     """How positions of one mesh are found on another."""
 
-    #: the nearest place in space
+    #: the nearest point in space
     SURFACE = 0
-    #: the nearest place in the texture
+    #: the nearest point in the texture
     UV = 1
 
 
@@ -3560,13 +3560,13 @@ class PrunedTargets(NamedTuple):
 
 
 class PrunedJoints(NamedTuple):
-    """What mien_document_prune_joints() did, and the largest distance by which it moved a
-    position.
+    """The effect of mien_document_prune_joints(): removed entries, and the largest distance by
+    which a position moved.
 
       entry_count: entries of the joint matrix that were not 0
-      removed_count: of these, now 0
+      removed_count: of these, set to 0
       worst_distance: in the unit of the file
-      worst_control: number of the raw control, or corrective with its raw controls, at 1
+      worst_control: the raw control at 1, or the corrective whose raw controls were at 1
     """
 
     entry_count: int
@@ -3583,10 +3583,10 @@ class PrunedJoints(NamedTuple):
 
 
 class Conformed(NamedTuple):
-    """How the rig followed a mesh.
+    """How far the rig moved to follow a mesh.
 
-      joint_distance: the farthest that a joint moved, in the unit of the file
-      joint: which
+      joint_distance: largest distance by which a joint moved, in the unit of the file
+      joint: that joint
     """
 
     joint_distance: float
@@ -4158,10 +4158,10 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
     ),
     "mien_derivatives_jacobian": (
         (Status.INVALID_ARGUMENT,
-         "there are more than `capacity`, unless that is 0, if `from` has no effect on "
-         "`to` or nothing was linearized"),
+         "`capacity` is too small and not 0, if `from` has no effect on `to` or nothing "
+         "was linearized"),
         (Status.INDEX,
-         "a point lacks its deformer or mesh, or a number does not exist"),
+         "a point lacks its deformer or mesh, or an input or output does not exist"),
     ),
     "mien_bake_file": (
         (Status.MISMATCH,
@@ -4672,7 +4672,7 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
     ),
     "mien_rig_match": (
         (Status.NAME,
-         "the name means nothing on this rig, or in step 1 or 2 several controls"),
+         "the name matches no control of this rig, or several in step 1 or 2"),
     ),
     "mien_control_name": (
         (Status.NAME,
@@ -4711,15 +4711,15 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
         (Status.UNSUPPORTED,
          "this build of libmien opens baked files only"),
         (Status.DNA_STRUCTURE,
-         "what was loaded would not open by itself"),
+         "the loaded part would not open by itself"),
         (Status.DNA_REFERENCE,
-         "what was loaded would not open by itself"),
+         "the loaded part would not open by itself"),
         (Status.DNA_LIMIT,
-         "it has more than 4 GiB"),
+         "it exceeds 4 GiB"),
         (Status.DNA_LAYER,
          "`dna` has RBF behavior without the machine-learned behavior of its file"),
         (Status.DNA_VALUE,
-         "what was loaded would not open by itself"),
+         "the loaded part would not open by itself"),
     ),
     "mien_document_field": (
         (Status.INDEX,
@@ -4826,7 +4826,7 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
     ),
     "mien_document_undo": (
         (Status.INDEX,
-         "`mark` is not a mark of the document, or gone"),
+         "`mark` is not a valid mark of the document"),
     ),
     "mien_document_find": (
         (Status.INVALID_ARGUMENT,
@@ -4896,7 +4896,7 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
         (Status.INVALID_ARGUMENT,
          "a number is not finite"),
         (Status.INDEX,
-         "there are not so many joints"),
+         "there are fewer joints"),
         (Status.MEMORY,
          "the allocator returns NULL"),
         (Status.DNA_STRUCTURE,
@@ -5041,7 +5041,7 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
     ),
     "mien_document_keep_lods": (
         (Status.LOD,
-         "there is none of them"),
+         "none of them exists"),
         (Status.MEMORY,
          "the allocator returns NULL"),
         (Status.DNA_STRUCTURE,
@@ -5073,20 +5073,20 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
         (Status.MEMORY,
          "the allocator returns NULL"),
         (Status.DNA_STRUCTURE,
-         "they do not fit the layers that stay"),
+         "they do not fit the other layers"),
         (Status.DNA_REFERENCE,
-         "they do not fit the layers that stay"),
+         "they do not fit the other layers"),
         (Status.DNA_LIMIT,
-         "they do not fit the layers that stay"),
+         "they do not fit the other layers"),
         (Status.DNA_VALUE,
-         "they do not fit the layers that stay"),
+         "they do not fit the other layers"),
     ),
     "mien_document_copy_mesh": (
         (Status.INVALID_ARGUMENT,
          "both documents are the same"),
         (Status.MISMATCH,
-         "the documents differ in axes, units or rotations, or no joint of a position is"
-         " here"),
+         "the documents differ in axes, units or rotations, or this one has no joint of "
+         "a position"),
         (Status.INDEX,
          "there is no such mesh"),
         (Status.MEMORY,
@@ -5104,7 +5104,7 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
         (Status.INVALID_ARGUMENT,
          "both documents are the same"),
         (Status.MISMATCH,
-         "the documents differ in axes, units or rotations, or in the place of a joint"),
+         "they differ in axes, units or rotations, or in the place of a joint"),
         (Status.MEMORY,
          "the allocator returns NULL"),
         (Status.DNA_STRUCTURE,
@@ -5206,19 +5206,19 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
         (Status.UNSUPPORTED,
          "this build of libmien opens baked files only"),
         (Status.DNA_TRUNCATED,
-         "the document is not a valid file, of which the message names the first field; "
+         "the document is not a valid file; the message names the first invalid field, "
          "mien_document_validate() lists them all"),
         (Status.DNA_STRUCTURE,
-         "the document is not a valid file, of which the message names the first field; "
+         "the document is not a valid file; the message names the first invalid field, "
          "mien_document_validate() lists them all"),
         (Status.DNA_REFERENCE,
-         "the document is not a valid file, of which the message names the first field; "
+         "the document is not a valid file; the message names the first invalid field, "
          "mien_document_validate() lists them all"),
         (Status.DNA_LIMIT,
-         "the document is not a valid file, of which the message names the first field; "
+         "the document is not a valid file; the message names the first invalid field, "
          "mien_document_validate() lists them all"),
         (Status.DNA_VALUE,
-         "the document is not a valid file, of which the message names the first field; "
+         "the document is not a valid file; the message names the first invalid field, "
          "mien_document_validate() lists them all"),
     ),
     "mien_document_validate": (
@@ -5229,7 +5229,7 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
         (Status.UNSUPPORTED,
          "this build of libmien opens baked files only"),
         (Status.DNA_LIMIT,
-         "the file would have more than 4 GiB"),
+         "the file would exceed 4 GiB"),
     ),
 }
 

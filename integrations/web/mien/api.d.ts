@@ -407,15 +407,15 @@ export declare const VertexFormat: {
 export type VertexFormat = (typeof VertexFormat)[keyof typeof VertexFormat];
 
 /**
- * Points of the chain from controls to positions, and the numbers that they have:
+ * Points on the way from controls to positions:
  *
  *     GUI -> RAW -> CONTROLS -> JOINTS -> LOCALS -> MODELS -> SKINS -> POSITIONS
  *                       |-> CHANNELS ------------------------------------^
  *                       |-> MAPS
  *
- * A derivative leads from a point to one that it has an effect on. Between RAW and CONTROLS run networks,
- * RBF solvers and correctives; CONTROLS is what the joint stage, channels and maps read. From JOINTS on,
- * channel weights are constant. See docs/derivatives.md.
+ * Derivatives lead from one point to a later one that depends on it. Networks, RBF solvers and correctives
+ * run between RAW and CONTROLS; the joint stage, channels and maps read CONTROLS. From JOINTS on, channel
+ * weights are constant. See docs/derivatives.md.
  */
 export declare const Point: {
   /** GUI controls */
@@ -585,7 +585,7 @@ export declare const NameMatch: {
   readonly ALIAS: 3;
   /** the controls of the left and the right side */
   readonly BOTH_SIDES: 4;
-  /** an expression that is several controls */
+  /** an expression of several controls */
   readonly EXPRESSION: 5;
 };
 export type NameMatch = (typeof NameMatch)[keyof typeof NameMatch];
@@ -675,7 +675,7 @@ export declare const AuthorFlags: {
   readonly PAPER: 1;
   /** the face mask may include parts of the neck */
   readonly NO_NECK_CUT: 2;
-  /** the face mask is what shapes move: for heads that are not human */
+  /** the face mask is where shapes move: for heads that are not human */
   readonly MASK_FROM_SHAPES: 4;
   /** weight positions by the area around them: for scans */
   readonly AREA_DENSITY: 8;
@@ -684,7 +684,7 @@ export declare const AuthorFlags: {
   /** group by distance in space, not in depth: for comparison */
   readonly GROUP_IN_SPACE: 32;
   /**
-   * names of bones as MetaHuman heads have them, where they have a counterpart: neck_01, FACIAL_C_Jaw; not of the caller's bones
+   * use the bone names of MetaHuman heads where they have a counterpart: neck_01, FACIAL_C_Jaw; not for the caller's bones
    */
   readonly METAHUMAN_NAMES: 64;
 };
@@ -692,9 +692,9 @@ export type AuthorFlags = number;
 
 /** How positions of one mesh are found on another. */
 export declare const Match: {
-  /** the nearest place in space */
+  /** the nearest point in space */
   readonly SURFACE: 0;
-  /** the nearest place in the texture */
+  /** the nearest point in the texture */
   readonly UV: 1;
 };
 export type Match = (typeof Match)[keyof typeof Match];
@@ -1088,7 +1088,7 @@ export interface VertexOutput {
 
 /** How to create derivatives. */
 export interface DerivativesDesc {
-  /** of the rig. NULL: none; then points from LOCALS to POSITIONS are missing */
+  /** of the rig. NULL: none, and no points from LOCALS to POSITIONS */
   deformer?: { readonly handle: number };
 }
 
@@ -1379,7 +1379,7 @@ export interface MixStroke {
   isScaled?: boolean;
 }
 
-/** What a face does in response to a stimulus, such as a bright light. */
+/** The response of a face to a stimulus, such as a bright light. */
 export interface MixReaction {
   /** ticks; minimum time between two starts of strokes that are not held */
   cooldown?: number;
@@ -1858,7 +1858,9 @@ export interface SolverInput {
   isReset?: boolean;
 }
 
-/** A raw control, and its share: at value v of the name it gets weight * v. */
+/**
+ * A raw control and its share: if the name has the value v, the control gets weight * v.
+ */
 export interface ControlShare {
   readonly control: number;
   readonly weight: number;
@@ -1997,7 +1999,7 @@ export interface AuthorDesc {
    */
   mask?: Uint8Array | readonly number[];
   /**
-   * maximum number of facial joints in each of `lods` LODs (mirrored pairs stay together); never increasing, and the first has all. NULL: 240, 160, 110, 75, 50, 32, 20, 12, scaled to facial_joints
+   * maximum number of facial joints in each of `lods` LODs (mirrored pairs stay together); never increasing, and LOD 0 has all. NULL: 240, 160, 110, 75, 50, 32, 20, 12, scaled to facial_joints
    */
   lodJoints?: Uint32Array | readonly number[];
   /** joint group of each of `bones`, 0 to 255. NULL: computed */
@@ -2032,7 +2034,7 @@ export interface PrunedTargets {
 }
 
 /**
- * Which entries of the joint matrix are small: those not above these, in the units of the file.
+ * The largest magnitudes of entries of the joint matrix that count as small, in the units of the file.
  */
 export interface PruneJointsDesc {
   translation?: number;
@@ -2041,22 +2043,25 @@ export interface PruneJointsDesc {
 }
 
 /**
- * What mien_document_prune_joints() did, and the largest distance by which it moved a position.
+ * The effect of mien_document_prune_joints(): removed entries, and the largest distance by which a position
+ * moved.
  */
 export interface PrunedJoints {
   /** entries of the joint matrix that were not 0 */
   readonly entryCount: number;
-  /** of these, now 0 */
+  /** of these, set to 0 */
   readonly removedCount: number;
   /** in the unit of the file */
   readonly worstDistance: number;
-  /** number of the raw control, or corrective with its raw controls, at 1 */
+  /** the raw control at 1, or the corrective whose raw controls were at 1 */
   readonly worstControl: number;
   readonly worstMesh: number;
   readonly worstPosition: number;
 }
 
-/** Where a character goes: scaled about the origin, then rotated about it, then moved. */
+/**
+ * How to place a character: it is scaled about the origin, then rotated about it, then moved.
+ */
 export interface Placement {
   /** above 0. 0: 1 */
   scale?: number;
@@ -2078,34 +2083,32 @@ export interface ProjectDesc {
   keepTargets?: boolean;
 }
 
-/** How the rig followed a mesh. */
+/** How far the rig moved to follow a mesh. */
 export interface Conformed {
-  /** the farthest that a joint moved, in the unit of the file */
+  /** largest distance by which a joint moved, in the unit of the file */
   readonly jointDistance: number;
-  /** which */
+  /** that joint */
   readonly joint: number;
 }
 
 /** How mien_document_transplant() works. */
 export interface TransplantDesc {
   /**
-   * MIEN_MATCH_..., for meshes of the same name; where their faces are the same, positions of the same number correspond
+   * MIEN_MATCH_..., for meshes of the same name; positions of the same number correspond if the meshes have the same faces
    */
   match?: Match;
   /** at most, per position. 0: 8 */
   influences?: number;
 }
 
-/**
- * What a raw control that both rigs have does differently to the positions of LOD 0, at 1.
- */
+/** How differently a raw control of both rigs, at 1, moves the positions of LOD 0. */
 export interface ControlError {
   /** distance of a position, in the unit of the file */
   readonly worst: number;
   readonly rms: number;
-  /** the farthest that the control moved a position before */
+  /** largest distance by which the control moved a position before */
   readonly moved: number;
-  /** its number in the new rig */
+  /** its index in the new rig */
   readonly control: number;
 }
 
@@ -2678,16 +2681,16 @@ export interface Exports {
    */
   mien_deformer_instance_write_vertices_batch(deformer_instances: number, count: number, mesh: number, normals: number, outputs: number, parallel: number): number;
   /**
-   * Creates derivatives. `desc` may be NULL. `rig` may be destroyed afterwards, and so may the deformer. One
-   * block of memory has the weights of networks once more and room for 32 directions. Destroy with
-   * mien_derivatives_destroy().
+   * Creates derivatives. `desc` may be NULL. `rig` may be destroyed afterwards, and so may the deformer.
+   * Takes one block of memory, which holds a copy of the weights of networks and room for 32 directions.
+   * Destroy with mien_derivatives_destroy().
    * Fails with MIEN_ERROR_MISMATCH if the deformer is not of the rig.
    */
   mien_derivatives_create(rig: number, desc: number, out_derivatives: number, error: number): number;
   /** Destroys derivatives. NULL is allowed. */
   mien_derivatives_destroy(derivatives: number): void;
   /**
-   * Returns the bytes of memory that mien_derivatives_create() would need.
+   * Returns the number of bytes that mien_derivatives_create() would allocate.
    * Fails with MIEN_ERROR_MISMATCH if the deformer is not of the rig.
    */
   mien_derivatives_bytes(rig: number, desc: number, out_bytes: number): number;
@@ -2697,42 +2700,44 @@ export interface Exports {
    */
   mien_derivatives_size(derivatives: number, point: number, mesh: number, out_size: number): number;
   /**
-   * Computes the derivatives at the values of `instance`, which must be of the rig and have been evaluated, at
-   * the LOD of that evaluation. `stages` are those that have derivatives, MIEN_STAGE_ALL or some of them: what
-   * the others write counts as constant. Allocates nothing.
-   * Where a function has no derivative, the one to the side is given that lets a solver go on:
-   *   - controls of 0 and 1: into the interval, for correctives, GUI controls and maps
-   *   - where two intervals of a conditional table meet: the steeper one
-   *   - weights of RBF poses below the threshold: as without a threshold; at a stored pose itself 0
-   *   - ReLU at 0: rising
-   * Values are saturated nowhere: derivatives of what overflows are those of the formula. Networks and solvers
-   * that read controls which are computed after them see constants.
+   * Computes the derivatives at the values of `instance`, which must belong to the rig and have been
+   * evaluated, at the LOD of that evaluation. `stages` selects the stages to differentiate, MIEN_STAGE_ALL or
+   * some of them: the results of the others count as constants. Does not allocate or lock.
+   * Where a function has no derivative, a one-sided one is used, so that solvers do not get stuck:
+   *   - controls at 0 or 1, for correctives, GUI controls and maps: into the interval
+   *   - where two intervals of a conditional table meet: that of the steeper one
+   *   - RBF poses with a weight below the threshold: as without a threshold; at a stored pose: 0
+   *   - ReLU at 0: as above 0
+   * Saturation is ignored: values that overflow have the derivatives of the formula. Controls that a network
+   * or solver reads before they are computed count as constants.
    * Fails with MIEN_ERROR_MISMATCH if the instance is not of the rig.
    */
   mien_derivatives_linearize(derivatives: number, instance: number, stages: number): number;
   /**
-   * Multiplies directions by the matrix of derivatives, also called Jacobian-vector products: for each of
-   * `count` directions, rows of mien_derivatives_size() numbers at `from`, how the numbers at `to` change.
-   * Rows follow each other without gaps; `outputs` has `count` rows and must not overlap `directions`. Several
-   * directions in one call are faster than one by one, and have the same bits. Allocates nothing.
+   * Multiplies directions by the matrix of derivatives (Jacobian-vector products). Each of the `count`
+   * directions is a row of mien_derivatives_size() numbers at `from`; its output is the resulting change of
+   * the numbers at `to`. Rows follow each other without gaps; `outputs` has `count` rows and must not overlap
+   * `directions`. Several directions in one call are faster than one by one, and give the same bits. Does not
+   * allocate or lock.
    * Fails with MIEN_ERROR_INDEX if a point lacks its deformer or mesh, MIEN_ERROR_INVALID_ARGUMENT if `from`
    * has no effect on `to` or nothing was linearized.
    */
   mien_derivatives_forward(derivatives: number, from: number, to: number, mesh: number, count: number, directions: number, outputs: number): number;
   /**
-   * Multiplies gradients by the transposed matrix, also called vector-Jacobian products: for each of `count`
-   * gradients by the numbers at `to`, the gradient by those at `from`; `mesh` and all else as in
+   * Multiplies gradients by the transposed matrix (vector-Jacobian products): turns each of `count` gradients
+   * with respect to the numbers at `to` into the gradient with respect to those at `from`. All else is as in
    * mien_derivatives_forward().
    * Fails with MIEN_ERROR_INDEX if a point lacks its deformer or mesh, MIEN_ERROR_INVALID_ARGUMENT if `from`
    * has no effect on `to` or nothing was linearized.
    */
   mien_derivatives_reverse(derivatives: number, from: number, to: number, mesh: number, count: number, gradients: number, outputs: number): number;
   /**
-   * Computes the matrix of derivatives `from` a point `to` another, `mesh` as above. `out_count` is the number of
-   * entries; at most `capacity` of them are written. Allocates nothing.
-   * Fails with MIEN_ERROR_INVALID_ARGUMENT if there are more than `capacity`, unless that is 0, if `from` has
-   * no effect on `to` or nothing was linearized, MIEN_ERROR_INDEX if a point lacks its deformer or mesh, or
-   * a number does not exist.
+   * Computes the matrix of the derivatives of the numbers at `to` with respect to those at `from`, with
+   * `mesh` as above. `out_count` is the number of entries; at most `capacity` of them are written. Does not
+   * allocate or lock.
+   * Fails with MIEN_ERROR_INVALID_ARGUMENT if `capacity` is too small and not 0, if `from` has no effect on
+   * `to` or nothing was linearized, MIEN_ERROR_INDEX if a point lacks its deformer or mesh, or an input or
+   * output does not exist.
    */
   mien_derivatives_jacobian(derivatives: number, from: number, to: number, mesh: number, jacobian: number, out_count: number): number;
   /**
@@ -2889,14 +2894,15 @@ export interface Exports {
   mien_clip_player_sample(clip_player: number, out_values: number): number;
   /**
    * Binds a clip to a rig by names. A channel drives the raw control with its name. If there is none, it
-   * drives the GUI control with its name, which is then mapped as by mien_rig_map_gui_to_raw(). If there
-   * is none either, it drives the controls of its entries in the matrix, which are summed in the order of
-   * the matrix. Names match without regard to case; `.` matches `_`; the prefix `CTRL_expressions.` may be
-   * missing. If several names match, only an exact match counts. A channel that drives nothing so far drives the
-   * controls that mien_rig_match() finds for its name, such as mouthSmile_L for mouthSmileLeft; these are summed
-   * behind those of the matrix. A raw control that a channel drives by name is driven by nothing else, and one that
-   * the matrix or mien_rig_match() drives is not driven by GUI controls. Names without a match are not an error: see mien_clip_binding_info(). `clip` may be closed and `rig` may be
-   * destroyed afterwards. Destroy with mien_clip_binding_destroy().
+   * drives the GUI control with its name, which is then mapped as by mien_rig_map_gui_to_raw(). If there is
+   * none either, it drives the controls of its entries in the matrix, which are summed in the order of the
+   * matrix. Names match without regard to case; `.` matches `_`; the prefix `CTRL_expressions.` may be
+   * missing. If several names match, only an exact match counts. A channel that drives nothing so far drives
+   * the controls that mien_rig_match() finds for its name, such as mouthSmile_L for mouthSmileLeft; these are
+   * summed after those of the matrix. A raw control that a channel drives by name is driven by nothing else,
+   * and one that the matrix or mien_rig_match() drives is not driven by GUI controls. Names without a match
+   * are not an error: see mien_clip_binding_info(). `clip` may be closed and `rig` may be destroyed
+   * afterwards. Destroy with mien_clip_binding_destroy().
    * Fails with MIEN_ERROR_INVALID_ARGUMENT if a weight is not finite, MIEN_ERROR_CLIP_LIMIT if channels
    * drive more than 4095 GUI controls.
    */
@@ -3224,18 +3230,19 @@ export interface Exports {
    */
   mien_solver_state_undeclared(solver_state: number, out_name: number): number;
   /**
-   * Finds the raw controls that a name means on a rig. Takes time in proportion to the number of raw controls: for
-   * loading, not for every frame. Allocates nothing. Writes as many shares as fit; `out_count` is the
-   * total number, at most MIEN_MOST_SHARES, each of another control. `out_shares` may be NULL if `capacity` is 0.
-   * `out_match` is one of MIEN_NAME_MATCH_....
-   * Fails with MIEN_ERROR_NAME if the name means nothing on this rig, or in step 1 or 2 several controls.
+   * Finds the raw controls that a name stands for on a rig. Takes time proportional to the number of raw
+   * controls: meant for loading, not for every frame. Does not allocate or lock. Writes as many shares as
+   * fit; `out_count` is the total number, at most MIEN_MOST_SHARES, each of a different control. `out_shares`
+   * may be NULL if `capacity` is 0. `out_match` is one of MIEN_NAME_MATCH_....
+   * Fails with MIEN_ERROR_NAME if the name matches no control of this rig, or several in step 1 or 2.
    * See docs/face-capture.md, 2 "Names".
    */
   mien_rig_match(rig: number, name: number, name_count: number, out_shares: number, capacity: number, out_count: number, out_match: number): number;
   /**
-   * Gives the usual name of a control: that of ARKit, such as mouthSmileLeft for AU12_L and mouthCornerPullL; where ARKit
-   * has none, that of MetaHuman's raw controls. A name without a side stays without: mouthSmile. Writes as many bytes as
-   * fit, without a null; `out_count` is the total number. `out_name` may be NULL if `capacity` is 0.
+   * Returns the usual name of a control: that of ARKit, such as mouthSmileLeft for AU12_L and
+   * mouthCornerPullL, or that of MetaHuman's raw controls if ARKit has none. A name without a side gets none:
+   * mouthSmile. Writes as many bytes as fit, without a null; `out_count` is the total number. `out_name` may
+   * be NULL if `capacity` is 0.
    * Fails with MIEN_ERROR_NAME if the name is not in the table.
    * See docs/face-capture.md, 2 "Names".
    */
@@ -3271,27 +3278,28 @@ export interface Exports {
    * `dna` may be NULL, for an empty document of version 2.8 with all layers. `dna` may be closed
    * afterwards. Destroy with mien_document_destroy().
    * Fails with MIEN_ERROR_DNA_LAYER if `dna` has RBF behavior without the machine-learned behavior of its
-   * file, MIEN_ERROR_DNA_STRUCTURE, MIEN_ERROR_DNA_REFERENCE or MIEN_ERROR_DNA_VALUE if what was loaded
-   * would not open by itself, MIEN_ERROR_DNA_LIMIT if it has more than 4 GiB.
+   * file, MIEN_ERROR_DNA_STRUCTURE, MIEN_ERROR_DNA_REFERENCE or MIEN_ERROR_DNA_VALUE if the loaded part would
+   * not open by itself, MIEN_ERROR_DNA_LIMIT if it exceeds 4 GiB.
    */
   mien_document_create(dna: number, desc: number, out_document: number, error: number): number;
   /** Destroys a document. */
   mien_document_destroy(document: number): void;
   /**
-   * Finds a field by its path, as mien_dna_field(). byte_offset is MIEN_NO_OFFSET.
+   * Finds a field by its path, like mien_dna_field(). Its byte_offset is MIEN_NO_OFFSET.
    * Fails with MIEN_ERROR_NAME if there is no such field, MIEN_ERROR_INDEX if an index in the path is past
    * the end.
    * See docs/dna-format.md, 6 "Layers, field by field".
    */
   mien_document_field(document: number, path: number, out_field: number, error: number): number;
   /**
-   * Returns the name of field `index` of the record at a path, as mien_dna_child_name(). The string is static.
+   * Returns the name of field `index` of the record at a path, like mien_dna_child_name(). The string is
+   * static.
    * Fails with MIEN_ERROR_NAME if there is no such field, MIEN_ERROR_INDEX if `index` or an index in the
    * path is past the end, MIEN_ERROR_INVALID_ARGUMENT if the field is not a record.
    */
   mien_document_child_name(document: number, path: number, index: number, out_name: number, error: number): number;
   /**
-   * Copies `count` elements of a field, beginning with element `first`, to `out`, as
+   * Copies `count` elements of a field, beginning with element `first`, to `out`, like
    * mien_dna_read_floats(). `out` may be NULL if `count` is 0.
    * Fails with MIEN_ERROR_NAME if there is no such field, MIEN_ERROR_INDEX if the range or an index in
    * the path is past the end, MIEN_ERROR_INVALID_ARGUMENT if the field does not hold numbers of this
@@ -3299,7 +3307,7 @@ export interface Exports {
    */
   mien_document_read_floats(document: number, path: number, first: bigint, count: bigint, out: number, error: number): number;
   /**
-   * Copies `count` elements of a field, beginning with element `first`, to `out`, as
+   * Copies `count` elements of a field, beginning with element `first`, to `out`, like
    * mien_dna_read_floats(). `out` may be NULL if `count` is 0.
    * Fails with MIEN_ERROR_NAME if there is no such field, MIEN_ERROR_INDEX if the range or an index in
    * the path is past the end, MIEN_ERROR_INVALID_ARGUMENT if the field does not hold numbers of this
@@ -3314,9 +3322,9 @@ export interface Exports {
    */
   mien_document_read_string(document: number, path: number, out_string: number, error: number): number;
   /**
-   * Returns the bytes of an array of numbers or of a string where they are: big-endian and unaligned, as in
-   * a file. Contents change with mien_document_write_floats(), mien_document_write_integers(),
-   * mien_document_undo(): the view is valid until the document is changed.
+   * Returns the bytes of an array of numbers or of a string in place: big-endian and unaligned, as in a file.
+   * Contents change with mien_document_write_floats(), mien_document_write_integers(), mien_document_undo():
+   * the view is valid until the document is changed.
    * Fails with MIEN_ERROR_NAME if there is no such field, MIEN_ERROR_INDEX if an index in the path is
    * past the end, MIEN_ERROR_INVALID_ARGUMENT if the field is neither an array nor a string.
    */
@@ -3348,30 +3356,30 @@ export interface Exports {
   mien_document_write_string(document: number, path: number, string: number, string_count: number, error: number): number;
   /**
    * Replaces `removed_count` elements of an array or list, beginning with element `first`, by
-   * `inserted_count` new ones: zeros, empty strings, or records of these. What refers to elements by
-   * their number stays as it is. Copies the array, or the list without its contents.
+   * `inserted_count` new ones: zeros, empty strings, or records of these. References to elements by number do
+   * not change. Copies the array, or the list without its contents.
    * Fails with MIEN_ERROR_NAME if there is no such field, MIEN_ERROR_INDEX if the range or an index in
    * the path is past the end, MIEN_ERROR_INVALID_ARGUMENT if the field is neither an array nor a list, or
    * would have more than 2^32 - 1 elements, MIEN_ERROR_MEMORY if the allocator returns NULL.
    */
   mien_document_splice(document: number, path: number, first: bigint, removed_count: bigint, inserted_count: bigint, error: number): number;
   /**
-   * Gives an array or list `count` elements: drops the last ones or adds new ones, as
+   * Gives an array or list `count` elements: drops the last ones or adds new ones, like
    * mien_document_splice().
    * Fails like mien_document_splice().
    */
   mien_document_resize(document: number, path: number, count: bigint, error: number): number;
   /**
    * Remembers the current state, at the cost of some KB. Mark 0 always exists: the state in which the
-   * document was created. Memory of changes before a mark is kept until the document is destroyed or an
-   * earlier mark restored.
+   * document was created. Changes before a mark keep their memory until the document is destroyed or an
+   * earlier mark is restored.
    * Fails with MIEN_ERROR_MEMORY if the allocator returns NULL.
    */
   mien_document_mark(document: number, out_mark: number, error: number): number;
   /**
-   * Goes back to the state at a mark: `mark` is a number of mien_document_mark(), or 0. Later marks are
-   * gone, this one stays. Does not allocate or lock.
-   * Fails with MIEN_ERROR_INDEX if `mark` is not a mark of the document, or gone.
+   * Goes back to the state at a mark: `mark` is a number from mien_document_mark(), or 0. Later marks become
+   * invalid, this one stays valid. Does not allocate or lock.
+   * Fails with MIEN_ERROR_INDEX if `mark` is not a valid mark of the document.
    */
   mien_document_undo(document: number, mark: bigint, error: number): number;
   /**
@@ -3389,12 +3397,13 @@ export interface Exports {
    */
   mien_document_rename(document: number, kind: number, index: number, name: number, error: number): number;
   /**
-   * Removes joints, blend shape channels, animated maps or meshes, and what refers to them: names, LOD lists,
-   * rows of tables, targets, networks' regions. `indices` has `index_count` elements. Children of a joint go to its nearest ancestor that stays, or
-   * become roots, and keep their neutral place in the world; motions that are relative to the parent keep
-   * their numbers. The joint's skin weights go to the same ancestor, or to the first joint that stays.
-   * Quaternion joints move as before within 1e-2 degrees; where columns of a joint group would rotate
-   * them in another order, each of its quaternion joints gets a joint group of its own.
+   * Removes joints, blend shape channels, animated maps or meshes, and everything that refers to them: names,
+   * LOD lists, rows of tables, targets, regions of networks. `indices` has `index_count` elements. Children
+   * of a joint go to its nearest ancestor that stays, or become roots, and keep their neutral place in the
+   * world; motions that are relative to the parent keep their numbers. The joint's skin weights go to the
+   * same ancestor, or to the first joint that stays. Quaternion joints move as before within 1e-2 degrees;
+   * where the columns of a joint group would rotate them in another order, each quaternion joint of the group
+   * gets a joint group of its own.
    * Fails with MIEN_ERROR_INDEX if an index is past the end, MIEN_ERROR_INVALID_ARGUMENT if elements of the
    * kind cannot be removed, or no joint would be left for the skin weights, MIEN_ERROR_DNA_STRUCTURE,
    * MIEN_ERROR_DNA_REFERENCE, MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE if the document is not valid,
@@ -3402,13 +3411,13 @@ export interface Exports {
    */
   mien_document_remove(document: number, kind: number, indices: number, index_count: number, error: number): number;
   /**
-   * Removes all blend shape channels with their targets, all animated maps, or, for MIEN_KIND_JOINT, all that
-   * moves joints. `kind` is a MIEN_KIND_....
+   * Removes all blend shape channels with their targets, all animated maps, or, for MIEN_KIND_JOINT,
+   * everything that moves joints. `kind` is a MIEN_KIND_....
    * Fails like mien_document_remove(), but not with MIEN_ERROR_INDEX.
    */
   mien_document_clear(document: number, kind: number, error: number): number;
   /**
-   * Removes what moves these joints: their rows of joint groups, twists, swings and ML joints.
+   * Removes everything that moves these joints: their rows of joint groups, twists, swings and ML joints.
    * Fails like mien_document_remove().
    */
   mien_document_clear_joints(document: number, joints: number, joint_count: number, error: number): number;
@@ -3416,23 +3425,23 @@ export interface Exports {
    * Sets neutral transforms of joints from `first_joint` on, relative to their parents, in the units and
    * axes of the file: translations, 3 floats per joint, and rotations, 3 floats per joint. Either may be
    * left out: `translations` may be NULL; `rotations` may be NULL.
-   * Fails with MIEN_ERROR_INDEX if there are not so many joints, MIEN_ERROR_INVALID_ARGUMENT if a number is
-   * not finite, MIEN_ERROR_DNA_STRUCTURE, MIEN_ERROR_DNA_REFERENCE, MIEN_ERROR_DNA_LIMIT or
-   * MIEN_ERROR_DNA_VALUE if the document is not valid, MIEN_ERROR_MEMORY if the allocator returns NULL.
+   * Fails with MIEN_ERROR_INDEX if there are fewer joints, MIEN_ERROR_INVALID_ARGUMENT if a number is not
+   * finite, MIEN_ERROR_DNA_STRUCTURE, MIEN_ERROR_DNA_REFERENCE, MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE
+   * if the document is not valid, MIEN_ERROR_MEMORY if the allocator returns NULL.
    */
   mien_document_set_neutral(document: number, first_joint: number, translations: number, rotations: number, count: number, error: number): number;
   /**
-   * Sets all positions of a mesh, 3 floats per position. Normals stay: deformers recompute them, or write
-   * geom.meshes[i].normals.
+   * Sets all positions of a mesh, 3 floats per position. Normals do not change: deformers recompute them by
+   * default; otherwise write geom.meshes[i].normals.
    * Fails with MIEN_ERROR_INDEX if `mesh` is past the end, MIEN_ERROR_INVALID_ARGUMENT if the mesh has another
    * number of positions, or a number is not finite, MIEN_ERROR_MEMORY if the allocator returns NULL.
    */
   mien_document_set_positions(document: number, mesh: number, positions: number, position_count: number, error: number): number;
   /**
    * Sets the target of blend shape channel `channel` on mesh `mesh`: 3 floats per delta, of the positions
-   * `vertices`. `vertices` may be NULL for the first `count` positions. Deltas of zero are left out; without
-   * any other, the target is removed. The pair of mesh and channel in defn.meshBlendShapeChannelMapping
-   * follows.
+   * `vertices`. `vertices` may be NULL for the first `count` positions. Deltas of zero are left out; if there
+   * are no others, the target is removed. The pair of mesh and channel in defn.meshBlendShapeChannelMapping
+   * is added or removed with it.
    * Fails with MIEN_ERROR_INDEX if `mesh`, `channel` or a vertex is past the end, MIEN_ERROR_INVALID_ARGUMENT
    * if there are more deltas than positions, or a number is not finite, MIEN_ERROR_DNA_STRUCTURE,
    * MIEN_ERROR_DNA_REFERENCE, MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE if the document is not valid,
@@ -3441,16 +3450,16 @@ export interface Exports {
   mien_document_set_target(document: number, mesh: number, channel: number, vertices: number, deltas: number, count: number, error: number): number;
   /**
    * Removes deltas not longer than `tolerance`, in the unit of the file, and targets that have none left.
-   * `out_pruned` gets how many.
+   * `out_pruned` gets their numbers.
    * Fails with MIEN_ERROR_INVALID_ARGUMENT if `tolerance` is negative or not finite, MIEN_ERROR_DNA_STRUCTURE,
    * MIEN_ERROR_DNA_REFERENCE, MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE if the document is not valid,
    * MIEN_ERROR_MEMORY if the allocator returns NULL.
    */
   mien_document_prune_targets(document: number, tolerance: number, out_pruned: number, error: number): number;
   /**
-   * Sets small entries of the joint matrix to 0, and removes columns and rows of joint groups without any
-   * other. Measures what that does to the positions of LOD 0: over each raw control at 1, and each
-   * corrective with all its raw controls at 1. `desc` is required.
+   * Sets small entries of the joint matrix to 0, and removes columns and rows of joint groups that have no
+   * others. Measures how far that moves the positions of LOD 0, with each raw control at 1, and with all raw
+   * controls of each corrective at 1. `desc` is required.
    * Fails with MIEN_ERROR_INVALID_ARGUMENT if a field of `desc` is negative or not finite,
    * MIEN_ERROR_DNA_STRUCTURE, MIEN_ERROR_DNA_REFERENCE, MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE if the
    * document is not valid, MIEN_ERROR_MEMORY if the allocator returns NULL.
@@ -3473,15 +3482,15 @@ export interface Exports {
    */
   mien_document_normalize_weights(document: number, mesh: number, error: number): number;
   /**
-   * Keeps the `influences` largest weights of each position of mesh `mesh` that has more, in their order, scaled to the
-   * sum that all had.
+   * Keeps the `influences` largest weights of each position of mesh `mesh`, in their order, scaled to the
+   * previous sum.
    * Fails like mien_document_normalize_weights(), and with MIEN_ERROR_INVALID_ARGUMENT if `influences` is 0.
    */
   mien_document_limit_influences(document: number, mesh: number, influences: number, error: number): number;
   /**
-   * Smooths the weights of mesh `mesh` `iterations` times: those of each position become (1 - strength) of its own
-   * and strength of the mean of its neighbors along edges. Positions at the same place count as one. Each
-   * keeps at most `influences`, with a sum of 1.
+   * Smooths the weights of mesh `mesh` `iterations` times: those of each position become (1 - strength) times
+   * its own plus strength times the mean of its neighbors along edges. Positions at the same place count as
+   * one. Each keeps at most `influences`, with a sum of 1.
    * Fails like mien_document_limit_influences(), and with MIEN_ERROR_INVALID_ARGUMENT if `strength` is not 0
    * to 1, or there are more than 1000 iterations.
    */
@@ -3497,15 +3506,15 @@ export interface Exports {
    */
   mien_document_place(document: number, placement: number, error: number): number;
   /**
-   * Keeps the LODs whose bits are set in `lods`, as MienDnaDesc.lods.
-   * Fails with MIEN_ERROR_LOD if there is none of them, MIEN_ERROR_DNA_STRUCTURE, MIEN_ERROR_DNA_REFERENCE,
+   * Keeps the LODs whose bits are set in `lods`, like MienDnaDesc.lods.
+   * Fails with MIEN_ERROR_LOD if none of them exists, MIEN_ERROR_DNA_STRUCTURE, MIEN_ERROR_DNA_REFERENCE,
    * MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE if the document is not valid, MIEN_ERROR_MEMORY if the
    * allocator returns NULL.
    * See docs/dna-format.md, 10 "Choosing LODs".
    */
   mien_document_keep_lods(document: number, lods: bigint, error: number): number;
   /**
-   * Converts to another coordinate system, as MienDnaDesc.system. `system` is required.
+   * Converts to another coordinate system, like MienDnaDesc.system. `system` is required.
    * Fails with MIEN_ERROR_DNA_VALUE if the rig cannot be converted or the document is not valid,
    * MIEN_ERROR_DNA_STRUCTURE, MIEN_ERROR_DNA_REFERENCE or MIEN_ERROR_DNA_LIMIT if the document is not valid,
    * MIEN_ERROR_MEMORY if the allocator returns NULL.
@@ -3516,44 +3525,46 @@ export interface Exports {
    * Copies the layers of another document whose bits are set. `layers` is a MIEN_LAYER_..., combined with |.
    * Layers that refer to each other are copied together.
    * Fails with MIEN_ERROR_INVALID_ARGUMENT if `layers` has other bits, MIEN_ERROR_DNA_STRUCTURE,
-   * MIEN_ERROR_DNA_REFERENCE, MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE if they do not fit the layers that
-   * stay, MIEN_ERROR_MEMORY if the allocator returns NULL.
+   * MIEN_ERROR_DNA_REFERENCE, MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE if they do not fit the other
+   * layers, MIEN_ERROR_MEMORY if the allocator returns NULL.
    */
   mien_document_copy_layers(document: number, from: number, layers: number, error: number): number;
   /**
-   * Copies mesh `mesh` of another document: over the mesh of the same name, or as a new one at the LODs where it
-   * is there and that this document has. Joints and channels are found by name; a joint that is not here
-   * hands its influence to its nearest ancestor that is, targets of other channels are left out.
+   * Copies mesh `mesh` of another document. It replaces the mesh of the same name, or becomes a new one, at
+   * its LODs in the other document as far as this document has them. Joints and channels are found by name;
+   * the influence of a missing joint goes to its nearest ancestor that exists here, and targets of missing
+   * channels are left out.
    * Fails with MIEN_ERROR_INDEX if there is no such mesh, MIEN_ERROR_INVALID_ARGUMENT if both documents are
-   * the same, MIEN_ERROR_MISMATCH if the documents differ in axes,
-   * units or rotations, or no joint of a position is here, MIEN_ERROR_DNA_STRUCTURE,
-   * MIEN_ERROR_DNA_REFERENCE, MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE if one of them is not valid,
-   * MIEN_ERROR_MEMORY if the allocator returns NULL.
+   * the same, MIEN_ERROR_MISMATCH if the documents differ in axes, units or rotations, or this one has no
+   * joint of a position, MIEN_ERROR_DNA_STRUCTURE, MIEN_ERROR_DNA_REFERENCE, MIEN_ERROR_DNA_LIMIT or
+   * MIEN_ERROR_DNA_VALUE if one of them is not valid, MIEN_ERROR_MEMORY if the allocator returns NULL.
    */
   mien_document_copy_mesh(document: number, from: number, mesh: number, out_mesh: number, error: number): number;
   /**
    * Adds the joints of another document whose names this one lacks, such as those of a body to a head: below
-   * the joints of the same names, behind the own ones, at the LODs that list them there. Joints that both
-   * have stay as they are, but a root that has a parent there becomes its child. Joints that both have must
-   * stand in the same place of the model, within `tolerance` in the unit of the file.
-   * Fails with MIEN_ERROR_INVALID_ARGUMENT if both documents are the same, MIEN_ERROR_MISMATCH if the documents differ in axes, units or rotations, or in the place of a
-   * joint, MIEN_ERROR_DNA_STRUCTURE, MIEN_ERROR_DNA_REFERENCE, MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE
-   * if one of them is not valid or the result would not be, MIEN_ERROR_MEMORY if the allocator returns NULL.
+   * the joints with the names of their parents, numbered after the existing ones, at the LODs that list them
+   * in the other document. Joints of both documents stay as they are, but a root that has a parent in the
+   * other one becomes its child. They must have the same place in model space, within `tolerance` in the unit
+   * of the file.
+   * Fails with MIEN_ERROR_INVALID_ARGUMENT if both documents are the same, MIEN_ERROR_MISMATCH if they differ
+   * in axes, units or rotations, or in the place of a joint, MIEN_ERROR_DNA_STRUCTURE,
+   * MIEN_ERROR_DNA_REFERENCE, MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE if one of them is not valid or the
+   * result would not be, MIEN_ERROR_MEMORY if the allocator returns NULL.
    */
   mien_document_merge_joints(document: number, from: number, tolerance: number, error: number): number;
   /**
-   * Removes the joints that another document does not have by name, as mien_document_remove().
+   * Removes the joints whose names another document lacks, like mien_document_remove().
    * Fails with MIEN_ERROR_INVALID_ARGUMENT if no joint would be left for the skin weights,
    * MIEN_ERROR_DNA_STRUCTURE, MIEN_ERROR_DNA_REFERENCE, MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE if
    * `document` is not valid, MIEN_ERROR_MEMORY if the allocator returns NULL.
    */
   mien_document_split_joints(document: number, from: number, error: number): number;
   /**
-   * Gives mesh `mesh` the skin weights and targets of mesh `source`, interpolated at the place of each position:
-   * a coarser LOD from a finer one. Joints that no LOD of the mesh lists hand their influence to the nearest
-   * ancestor that one does; targets of channels that none lists are left out. Where these LODs list no
-   * joints or channels, all stay. `out_farthest` gets the largest distance to a place: in the unit of the file,
-   * or of the texture.
+   * Gives mesh `mesh` the skin weights and targets of mesh `source`, interpolated at the point of `source`
+   * nearest to each position: a coarser LOD from a finer one. The influence of joints that no LOD of the mesh
+   * lists goes to the nearest ancestor that one of them lists; targets of channels that none lists are left
+   * out. If these LODs list no joints or channels at all, all are kept. `out_farthest` gets the largest
+   * distance to a nearest point, in the unit of the file or of the texture.
    * Fails with MIEN_ERROR_INDEX if `mesh` or `source` is past the end, MIEN_ERROR_INVALID_ARGUMENT if they are
    * the same, or lack triangles, texture coordinates or weights, MIEN_ERROR_DNA_STRUCTURE,
    * MIEN_ERROR_DNA_REFERENCE, MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE if the document is not valid,
@@ -3571,10 +3582,10 @@ export interface Exports {
    */
   mien_document_make_lod(document: number, lod: number, source_lod: number, desc: number, out_farthest: number, error: number): number;
   /**
-   * Gives mesh `mesh` new positions, 3 floats per position, such as a head that an artist reshaped, and lets the
-   * rig follow: joints move as the surface around them does, and keep their orientation; targets turn and
-   * scale with the surface, translations that controls add to joints scale, normals turn. `others` is 0,
-   * or 1 to move the other meshes, too. Motions of the whole mesh are followed exactly.
+   * Gives mesh `mesh` new positions, 3 floats per position, such as a head that an artist reshaped, and lets
+   * the rig follow: joints move with the surface around them and keep their orientation; targets rotate and
+   * scale with the surface, translations that controls add to joints scale with it, and normals rotate.
+   * `others` is 0, or 1 to move the other meshes, too. A motion of the whole mesh is followed exactly.
    * Fails with MIEN_ERROR_INDEX if `mesh` is past the end, MIEN_ERROR_INVALID_ARGUMENT if the mesh has another
    * number of positions, or a number is not finite, MIEN_ERROR_DNA_STRUCTURE, MIEN_ERROR_DNA_REFERENCE,
    * MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE if the document is not valid, MIEN_ERROR_MEMORY if the
@@ -3584,10 +3595,10 @@ export interface Exports {
   /**
    * Gives a character the rig of a template: controls, joints, behavior, and LODs of document `rig`. The
    * character keeps its shape. Its meshes keep topology and positions where the template has a mesh of the
-   * same name, and get weights and targets from it; other meshes are the template's, moved with the surface. Joints that
-   * both have by name stand where the character's stood, others move with the surface. `out_errors` has
-   * `capacity` elements, one for each raw control that both rigs have, and may be shorter; `out_errors`
-   * may be NULL; `out_count` gets how many were written.
+   * same name, and get weights and targets from it; other meshes are the template's, moved with the surface.
+   * Joints with names of joints of the character keep the places of those, others move with the surface.
+   * `out_errors` has `capacity` elements, one for each raw control of both rigs, or fewer; `out_errors` may
+   * be NULL; `out_count` gets the number written.
    * Fails with MIEN_ERROR_MISMATCH if the documents differ in axes, units or rotations,
    * MIEN_ERROR_INVALID_ARGUMENT if no mesh of LOD 0 has the name of one of the template, or meshes lack
    * triangles or texture coordinates, MIEN_ERROR_DNA_STRUCTURE, MIEN_ERROR_DNA_REFERENCE,
@@ -3596,18 +3607,18 @@ export interface Exports {
    */
   mien_document_transplant(document: number, rig: number, desc: number, out_errors: number, capacity: number, out_count: number, error: number): number;
   /**
-   * Checks all that opening a file checks, and opens the document as a file. `document` may be destroyed
-   * afterwards. Close with mien_dna_close().
+   * Opens the document as a file, with all checks of opening a file. `document` may be destroyed afterwards.
+   * Close with mien_dna_close().
    * Fails with MIEN_ERROR_DNA_TRUNCATED, MIEN_ERROR_DNA_STRUCTURE, MIEN_ERROR_DNA_REFERENCE,
-   * MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE if the document is not a valid file, of which the message
-   * names the first field; mien_document_validate() lists them all.
+   * MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE if the document is not a valid file; the message names the
+   * first invalid field, mien_document_validate() lists them all.
    * See docs/dna-format.md, 13 "What is checked".
    */
   mien_document_to_dna(document: number, desc: number, out_dna: number, error: number): number;
   /**
-   * Checks the document as mien_dna_validate_memory() would check its file. `document` may be destroyed
-   * afterwards. Destroy with mien_report_destroy().
-   * Fails with MIEN_ERROR_DNA_LIMIT if the file would have more than 4 GiB.
+   * Checks the document like mien_dna_validate_memory() its file. `document` may be destroyed afterwards.
+   * Destroy with mien_report_destroy().
+   * Fails with MIEN_ERROR_DNA_LIMIT if the file would exceed 4 GiB.
    */
   mien_document_validate(document: number, desc: number, out_report: number, error: number): number;
 }

@@ -23,7 +23,7 @@ pub const MIEN_NO_MESH: u32 = 4294967295;
 pub const MIEN_NO_CONTROL: u32 = 65535;
 /// Value of a joint index that means no joint.
 pub const MIEN_NO_JOINT: u32 = 65535;
-/// The largest number of shares of a name.
+/// The largest number of controls that a name matches.
 pub const MIEN_MOST_SHARES: u32 = 16;
 
 // enum MienStatusCode
@@ -438,7 +438,7 @@ pub const MIEN_NAME_MATCH_SPELLING: u32 = 2;
 pub const MIEN_NAME_MATCH_ALIAS: u32 = 3;
 /// The controls of the left and the right side.
 pub const MIEN_NAME_MATCH_BOTH_SIDES: u32 = 4;
-/// An expression that is several controls.
+/// An expression of several controls.
 pub const MIEN_NAME_MATCH_EXPRESSION: u32 = 5;
 
 // enum MienPreset
@@ -509,7 +509,7 @@ pub const MIEN_MESH_AXIS_MINUS_Z: u32 = 6;
 pub const MIEN_AUTHOR_PAPER: u32 = 1;
 /// The face mask may include parts of the neck.
 pub const MIEN_AUTHOR_NO_NECK_CUT: u32 = 2;
-/// The face mask is what shapes move: for heads that are not human.
+/// The face mask is where shapes move: for heads that are not human.
 pub const MIEN_AUTHOR_MASK_FROM_SHAPES: u32 = 4;
 /// Weight positions by the area around them: for scans.
 pub const MIEN_AUTHOR_AREA_DENSITY: u32 = 8;
@@ -517,14 +517,14 @@ pub const MIEN_AUTHOR_AREA_DENSITY: u32 = 8;
 pub const MIEN_AUTHOR_NO_TARGETS: u32 = 16;
 /// Group by distance in space, not in depth: for comparison.
 pub const MIEN_AUTHOR_GROUP_IN_SPACE: u32 = 32;
-/// Names of bones as MetaHuman heads have them, where they have a counterpart: `neck_01`,
-/// FACIAL\_C\_Jaw; not of the caller's bones.
+/// Use the bone names of MetaHuman heads where they have a counterpart: `neck_01`, FACIAL\_C\_Jaw;
+/// not for the caller's bones.
 pub const MIEN_AUTHOR_METAHUMAN_NAMES: u32 = 64;
 
 // enum MienMatch
-/// The nearest place in space.
+/// The nearest point in space.
 pub const MIEN_MATCH_SURFACE: u32 = 0;
-/// The nearest place in the texture.
+/// The nearest point in the texture.
 pub const MIEN_MATCH_UV: u32 = 1;
 
 /// A checked, read-only view of a DNA file. Immutable.
@@ -593,7 +593,7 @@ pub struct MienDeformerInstance {
     _opaque: Opaque,
 }
 
-/// Derivatives of one rig, and the memory to compute them. Needed by one thread at a time.
+/// Derivatives of one rig, and the memory to compute them. Belongs to one thread at a time.
 #[repr(C)]
 pub struct MienDerivatives {
     _size: [u8; 0],
@@ -646,11 +646,12 @@ pub struct MienClipBinding {
     _opaque: Opaque,
 }
 
-/// What is mixed for one rig, and how. A row holds one value per curve. The curves are the raw
-/// controls of the rig, then pose variables: numbers of the caller that are mixed by the same
-/// rules (gaze, head turn, breath). Each step of a MienMixer applies the layers in order, then
-/// reactions, guards, layers and reactions that act after the guards, antagonists, and limits.
-/// docs/mixing.md explains each stage. One mix serves any number of mixers and threads. Immutable.
+/// A description of what is mixed for one rig, and how. A row holds one value per curve. The
+/// curves are the raw controls of the rig, then pose variables: numbers of the caller that are
+/// mixed by the same rules (gaze, head turn, breath). Each step of a MienMixer applies the layers
+/// in order, then reactions, guards, layers and reactions that act after the guards, antagonists,
+/// and limits. docs/mixing.md explains each stage. One mix serves any number of mixers and
+/// threads. Immutable.
 #[repr(C)]
 pub struct MienMix {
     _size: [u8; 0],
@@ -704,10 +705,10 @@ pub struct MienAuthorReport {
     _opaque: Opaque,
 }
 
-/// A DNA file that can be changed: its fields by the paths of `mien_dna_field()`, and as a whole
-/// by operations that keep together what refers to each other. Every change happens completely or,
-/// if the call fails, not at all. What is not changed stays as it is, byte for byte. Memory is
-/// taken for what is changed only, beyond a copy of the file that was opened.
+/// A DNA file that can be changed: field by field, with the paths of `mien_dna_field()`, and by
+/// operations that keep all references consistent. Every change happens completely or, if the call
+/// fails, not at all. Everything else stays as it is, byte for byte. Memory is taken for a copy of
+/// the file that was opened, and for changed fields.
 #[repr(C)]
 pub struct MienDocument {
     _size: [u8; 0],
@@ -1515,7 +1516,7 @@ impl Default for MienVertexOutput {
 #[derive(Clone, Copy)]
 pub struct MienDerivativesDesc {
     pub struct_size: usize,
-    /// Of the rig. NULL: none; then points from LOCALS to POSITIONS are missing.
+    /// Of the rig. NULL: none, and no points from LOCALS to POSITIONS.
     pub deformer: *const MienDeformer,
     /// NULL: the heap.
     pub allocator: *const MienAllocator,
@@ -2053,7 +2054,7 @@ impl Default for MienMixStroke {
     }
 }
 
-/// What a face does in response to a stimulus, such as a bright light.
+/// The response of a face to a stimulus, such as a bright light.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienMixReaction {
@@ -2853,7 +2854,7 @@ impl Default for MienSolverInput {
     }
 }
 
-/// A raw control, and its share: at value v of the name it gets weight \* v.
+/// A raw control and its share: if the name has the value v, the control gets weight \* v.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienControlShare {
@@ -3067,7 +3068,7 @@ pub struct MienAuthorDesc {
     /// NULL: computed.
     pub mask: *const u8,
     /// Maximum number of facial joints in each of `lods` LODs (mirrored pairs stay together);
-    /// never increasing, and the first has all. NULL: 240, 160, 110, 75, 50, 32, 20, 12, scaled to
+    /// never increasing, and LOD 0 has all. NULL: 240, 160, 110, 75, 50, 32, 20, 12, scaled to
     /// `facial_joints`.
     pub lod_joints: *const u32,
     /// Joint group of each of `bones`, 0 to 255. NULL: computed.
@@ -3135,7 +3136,8 @@ impl Default for MienPrunedTargets {
     }
 }
 
-/// Which entries of the joint matrix are small: those not above these, in the units of the file.
+/// The largest magnitudes of entries of the joint matrix that count as small, in the units of the
+/// file.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienPruneJointsDesc {
@@ -3157,18 +3159,19 @@ impl Default for MienPruneJointsDesc {
     }
 }
 
-/// What `mien_document_prune_joints()` did, and the largest distance by which it moved a position.
+/// The effect of `mien_document_prune_joints()`: removed entries, and the largest distance by
+/// which a position moved.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienPrunedJoints {
     pub struct_size: usize,
     /// Entries of the joint matrix that were not 0.
     pub entry_count: u64,
-    /// Of these, now 0.
+    /// Of these, set to 0.
     pub removed_count: u64,
     /// In the unit of the file.
     pub worst_distance: f64,
-    /// Number of the raw control, or corrective with its raw controls, at 1.
+    /// The raw control at 1, or the corrective whose raw controls were at 1.
     pub worst_control: u32,
     pub worst_mesh: u32,
     pub worst_position: u32,
@@ -3185,7 +3188,7 @@ impl Default for MienPrunedJoints {
     }
 }
 
-/// Where a character goes: scaled about the origin, then rotated about it, then moved.
+/// How to place a character: it is scaled about the origin, then rotated about it, then moved.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienPlacement {
@@ -3233,14 +3236,14 @@ impl Default for MienProjectDesc {
     }
 }
 
-/// How the rig followed a mesh.
+/// How far the rig moved to follow a mesh.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienConformed {
     pub struct_size: usize,
-    /// The farthest that a joint moved, in the unit of the file.
+    /// Largest distance by which a joint moved, in the unit of the file.
     pub joint_distance: f64,
-    /// which.
+    /// That joint.
     pub joint: u32,
     pub reserved: u32,
 }
@@ -3260,8 +3263,8 @@ impl Default for MienConformed {
 #[derive(Clone, Copy)]
 pub struct MienTransplantDesc {
     pub struct_size: usize,
-    /// `MIEN_MATCH_...`, for meshes of the same name; where their faces are the same, positions of
-    /// the same number correspond.
+    /// `MIEN_MATCH_...`, for meshes of the same name; positions of the same number correspond if
+    /// the meshes have the same faces.
     pub r#match: u32,
     /// At most, per position. 0: 8.
     pub influences: u32,
@@ -3277,16 +3280,16 @@ impl Default for MienTransplantDesc {
     }
 }
 
-/// What a raw control that both rigs have does differently to the positions of LOD 0, at 1.
+/// How differently a raw control of both rigs, at 1, moves the positions of LOD 0.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienControlError {
     /// Distance of a position, in the unit of the file.
     pub worst: f64,
     pub rms: f64,
-    /// The farthest that the control moved a position before.
+    /// Largest distance by which the control moved a position before.
     pub moved: f64,
-    /// Its number in the new rig.
+    /// Its index in the new rig.
     pub control: u32,
     pub reserved: u32,
 }
@@ -3485,10 +3488,10 @@ extern "C" {
 
     /// Writes a DNA file in canonical form: byte for byte the original if that was canonical and
     /// was loaded completely. Layers that were not loaded are written empty. Another version may
-    /// not have layers that others need, such as the ML operations of networks; a file that could
-    /// not be opened again is never written. The file is written under a temporary name and
-    /// renamed, so that a failure leaves `path` unchanged. An existing file keeps its permissions;
-    /// a symbolic link is followed, unless it leads nowhere.
+    /// lack layers that others need, such as the ML operations of networks; a file that could not
+    /// be opened again is never written. The file is written under a temporary name and renamed,
+    /// so that a failure leaves `path` unchanged. An existing file keeps its permissions; a
+    /// symbolic link is followed, unless it leads nowhere.
     ///
     /// Fails with `MIEN_ERROR_FILE_WRITE` if the file cannot be written, `MIEN_ERROR_DNA_LAYER` if
     /// RBF behavior was loaded without the machine-learned behavior of its file (whose controls
@@ -3967,8 +3970,8 @@ extern "C" {
     pub fn mien_deformer_instance_write_vertices_batch(deformer_instances: *const *mut MienDeformerInstance, count: usize, mesh: u32, normals: u32, outputs: *const MienVertexOutput, parallel: *const MienParallelFor) -> MienStatus;
 
     /// Creates derivatives. `desc` may be NULL. `rig` may be destroyed afterwards, and so may the
-    /// deformer. One block of memory has the weights of networks once more and room for 32
-    /// directions. Destroy with `mien_derivatives_destroy()`.
+    /// deformer. Takes one block of memory, which holds a copy of the weights of networks and room
+    /// for 32 directions. Destroy with `mien_derivatives_destroy()`.
     ///
     /// Fails with `MIEN_ERROR_MISMATCH` if the deformer is not of the rig.
     pub fn mien_derivatives_create(rig: *const MienRig, desc: *const MienDerivativesDesc, out_derivatives: *mut *mut MienDerivatives, error: *mut MienError) -> MienStatus;
@@ -3976,7 +3979,7 @@ extern "C" {
     /// Destroys derivatives. NULL is allowed.
     pub fn mien_derivatives_destroy(derivatives: *mut MienDerivatives);
 
-    /// Returns the bytes of memory that `mien_derivatives_create()` would need.
+    /// Returns the number of bytes that `mien_derivatives_create()` would allocate.
     ///
     /// Fails with `MIEN_ERROR_MISMATCH` if the deformer is not of the rig.
     pub fn mien_derivatives_bytes(rig: *const MienRig, desc: *const MienDerivativesDesc, out_bytes: *mut u64) -> MienStatus;
@@ -3988,50 +3991,50 @@ extern "C" {
     /// there is none.
     pub fn mien_derivatives_size(derivatives: *const MienDerivatives, point: u32, mesh: u32, out_size: *mut usize) -> MienStatus;
 
-    /// Computes the derivatives at the values of `instance`, which must be of the rig and have
-    /// been evaluated, at the LOD of that evaluation. `stages` are those that have derivatives,
-    /// `MIEN_STAGE_ALL` or some of them: what the others write counts as constant. Allocates
-    /// nothing. Where a function has no derivative, the one to the side is given that lets a
-    /// solver go on:
+    /// Computes the derivatives at the values of `instance`, which must belong to the rig and have
+    /// been evaluated, at the LOD of that evaluation. `stages` selects the stages to
+    /// differentiate, `MIEN_STAGE_ALL` or some of them: the results of the others count as
+    /// constants. Does not allocate or lock. Where a function has no derivative, a one-sided one
+    /// is used, so that solvers do not get stuck:
     ///
     /// ```text
-    /// - controls of 0 and 1: into the interval, for correctives, GUI controls and maps
-    /// - where two intervals of a conditional table meet: the steeper one
-    /// - weights of RBF poses below the threshold: as without a threshold; at a stored pose itself 0
-    /// - ReLU at 0: rising
+    /// - controls at 0 or 1, for correctives, GUI controls and maps: into the interval
+    /// - where two intervals of a conditional table meet: that of the steeper one
+    /// - RBF poses with a weight below the threshold: as without a threshold; at a stored pose: 0
+    /// - ReLU at 0: as above 0
     /// ```
     ///
-    /// Values are saturated nowhere: derivatives of what overflows are those of the formula.
-    /// Networks and solvers that read controls which are computed after them see constants.
+    /// Saturation is ignored: values that overflow have the derivatives of the formula. Controls
+    /// that a network or solver reads before they are computed count as constants.
     ///
     /// Fails with `MIEN_ERROR_MISMATCH` if the instance is not of the rig.
     pub fn mien_derivatives_linearize(derivatives: *mut MienDerivatives, instance: *const MienInstance, stages: u32) -> MienStatus;
 
-    /// Multiplies directions by the matrix of derivatives, also called Jacobian-vector products:
-    /// for each of `count` directions, rows of `mien_derivatives_size()` numbers at `from`, how
-    /// the numbers at `to` change. Rows follow each other without gaps; `outputs` has `count` rows
-    /// and must not overlap `directions`. Several directions in one call are faster than one by
-    /// one, and have the same bits. Allocates nothing.
+    /// Multiplies directions by the matrix of derivatives (Jacobian-vector products). Each of the
+    /// `count` directions is a row of `mien_derivatives_size()` numbers at `from`; its output is
+    /// the resulting change of the numbers at `to`. Rows follow each other without gaps; `outputs`
+    /// has `count` rows and must not overlap `directions`. Several directions in one call are
+    /// faster than one by one, and give the same bits. Does not allocate or lock.
     ///
     /// Fails with `MIEN_ERROR_INDEX` if a point lacks its deformer or mesh,
     /// `MIEN_ERROR_INVALID_ARGUMENT` if `from` has no effect on `to` or nothing was linearized.
     pub fn mien_derivatives_forward(derivatives: *mut MienDerivatives, from: u32, to: u32, mesh: u32, count: u32, directions: *const f32, outputs: *mut f32) -> MienStatus;
 
-    /// Multiplies gradients by the transposed matrix, also called vector-Jacobian products: for
-    /// each of `count` gradients by the numbers at `to`, the gradient by those at `from`; `mesh`
-    /// and all else as in `mien_derivatives_forward()`.
+    /// Multiplies gradients by the transposed matrix (vector-Jacobian products): turns each of
+    /// `count` gradients with respect to the numbers at `to` into the gradient with respect to
+    /// those at `from`. All else is as in `mien_derivatives_forward()`.
     ///
     /// Fails with `MIEN_ERROR_INDEX` if a point lacks its deformer or mesh,
     /// `MIEN_ERROR_INVALID_ARGUMENT` if `from` has no effect on `to` or nothing was linearized.
     pub fn mien_derivatives_reverse(derivatives: *mut MienDerivatives, from: u32, to: u32, mesh: u32, count: u32, gradients: *const f32, outputs: *mut f32) -> MienStatus;
 
-    /// Computes the matrix of derivatives `from` a point `to` another, `mesh` as above.
-    /// `out_count` is the number of entries; at most `capacity` of them are written. Allocates
-    /// nothing.
+    /// Computes the matrix of the derivatives of the numbers at `to` with respect to those at
+    /// `from`, with `mesh` as above. `out_count` is the number of entries; at most `capacity` of
+    /// them are written. Does not allocate or lock.
     ///
-    /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if there are more than `capacity`, unless that is
-    /// 0, if `from` has no effect on `to` or nothing was linearized, `MIEN_ERROR_INDEX` if a point
-    /// lacks its deformer or mesh, or a number does not exist.
+    /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if `capacity` is too small and not 0, if `from`
+    /// has no effect on `to` or nothing was linearized, `MIEN_ERROR_INDEX` if a point lacks its
+    /// deformer or mesh, or an input or output does not exist.
     pub fn mien_derivatives_jacobian(derivatives: *mut MienDerivatives, from: u32, to: u32, mesh: u32, jacobian: *const MienJacobian, out_count: *mut usize) -> MienStatus;
 
     /// Writes a rig and its deformer to a baked file. `deformer` may be NULL. The file is written
@@ -4238,10 +4241,10 @@ extern "C" {
     /// case; `.` matches `_`; the prefix `CTRL_expressions.` may be missing. If several names
     /// match, only an exact match counts. A channel that drives nothing so far drives the controls
     /// that `mien_rig_match()` finds for its name, such as mouthSmile\_L for mouthSmileLeft; these
-    /// are summed behind those of the matrix. A raw control that a channel drives by name is
-    /// driven by nothing else, and one that the matrix or `mien_rig_match()` drives is not driven
-    /// by GUI controls. Names without a match are not an error: see `mien_clip_binding_info()`.
-    /// `clip` may be closed and `rig` may be destroyed afterwards. Destroy with
+    /// are summed after those of the matrix. A raw control that a channel drives by name is driven
+    /// by nothing else, and one that the matrix or `mien_rig_match()` drives is not driven by GUI
+    /// controls. Names without a match are not an error: see `mien_clip_binding_info()`. `clip`
+    /// may be closed and `rig` may be destroyed afterwards. Destroy with
     /// `mien_clip_binding_destroy()`.
     ///
     /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if a weight is not finite, `MIEN_ERROR_CLIP_LIMIT`
@@ -4621,22 +4624,22 @@ extern "C" {
     /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if MienSolverStackDesc.`check_writes` was 0.
     pub fn mien_solver_state_undeclared(solver_state: *const MienSolverState, out_name: *mut MienStringView) -> MienStatus;
 
-    /// Finds the raw controls that a name means on a rig. Takes time in proportion to the number
-    /// of raw controls: for loading, not for every frame. Allocates nothing. Writes as many shares
-    /// as fit; `out_count` is the total number, at most `MIEN_MOST_SHARES`, each of another
-    /// control. `out_shares` may be NULL if `capacity` is 0. `out_match` is one of
-    /// `MIEN_NAME_MATCH_...`.
+    /// Finds the raw controls that a name stands for on a rig. Takes time proportional to the
+    /// number of raw controls: meant for loading, not for every frame. Does not allocate or lock.
+    /// Writes as many shares as fit; `out_count` is the total number, at most `MIEN_MOST_SHARES`,
+    /// each of a different control. `out_shares` may be NULL if `capacity` is 0. `out_match` is
+    /// one of `MIEN_NAME_MATCH_...`.
     ///
-    /// Fails with `MIEN_ERROR_NAME` if the name means nothing on this rig, or in step 1 or 2
-    /// several controls.
+    /// Fails with `MIEN_ERROR_NAME` if the name matches no control of this rig, or several in step
+    /// 1 or 2.
     ///
     /// See docs/face-capture.md, 2 "Names".
     pub fn mien_rig_match(rig: *const MienRig, name: *const c_char, name_count: usize, out_shares: *mut MienControlShare, capacity: usize, out_count: *mut usize, out_match: *mut u32) -> MienStatus;
 
-    /// Gives the usual name of a control: that of ARKit, such as mouthSmileLeft for AU12\_L and
-    /// mouthCornerPullL; where ARKit has none, that of MetaHuman's raw controls. A name without a
-    /// side stays without: mouthSmile. Writes as many bytes as fit, without a null; `out_count` is
-    /// the total number. `out_name` may be NULL if `capacity` is 0.
+    /// Returns the usual name of a control: that of ARKit, such as mouthSmileLeft for AU12\_L and
+    /// mouthCornerPullL, or that of MetaHuman's raw controls if ARKit has none. A name without a
+    /// side gets none: mouthSmile. Writes as many bytes as fit, without a null; `out_count` is the
+    /// total number. `out_name` may be NULL if `capacity` is 0.
     ///
     /// Fails with `MIEN_ERROR_NAME` if the name is not in the table.
     ///
@@ -4678,14 +4681,14 @@ extern "C" {
     ///
     /// Fails with `MIEN_ERROR_DNA_LAYER` if `dna` has RBF behavior without the machine-learned
     /// behavior of its file, `MIEN_ERROR_DNA_STRUCTURE`, `MIEN_ERROR_DNA_REFERENCE` or
-    /// `MIEN_ERROR_DNA_VALUE` if what was loaded would not open by itself, `MIEN_ERROR_DNA_LIMIT`
-    /// if it has more than 4 GiB.
+    /// `MIEN_ERROR_DNA_VALUE` if the loaded part would not open by itself, `MIEN_ERROR_DNA_LIMIT`
+    /// if it exceeds 4 GiB.
     pub fn mien_document_create(dna: *const MienDna, desc: *const MienDocumentDesc, out_document: *mut *mut MienDocument, error: *mut MienError) -> MienStatus;
 
     /// Destroys a document.
     pub fn mien_document_destroy(document: *mut MienDocument);
 
-    /// Finds a field by its path, as `mien_dna_field()`. `byte_offset` is `MIEN_NO_OFFSET`.
+    /// Finds a field by its path, like `mien_dna_field()`. Its `byte_offset` is `MIEN_NO_OFFSET`.
     ///
     /// Fails with `MIEN_ERROR_NAME` if there is no such field, `MIEN_ERROR_INDEX` if an index in
     /// the path is past the end.
@@ -4693,15 +4696,15 @@ extern "C" {
     /// See docs/dna-format.md, 6 "Layers, field by field".
     pub fn mien_document_field(document: *const MienDocument, path: *const c_char, out_field: *mut MienDnaField, error: *mut MienError) -> MienStatus;
 
-    /// Returns the name of field `index` of the record at a path, as `mien_dna_child_name()`. The
-    /// string is static.
+    /// Returns the name of field `index` of the record at a path, like `mien_dna_child_name()`.
+    /// The string is static.
     ///
     /// Fails with `MIEN_ERROR_NAME` if there is no such field, `MIEN_ERROR_INDEX` if `index` or an
     /// index in the path is past the end, `MIEN_ERROR_INVALID_ARGUMENT` if the field is not a
     /// record.
     pub fn mien_document_child_name(document: *const MienDocument, path: *const c_char, index: u32, out_name: *mut MienStringView, error: *mut MienError) -> MienStatus;
 
-    /// Copies `count` elements of a field, beginning with element `first`, to `out`, as
+    /// Copies `count` elements of a field, beginning with element `first`, to `out`, like
     /// `mien_dna_read_floats()`. `out` may be NULL if `count` is 0.
     ///
     /// Fails with `MIEN_ERROR_NAME` if there is no such field, `MIEN_ERROR_INDEX` if the range or
@@ -4709,7 +4712,7 @@ extern "C" {
     /// hold numbers of this kind.
     pub fn mien_document_read_floats(document: *const MienDocument, path: *const c_char, first: u64, count: u64, out: *mut f32, error: *mut MienError) -> MienStatus;
 
-    /// Copies `count` elements of a field, beginning with element `first`, to `out`, as
+    /// Copies `count` elements of a field, beginning with element `first`, to `out`, like
     /// `mien_dna_read_floats()`. `out` may be NULL if `count` is 0.
     ///
     /// Fails with `MIEN_ERROR_NAME` if there is no such field, `MIEN_ERROR_INDEX` if the range or
@@ -4724,10 +4727,11 @@ extern "C" {
     /// the path is past the end, `MIEN_ERROR_INVALID_ARGUMENT` if the field is not a string.
     pub fn mien_document_read_string(document: *const MienDocument, path: *const c_char, out_string: *mut MienStringView, error: *mut MienError) -> MienStatus;
 
-    /// Returns the bytes of an array of numbers or of a string where they are: big-endian and
-    /// unaligned, as in a file. Contents change with `mien_document_write_floats()`,
-    /// `mien_document_write_integers()`, `mien_document_undo()`: the view is valid until the
-    /// document is changed.
+    /// Returns the bytes of an array of numbers or of a string in place: big-endian and unaligned,
+    /// as in a file.
+    ///
+    /// Contents change with `mien_document_write_floats()`, `mien_document_write_integers()`,
+    /// `mien_document_undo()`: the view is valid until the document is changed.
     ///
     /// Fails with `MIEN_ERROR_NAME` if there is no such field, `MIEN_ERROR_INDEX` if an index in
     /// the path is past the end, `MIEN_ERROR_INVALID_ARGUMENT` if the field is neither an array
@@ -4763,9 +4767,8 @@ extern "C" {
     pub fn mien_document_write_string(document: *mut MienDocument, path: *const c_char, string: *const c_char, string_count: usize, error: *mut MienError) -> MienStatus;
 
     /// Replaces `removed_count` elements of an array or list, beginning with element `first`, by
-    /// `inserted_count` new ones: zeros, empty strings, or records of these. What refers to
-    /// elements by their number stays as it is. Copies the array, or the list without its
-    /// contents.
+    /// `inserted_count` new ones: zeros, empty strings, or records of these. References to
+    /// elements by number do not change. Copies the array, or the list without its contents.
     ///
     /// Fails with `MIEN_ERROR_NAME` if there is no such field, `MIEN_ERROR_INDEX` if the range or
     /// an index in the path is past the end, `MIEN_ERROR_INVALID_ARGUMENT` if the field is neither
@@ -4773,23 +4776,23 @@ extern "C" {
     /// allocator returns NULL.
     pub fn mien_document_splice(document: *mut MienDocument, path: *const c_char, first: u64, removed_count: u64, inserted_count: u64, error: *mut MienError) -> MienStatus;
 
-    /// Gives an array or list `count` elements: drops the last ones or adds new ones, as
+    /// Gives an array or list `count` elements: drops the last ones or adds new ones, like
     /// `mien_document_splice()`.
     ///
     /// Fails like `mien_document_splice()`.
     pub fn mien_document_resize(document: *mut MienDocument, path: *const c_char, count: u64, error: *mut MienError) -> MienStatus;
 
     /// Remembers the current state, at the cost of some KB. Mark 0 always exists: the state in
-    /// which the document was created. Memory of changes before a mark is kept until the document
-    /// is destroyed or an earlier mark restored.
+    /// which the document was created. Changes before a mark keep their memory until the document
+    /// is destroyed or an earlier mark is restored.
     ///
     /// Fails with `MIEN_ERROR_MEMORY` if the allocator returns NULL.
     pub fn mien_document_mark(document: *mut MienDocument, out_mark: *mut u64, error: *mut MienError) -> MienStatus;
 
-    /// Goes back to the state at a mark: `mark` is a number of `mien_document_mark()`, or 0. Later
-    /// marks are gone, this one stays. Does not allocate or lock.
+    /// Goes back to the state at a mark: `mark` is a number from `mien_document_mark()`, or 0.
+    /// Later marks become invalid, this one stays valid. Does not allocate or lock.
     ///
-    /// Fails with `MIEN_ERROR_INDEX` if `mark` is not a mark of the document, or gone.
+    /// Fails with `MIEN_ERROR_INDEX` if `mark` is not a valid mark of the document.
     pub fn mien_document_undo(document: *mut MienDocument, mark: u64, error: *mut MienError) -> MienStatus;
 
     /// Finds the index of a name; of equal names, the first. `kind` is a `MIEN_KIND_...`: GUI,
@@ -4806,14 +4809,14 @@ extern "C" {
     /// `MIEN_ERROR_MEMORY` if the allocator returns NULL.
     pub fn mien_document_rename(document: *mut MienDocument, kind: u32, index: u32, name: *const c_char, error: *mut MienError) -> MienStatus;
 
-    /// Removes joints, blend shape channels, animated maps or meshes, and what refers to them:
-    /// names, LOD lists, rows of tables, targets, networks' regions. `indices` has `index_count`
-    /// elements. Children of a joint go to its nearest ancestor that stays, or become roots, and
-    /// keep their neutral place in the world; motions that are relative to the parent keep their
-    /// numbers. The joint's skin weights go to the same ancestor, or to the first joint that
-    /// stays. Quaternion joints move as before within 1e-2 degrees; where columns of a joint group
-    /// would rotate them in another order, each of its quaternion joints gets a joint group of its
-    /// own.
+    /// Removes joints, blend shape channels, animated maps or meshes, and everything that refers
+    /// to them: names, LOD lists, rows of tables, targets, regions of networks. `indices` has
+    /// `index_count` elements. Children of a joint go to its nearest ancestor that stays, or
+    /// become roots, and keep their neutral place in the world; motions that are relative to the
+    /// parent keep their numbers. The joint's skin weights go to the same ancestor, or to the
+    /// first joint that stays. Quaternion joints move as before within 1e-2 degrees; where the
+    /// columns of a joint group would rotate them in another order, each quaternion joint of the
+    /// group gets a joint group of its own.
     ///
     /// Fails with `MIEN_ERROR_INDEX` if an index is past the end, `MIEN_ERROR_INVALID_ARGUMENT` if
     /// elements of the kind cannot be removed, or no joint would be left for the skin weights,
@@ -4823,12 +4826,13 @@ extern "C" {
     pub fn mien_document_remove(document: *mut MienDocument, kind: u32, indices: *const u32, index_count: usize, error: *mut MienError) -> MienStatus;
 
     /// Removes all blend shape channels with their targets, all animated maps, or, for
-    /// `MIEN_KIND_JOINT`, all that moves joints. `kind` is a `MIEN_KIND_...`.
+    /// `MIEN_KIND_JOINT`, everything that moves joints. `kind` is a `MIEN_KIND_...`.
     ///
     /// Fails like `mien_document_remove()`, but not with `MIEN_ERROR_INDEX`.
     pub fn mien_document_clear(document: *mut MienDocument, kind: u32, error: *mut MienError) -> MienStatus;
 
-    /// Removes what moves these joints: their rows of joint groups, twists, swings and ML joints.
+    /// Removes everything that moves these joints: their rows of joint groups, twists, swings and
+    /// ML joints.
     ///
     /// Fails like `mien_document_remove()`.
     pub fn mien_document_clear_joints(document: *mut MienDocument, joints: *const u32, joint_count: usize, error: *mut MienError) -> MienStatus;
@@ -4837,14 +4841,14 @@ extern "C" {
     /// units and axes of the file: translations, 3 floats per joint, and rotations, 3 floats per
     /// joint. Either may be left out: `translations` may be NULL; `rotations` may be NULL.
     ///
-    /// Fails with `MIEN_ERROR_INDEX` if there are not so many joints,
-    /// `MIEN_ERROR_INVALID_ARGUMENT` if a number is not finite, `MIEN_ERROR_DNA_STRUCTURE`,
-    /// `MIEN_ERROR_DNA_REFERENCE`, `MIEN_ERROR_DNA_LIMIT` or `MIEN_ERROR_DNA_VALUE` if the
-    /// document is not valid, `MIEN_ERROR_MEMORY` if the allocator returns NULL.
+    /// Fails with `MIEN_ERROR_INDEX` if there are fewer joints, `MIEN_ERROR_INVALID_ARGUMENT` if a
+    /// number is not finite, `MIEN_ERROR_DNA_STRUCTURE`, `MIEN_ERROR_DNA_REFERENCE`,
+    /// `MIEN_ERROR_DNA_LIMIT` or `MIEN_ERROR_DNA_VALUE` if the document is not valid,
+    /// `MIEN_ERROR_MEMORY` if the allocator returns NULL.
     pub fn mien_document_set_neutral(document: *mut MienDocument, first_joint: u32, translations: *const f32, rotations: *const f32, count: usize, error: *mut MienError) -> MienStatus;
 
-    /// Sets all positions of a mesh, 3 floats per position. Normals stay: deformers recompute
-    /// them, or write geom.meshes\[i\].normals.
+    /// Sets all positions of a mesh, 3 floats per position. Normals do not change: deformers
+    /// recompute them by default; otherwise write geom.meshes\[i\].normals.
     ///
     /// Fails with `MIEN_ERROR_INDEX` if `mesh` is past the end, `MIEN_ERROR_INVALID_ARGUMENT` if
     /// the mesh has another number of positions, or a number is not finite, `MIEN_ERROR_MEMORY` if
@@ -4853,8 +4857,8 @@ extern "C" {
 
     /// Sets the target of blend shape channel `channel` on mesh `mesh`: 3 floats per delta, of the
     /// positions `vertices`. `vertices` may be NULL for the first `count` positions. Deltas of
-    /// zero are left out; without any other, the target is removed. The pair of mesh and channel
-    /// in defn.meshBlendShapeChannelMapping follows.
+    /// zero are left out; if there are no others, the target is removed. The pair of mesh and
+    /// channel in defn.meshBlendShapeChannelMapping is added or removed with it.
     ///
     /// Fails with `MIEN_ERROR_INDEX` if `mesh`, `channel` or a vertex is past the end,
     /// `MIEN_ERROR_INVALID_ARGUMENT` if there are more deltas than positions, or a number is not
@@ -4864,7 +4868,7 @@ extern "C" {
     pub fn mien_document_set_target(document: *mut MienDocument, mesh: u32, channel: u32, vertices: *const u32, deltas: *const f32, count: usize, error: *mut MienError) -> MienStatus;
 
     /// Removes deltas not longer than `tolerance`, in the unit of the file, and targets that have
-    /// none left. `out_pruned` gets how many.
+    /// none left. `out_pruned` gets their numbers.
     ///
     /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if `tolerance` is negative or not finite,
     /// `MIEN_ERROR_DNA_STRUCTURE`, `MIEN_ERROR_DNA_REFERENCE`, `MIEN_ERROR_DNA_LIMIT` or
@@ -4873,8 +4877,8 @@ extern "C" {
     pub fn mien_document_prune_targets(document: *mut MienDocument, tolerance: f32, out_pruned: *mut MienPrunedTargets, error: *mut MienError) -> MienStatus;
 
     /// Sets small entries of the joint matrix to 0, and removes columns and rows of joint groups
-    /// without any other. Measures what that does to the positions of LOD 0: over each raw control
-    /// at 1, and each corrective with all its raw controls at 1. `desc` is required.
+    /// that have no others. Measures how far that moves the positions of LOD 0, with each raw
+    /// control at 1, and with all raw controls of each corrective at 1. `desc` is required.
     ///
     /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if a field of `desc` is negative or not finite,
     /// `MIEN_ERROR_DNA_STRUCTURE`, `MIEN_ERROR_DNA_REFERENCE`, `MIEN_ERROR_DNA_LIMIT` or
@@ -4900,16 +4904,16 @@ extern "C" {
     /// document is not valid, `MIEN_ERROR_MEMORY` if the allocator returns NULL.
     pub fn mien_document_normalize_weights(document: *mut MienDocument, mesh: u32, error: *mut MienError) -> MienStatus;
 
-    /// Keeps the `influences` largest weights of each position of mesh `mesh` that has more, in
-    /// their order, scaled to the sum that all had.
+    /// Keeps the `influences` largest weights of each position of mesh `mesh`, in their order,
+    /// scaled to the previous sum.
     ///
     /// Fails like `mien_document_normalize_weights()`, and with `MIEN_ERROR_INVALID_ARGUMENT` if
     /// `influences` is 0.
     pub fn mien_document_limit_influences(document: *mut MienDocument, mesh: u32, influences: u32, error: *mut MienError) -> MienStatus;
 
     /// Smooths the weights of mesh `mesh` `iterations` times: those of each position become (1 -
-    /// strength) of its own and strength of the mean of its neighbors along edges. Positions at
-    /// the same place count as one. Each keeps at most `influences`, with a sum of 1.
+    /// strength) times its own plus strength times the mean of its neighbors along edges.
+    /// Positions at the same place count as one. Each keeps at most `influences`, with a sum of 1.
     ///
     /// Fails like `mien_document_limit_influences()`, and with `MIEN_ERROR_INVALID_ARGUMENT` if
     /// `strength` is not 0 to 1, or there are more than 1000 iterations.
@@ -4925,16 +4929,16 @@ extern "C" {
     /// document is not valid, `MIEN_ERROR_MEMORY` if the allocator returns NULL.
     pub fn mien_document_place(document: *mut MienDocument, placement: *const MienPlacement, error: *mut MienError) -> MienStatus;
 
-    /// Keeps the LODs whose bits are set in `lods`, as MienDnaDesc.lods.
+    /// Keeps the LODs whose bits are set in `lods`, like MienDnaDesc.lods.
     ///
-    /// Fails with `MIEN_ERROR_LOD` if there is none of them, `MIEN_ERROR_DNA_STRUCTURE`,
+    /// Fails with `MIEN_ERROR_LOD` if none of them exists, `MIEN_ERROR_DNA_STRUCTURE`,
     /// `MIEN_ERROR_DNA_REFERENCE`, `MIEN_ERROR_DNA_LIMIT` or `MIEN_ERROR_DNA_VALUE` if the
     /// document is not valid, `MIEN_ERROR_MEMORY` if the allocator returns NULL.
     ///
     /// See docs/dna-format.md, 10 "Choosing LODs".
     pub fn mien_document_keep_lods(document: *mut MienDocument, lods: u64, error: *mut MienError) -> MienStatus;
 
-    /// Converts to another coordinate system, as MienDnaDesc.system. `system` is required.
+    /// Converts to another coordinate system, like MienDnaDesc.system. `system` is required.
     ///
     /// Fails with `MIEN_ERROR_DNA_VALUE` if the rig cannot be converted or the document is not
     /// valid, `MIEN_ERROR_DNA_STRUCTURE`, `MIEN_ERROR_DNA_REFERENCE` or `MIEN_ERROR_DNA_LIMIT` if
@@ -4948,37 +4952,36 @@ extern "C" {
     ///
     /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if `layers` has other bits,
     /// `MIEN_ERROR_DNA_STRUCTURE`, `MIEN_ERROR_DNA_REFERENCE`, `MIEN_ERROR_DNA_LIMIT` or
-    /// `MIEN_ERROR_DNA_VALUE` if they do not fit the layers that stay, `MIEN_ERROR_MEMORY` if the
+    /// `MIEN_ERROR_DNA_VALUE` if they do not fit the other layers, `MIEN_ERROR_MEMORY` if the
     /// allocator returns NULL.
     pub fn mien_document_copy_layers(document: *mut MienDocument, from: *const MienDocument, layers: u32, error: *mut MienError) -> MienStatus;
 
-    /// Copies mesh `mesh` of another document: over the mesh of the same name, or as a new one at
-    /// the LODs where it is there and that this document has. Joints and channels are found by
-    /// name; a joint that is not here hands its influence to its nearest ancestor that is, targets
-    /// of other channels are left out.
+    /// Copies mesh `mesh` of another document. It replaces the mesh of the same name, or becomes a
+    /// new one, at its LODs in the other document as far as this document has them. Joints and
+    /// channels are found by name; the influence of a missing joint goes to its nearest ancestor
+    /// that exists here, and targets of missing channels are left out.
     ///
     /// Fails with `MIEN_ERROR_INDEX` if there is no such mesh, `MIEN_ERROR_INVALID_ARGUMENT` if
     /// both documents are the same, `MIEN_ERROR_MISMATCH` if the documents differ in axes, units
-    /// or rotations, or no joint of a position is here, `MIEN_ERROR_DNA_STRUCTURE`,
+    /// or rotations, or this one has no joint of a position, `MIEN_ERROR_DNA_STRUCTURE`,
     /// `MIEN_ERROR_DNA_REFERENCE`, `MIEN_ERROR_DNA_LIMIT` or `MIEN_ERROR_DNA_VALUE` if one of them
     /// is not valid, `MIEN_ERROR_MEMORY` if the allocator returns NULL.
     pub fn mien_document_copy_mesh(document: *mut MienDocument, from: *const MienDocument, mesh: u32, out_mesh: *mut u32, error: *mut MienError) -> MienStatus;
 
     /// Adds the joints of another document whose names this one lacks, such as those of a body to
-    /// a head: below the joints of the same names, behind the own ones, at the LODs that list them
-    /// there. Joints that both have stay as they are, but a root that has a parent there becomes
-    /// its child. Joints that both have must stand in the same place of the model, within
-    /// `tolerance` in the unit of the file.
+    /// a head: below the joints with the names of their parents, numbered after the existing ones,
+    /// at the LODs that list them in the other document. Joints of both documents stay as they
+    /// are, but a root that has a parent in the other one becomes its child. They must have the
+    /// same place in model space, within `tolerance` in the unit of the file.
     ///
     /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if both documents are the same,
-    /// `MIEN_ERROR_MISMATCH` if the documents differ in axes, units or rotations, or in the place
-    /// of a joint, `MIEN_ERROR_DNA_STRUCTURE`, `MIEN_ERROR_DNA_REFERENCE`, `MIEN_ERROR_DNA_LIMIT`
-    /// or `MIEN_ERROR_DNA_VALUE` if one of them is not valid or the result would not be,
+    /// `MIEN_ERROR_MISMATCH` if they differ in axes, units or rotations, or in the place of a
+    /// joint, `MIEN_ERROR_DNA_STRUCTURE`, `MIEN_ERROR_DNA_REFERENCE`, `MIEN_ERROR_DNA_LIMIT` or
+    /// `MIEN_ERROR_DNA_VALUE` if one of them is not valid or the result would not be,
     /// `MIEN_ERROR_MEMORY` if the allocator returns NULL.
     pub fn mien_document_merge_joints(document: *mut MienDocument, from: *const MienDocument, tolerance: f64, error: *mut MienError) -> MienStatus;
 
-    /// Removes the joints that another document does not have by name, as
-    /// `mien_document_remove()`.
+    /// Removes the joints whose names another document lacks, like `mien_document_remove()`.
     ///
     /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if no joint would be left for the skin weights,
     /// `MIEN_ERROR_DNA_STRUCTURE`, `MIEN_ERROR_DNA_REFERENCE`, `MIEN_ERROR_DNA_LIMIT` or
@@ -4986,11 +4989,12 @@ extern "C" {
     /// returns NULL.
     pub fn mien_document_split_joints(document: *mut MienDocument, from: *const MienDocument, error: *mut MienError) -> MienStatus;
 
-    /// Gives mesh `mesh` the skin weights and targets of mesh `source`, interpolated at the place
-    /// of each position: a coarser LOD from a finer one. Joints that no LOD of the mesh lists hand
-    /// their influence to the nearest ancestor that one does; targets of channels that none lists
-    /// are left out. Where these LODs list no joints or channels, all stay. `out_farthest` gets
-    /// the largest distance to a place: in the unit of the file, or of the texture.
+    /// Gives mesh `mesh` the skin weights and targets of mesh `source`, interpolated at the point
+    /// of `source` nearest to each position: a coarser LOD from a finer one. The influence of
+    /// joints that no LOD of the mesh lists goes to the nearest ancestor that one of them lists;
+    /// targets of channels that none lists are left out. If these LODs list no joints or channels
+    /// at all, all are kept. `out_farthest` gets the largest distance to a nearest point, in the
+    /// unit of the file or of the texture.
     ///
     /// Fails with `MIEN_ERROR_INDEX` if `mesh` or `source` is past the end,
     /// `MIEN_ERROR_INVALID_ARGUMENT` if they are the same, or lack triangles, texture coordinates
@@ -5011,10 +5015,10 @@ extern "C" {
     pub fn mien_document_make_lod(document: *mut MienDocument, lod: u32, source_lod: u32, desc: *const MienProjectDesc, out_farthest: *mut f64, error: *mut MienError) -> MienStatus;
 
     /// Gives mesh `mesh` new positions, 3 floats per position, such as a head that an artist
-    /// reshaped, and lets the rig follow: joints move as the surface around them does, and keep
-    /// their orientation; targets turn and scale with the surface, translations that controls add
-    /// to joints scale, normals turn. `others` is 0, or 1 to move the other meshes, too. Motions
-    /// of the whole mesh are followed exactly.
+    /// reshaped, and lets the rig follow: joints move with the surface around them and keep their
+    /// orientation; targets rotate and scale with the surface, translations that controls add to
+    /// joints scale with it, and normals rotate. `others` is 0, or 1 to move the other meshes,
+    /// too. A motion of the whole mesh is followed exactly.
     ///
     /// Fails with `MIEN_ERROR_INDEX` if `mesh` is past the end, `MIEN_ERROR_INVALID_ARGUMENT` if
     /// the mesh has another number of positions, or a number is not finite,
@@ -5026,10 +5030,10 @@ extern "C" {
     /// Gives a character the rig of a template: controls, joints, behavior, and LODs of document
     /// `rig`. The character keeps its shape. Its meshes keep topology and positions where the
     /// template has a mesh of the same name, and get weights and targets from it; other meshes are
-    /// the template's, moved with the surface. Joints that both have by name stand where the
-    /// character's stood, others move with the surface. `out_errors` has `capacity` elements, one
-    /// for each raw control that both rigs have, and may be shorter; `out_errors` may be NULL;
-    /// `out_count` gets how many were written.
+    /// the template's, moved with the surface. Joints with names of joints of the character keep
+    /// the places of those, others move with the surface. `out_errors` has `capacity` elements,
+    /// one for each raw control of both rigs, or fewer; `out_errors` may be NULL; `out_count` gets
+    /// the number written.
     ///
     /// Fails with `MIEN_ERROR_MISMATCH` if the documents differ in axes, units or rotations,
     /// `MIEN_ERROR_INVALID_ARGUMENT` if no mesh of LOD 0 has the name of one of the template, or
@@ -5038,20 +5042,20 @@ extern "C" {
     /// is not valid, `MIEN_ERROR_MEMORY` if the allocator returns NULL.
     pub fn mien_document_transplant(document: *mut MienDocument, rig: *const MienDocument, desc: *const MienTransplantDesc, out_errors: *mut MienControlError, capacity: usize, out_count: *mut usize, error: *mut MienError) -> MienStatus;
 
-    /// Checks all that opening a file checks, and opens the document as a file. `document` may be
+    /// Opens the document as a file, with all checks of opening a file. `document` may be
     /// destroyed afterwards. Close with `mien_dna_close()`.
     ///
     /// Fails with `MIEN_ERROR_DNA_TRUNCATED`, `MIEN_ERROR_DNA_STRUCTURE`,
     /// `MIEN_ERROR_DNA_REFERENCE`, `MIEN_ERROR_DNA_LIMIT` or `MIEN_ERROR_DNA_VALUE` if the
-    /// document is not a valid file, of which the message names the first field;
+    /// document is not a valid file; the message names the first invalid field,
     /// `mien_document_validate()` lists them all.
     ///
     /// See docs/dna-format.md, 13 "What is checked".
     pub fn mien_document_to_dna(document: *const MienDocument, desc: *const MienDocumentDesc, out_dna: *mut *mut MienDna, error: *mut MienError) -> MienStatus;
 
-    /// Checks the document as `mien_dna_validate_memory()` would check its file. `document` may be
-    /// destroyed afterwards. Destroy with `mien_report_destroy()`.
+    /// Checks the document like `mien_dna_validate_memory()` its file. `document` may be destroyed
+    /// afterwards. Destroy with `mien_report_destroy()`.
     ///
-    /// Fails with `MIEN_ERROR_DNA_LIMIT` if the file would have more than 4 GiB.
+    /// Fails with `MIEN_ERROR_DNA_LIMIT` if the file would exceed 4 GiB.
     pub fn mien_document_validate(document: *const MienDocument, desc: *const MienValidateDesc, out_report: *mut *mut MienReport, error: *mut MienError) -> MienStatus;
 }

@@ -649,7 +649,7 @@ impl VertexFormat {
 
 numbers!(VertexFormat, u32, [(0, "FLOAT32X3"), (1, "FLOAT32X4"), (2, "SNORM16X4"), (3, "SNORM10_10_10_2")]);
 
-/// Points of the chain from controls to positions, and the numbers that they have:
+/// Points on the way from controls to positions:
 ///
 /// ```text
 /// GUI -> RAW -> CONTROLS -> JOINTS -> LOCALS -> MODELS -> SKINS -> POSITIONS
@@ -657,9 +657,9 @@ numbers!(VertexFormat, u32, [(0, "FLOAT32X3"), (1, "FLOAT32X4"), (2, "SNORM16X4"
 ///                   |-> MAPS
 /// ```
 ///
-/// A derivative leads from a point to one that it has an effect on. Between RAW and CONTROLS run
-/// networks, RBF solvers and correctives; CONTROLS is what the joint stage, channels and maps
-/// read. From JOINTS on, channel weights are constant. See docs/derivatives.md.
+/// Derivatives lead from one point to a later one that depends on it. Networks, RBF solvers and
+/// correctives run between RAW and CONTROLS; the joint stage, channels and maps read CONTROLS.
+/// From JOINTS on, channel weights are constant. See docs/derivatives.md.
 ///
 /// A later library may give numbers that have no name here.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -909,7 +909,7 @@ impl NameMatch {
     pub const ALIAS: Self = Self(3);
     /// The controls of the left and the right side.
     pub const BOTH_SIDES: Self = Self(4);
-    /// An expression that is several controls.
+    /// An expression of several controls.
     pub const EXPRESSION: Self = Self(5);
 }
 
@@ -1056,7 +1056,7 @@ impl AuthorFlags {
     pub const PAPER: Self = Self(1);
     /// The face mask may include parts of the neck.
     pub const NO_NECK_CUT: Self = Self(2);
-    /// The face mask is what shapes move: for heads that are not human.
+    /// The face mask is where shapes move: for heads that are not human.
     pub const MASK_FROM_SHAPES: Self = Self(4);
     /// Weight positions by the area around them: for scans.
     pub const AREA_DENSITY: Self = Self(8);
@@ -1064,8 +1064,8 @@ impl AuthorFlags {
     pub const NO_TARGETS: Self = Self(16);
     /// Group by distance in space, not in depth: for comparison.
     pub const GROUP_IN_SPACE: Self = Self(32);
-    /// Names of bones as MetaHuman heads have them, where they have a counterpart: `neck_01`,
-    /// FACIAL\_C\_Jaw; not of the caller's bones.
+    /// Use the bone names of MetaHuman heads where they have a counterpart: `neck_01`,
+    /// FACIAL\_C\_Jaw; not for the caller's bones.
     pub const METAHUMAN_NAMES: Self = Self(64);
 }
 
@@ -1079,9 +1079,9 @@ flags!(AuthorFlags, u32, [(1, "PAPER"), (2, "NO_NECK_CUT"), (4, "MASK_FROM_SHAPE
 pub struct Match(pub u32);
 
 impl Match {
-    /// The nearest place in space.
+    /// The nearest point in space.
     pub const SURFACE: Self = Self(0);
-    /// The nearest place in the texture.
+    /// The nearest point in the texture.
     pub const UV: Self = Self(1);
 }
 
@@ -1704,17 +1704,18 @@ impl From<sys::MienPrunedTargets> for PrunedTargets {
     }
 }
 
-/// What `mien_document_prune_joints()` did, and the largest distance by which it moved a position.
+/// The effect of `mien_document_prune_joints()`: removed entries, and the largest distance by
+/// which a position moved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct PrunedJoints {
     /// Entries of the joint matrix that were not 0.
     pub entry_count: u64,
-    /// Of these, now 0.
+    /// Of these, set to 0.
     pub removed_count: u64,
     /// In the unit of the file.
     pub worst_distance: f64,
-    /// Number of the raw control, or corrective with its raw controls, at 1.
+    /// The raw control at 1, or the corrective whose raw controls were at 1.
     pub worst_control: u32,
     /// Worst mesh.
     pub worst_mesh: u32,
@@ -1735,13 +1736,13 @@ impl From<sys::MienPrunedJoints> for PrunedJoints {
     }
 }
 
-/// How the rig followed a mesh.
+/// How far the rig moved to follow a mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Conformed {
-    /// The farthest that a joint moved, in the unit of the file.
+    /// Largest distance by which a joint moved, in the unit of the file.
     pub joint_distance: f64,
-    /// which.
+    /// That joint.
     pub joint: u32,
 }
 
@@ -2147,8 +2148,8 @@ macro_rules! errors {
          - [`Status::INDEX`](crate::Status::INDEX) if a point lacks its deformer or mesh"
     };
     (mien_derivatives_jacobian) => {
-        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if there are more than `capacity`, unless that is 0, if `from` has no effect on `to` or nothing was linearized\n\
-         - [`Status::INDEX`](crate::Status::INDEX) if a point lacks its deformer or mesh, or a number does not exist"
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `capacity` is too small and not 0, if `from` has no effect on `to` or nothing was linearized\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if a point lacks its deformer or mesh, or an input or output does not exist"
     };
     (mien_bake_file) => {
         "- [`Status::MISMATCH`](crate::Status::MISMATCH) if `deformer` was created for another rig\n\
@@ -2500,7 +2501,7 @@ macro_rules! errors {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if MienSolverStackDesc.`check_writes` was 0"
     };
     (mien_rig_match) => {
-        "- [`Status::NAME`](crate::Status::NAME) if the name means nothing on this rig, or in step 1 or 2 several controls"
+        "- [`Status::NAME`](crate::Status::NAME) if the name matches no control of this rig, or several in step 1 or 2"
     };
     (mien_control_name) => {
         "- [`Status::NAME`](crate::Status::NAME) if the name is not in the table"
@@ -2526,11 +2527,11 @@ macro_rules! errors {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
          - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
          - [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) if this build of libmien opens baked files only\n\
-         - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if what was loaded would not open by itself\n\
-         - [`Status::DNA_REFERENCE`](crate::Status::DNA_REFERENCE) if what was loaded would not open by itself\n\
-         - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if it has more than 4 GiB\n\
+         - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if the loaded part would not open by itself\n\
+         - [`Status::DNA_REFERENCE`](crate::Status::DNA_REFERENCE) if the loaded part would not open by itself\n\
+         - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if it exceeds 4 GiB\n\
          - [`Status::DNA_LAYER`](crate::Status::DNA_LAYER) if `dna` has RBF behavior without the machine-learned behavior of its file\n\
-         - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if what was loaded would not open by itself"
+         - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if the loaded part would not open by itself"
     };
     (mien_document_field) => {
         "- [`Status::INDEX`](crate::Status::INDEX) if an index in the path is past the end\n\
@@ -2595,7 +2596,7 @@ macro_rules! errors {
         "- [`Status::MEMORY`](crate::Status::MEMORY) if the allocator returns NULL"
     };
     (mien_document_undo) => {
-        "- [`Status::INDEX`](crate::Status::INDEX) if `mark` is not a mark of the document, or gone"
+        "- [`Status::INDEX`](crate::Status::INDEX) if `mark` is not a valid mark of the document"
     };
     (mien_document_find) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if the kind has no names in a document\n\
@@ -2634,7 +2635,7 @@ macro_rules! errors {
     };
     (mien_document_set_neutral) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if a number is not finite\n\
-         - [`Status::INDEX`](crate::Status::INDEX) if there are not so many joints\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if there are fewer joints\n\
          - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator returns NULL\n\
          - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if the document is not valid\n\
          - [`Status::DNA_REFERENCE`](crate::Status::DNA_REFERENCE) if the document is not valid\n\
@@ -2715,7 +2716,7 @@ macro_rules! errors {
          - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if a root joint is moved by controls and the rotation is not 0, networks translate joints and the scale is not 1, or the document is not valid"
     };
     (mien_document_keep_lods) => {
-        "- [`Status::LOD`](crate::Status::LOD) if there is none of them\n\
+        "- [`Status::LOD`](crate::Status::LOD) if none of them exists\n\
          - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator returns NULL\n\
          - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if the document is not valid\n\
          - [`Status::DNA_REFERENCE`](crate::Status::DNA_REFERENCE) if the document is not valid\n\
@@ -2733,14 +2734,14 @@ macro_rules! errors {
     (mien_document_copy_layers) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `layers` has other bits\n\
          - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator returns NULL\n\
-         - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if they do not fit the layers that stay\n\
-         - [`Status::DNA_REFERENCE`](crate::Status::DNA_REFERENCE) if they do not fit the layers that stay\n\
-         - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if they do not fit the layers that stay\n\
-         - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if they do not fit the layers that stay"
+         - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if they do not fit the other layers\n\
+         - [`Status::DNA_REFERENCE`](crate::Status::DNA_REFERENCE) if they do not fit the other layers\n\
+         - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if they do not fit the other layers\n\
+         - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if they do not fit the other layers"
     };
     (mien_document_copy_mesh) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if both documents are the same\n\
-         - [`Status::MISMATCH`](crate::Status::MISMATCH) if the documents differ in axes, units or rotations, or no joint of a position is here\n\
+         - [`Status::MISMATCH`](crate::Status::MISMATCH) if the documents differ in axes, units or rotations, or this one has no joint of a position\n\
          - [`Status::INDEX`](crate::Status::INDEX) if there is no such mesh\n\
          - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator returns NULL\n\
          - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if one of them is not valid\n\
@@ -2750,7 +2751,7 @@ macro_rules! errors {
     };
     (mien_document_merge_joints) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if both documents are the same\n\
-         - [`Status::MISMATCH`](crate::Status::MISMATCH) if the documents differ in axes, units or rotations, or in the place of a joint\n\
+         - [`Status::MISMATCH`](crate::Status::MISMATCH) if they differ in axes, units or rotations, or in the place of a joint\n\
          - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator returns NULL\n\
          - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if one of them is not valid or the result would not be\n\
          - [`Status::DNA_REFERENCE`](crate::Status::DNA_REFERENCE) if one of them is not valid or the result would not be\n\
@@ -2806,16 +2807,16 @@ macro_rules! errors {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
          - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
          - [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) if this build of libmien opens baked files only\n\
-         - [`Status::DNA_TRUNCATED`](crate::Status::DNA_TRUNCATED) if the document is not a valid file, of which the message names the first field; `mien_document_validate()` lists them all\n\
-         - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if the document is not a valid file, of which the message names the first field; `mien_document_validate()` lists them all\n\
-         - [`Status::DNA_REFERENCE`](crate::Status::DNA_REFERENCE) if the document is not a valid file, of which the message names the first field; `mien_document_validate()` lists them all\n\
-         - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if the document is not a valid file, of which the message names the first field; `mien_document_validate()` lists them all\n\
-         - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if the document is not a valid file, of which the message names the first field; `mien_document_validate()` lists them all"
+         - [`Status::DNA_TRUNCATED`](crate::Status::DNA_TRUNCATED) if the document is not a valid file; the message names the first invalid field, `mien_document_validate()` lists them all\n\
+         - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if the document is not a valid file; the message names the first invalid field, `mien_document_validate()` lists them all\n\
+         - [`Status::DNA_REFERENCE`](crate::Status::DNA_REFERENCE) if the document is not a valid file; the message names the first invalid field, `mien_document_validate()` lists them all\n\
+         - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if the document is not a valid file; the message names the first invalid field, `mien_document_validate()` lists them all\n\
+         - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if the document is not a valid file; the message names the first invalid field, `mien_document_validate()` lists them all"
     };
     (mien_document_validate) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
          - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
          - [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) if this build of libmien opens baked files only\n\
-         - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if the file would have more than 4 GiB"
+         - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if the file would exceed 4 GiB"
     };
 }
