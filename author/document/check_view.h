@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What operations rely on. A document may be in any state while its fields are written; an operation begins
-// with the checks that a file gets when it is opened, of the layers that it follows.
+// The checks that operations rely on. A document may be in any state while its fields are written, so an
+// operation begins with the checks of opening a file, for the layers that it uses.
 #pragma once
 
 #include "author/document/document.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The rig follows a head that was reshaped.
+// Moves the rig with a head that was reshaped.
 #pragma once
 
 #include "author/document/document.h"
@@ -12,10 +12,10 @@ struct ConformResult {
   uint32_t joint = 0;
 };
 
-/// Gives `mesh` new positions, and moves joints, other meshes (if `others`), targets and what controls add to
-/// translations as the surface around them moved: by the similarity that fits the nearest positions best (Warp).
-/// Joints keep their orientation; targets turn and scale with the surface, translations of joints scale. Normals
-/// of the meshes that move turn.
+/// Gives `mesh` new positions, and moves joints, other meshes (if `others`), targets and the translations
+/// that controls add, as the surface around them moved: by the similarity that fits the nearest positions
+/// best (Warp). Joints keep their orientation; targets turn and scale with the surface, translations of
+/// joints scale. Normals of the meshes that move turn.
 Status conform(Document& document, uint32_t mesh, const float* positions, size_t count, bool others,
                ConformResult& out, Error& error);
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// What the controls of a rig do to its joints and vertices, one by one: the behavior layer and the geometry
-// of LOD 0 in double precision, for measuring. Without networks, RBF solvers, twists and swings.
+// The effect of single controls of a rig on its joints and vertices: the behavior layer and the geometry of
+// LOD 0 in double precision, for measuring. Without networks, RBF solvers, twists and swings.
 //
-// A pose is a set of raw controls at 1 and what they imply: pose p < raw controls is raw control p alone;
-// the others are a corrective each, with all raw controls that it multiplies.
+// A pose has some raw controls at 1, and the correctives that they activate: pose p, for p below the number
+// of raw controls, has raw control p alone; each further pose has all raw controls that one corrective
+// multiplies.
 #pragma once
 
 #include "author/document/pose.h"
@@ -11,7 +12,7 @@
 
 namespace mien::author {
 
-/// Control numbers have 16 bits, and may be those of layers that are not there.
+/// Control numbers have 16 bits, and may belong to layers that are missing.
 constexpr uint32_t kMaxControls = 65536;
 
 class ControlPoses {

@@ -6,24 +6,25 @@
 
 namespace mien::author {
 
-/// Copies the layers of `layers` (dna::LayerMask) from another document, whole. The status of the first field that
-/// does not fit the other layers.
+/// Copies the layers of `layers` (dna::LayerMask) from another document, whole. Fails with the status of
+/// the first field that does not fit the other layers.
 Status copy_layers(Document& document, const Document& from, uint32_t layers, Error& error);
 
-/// Copies a mesh of another document: over the mesh of the same name, or as a new one at the LODs where it is there
-/// and that this document has. Joints and channels are found by name; a joint that is not here hands its influence to
-/// its nearest ancestor that is, targets of other channels are left out. kMismatch if the two documents differ in
-/// coordinate system, or no joint of a position is here. `out_mesh` gets its number.
+/// Copies a mesh of another document. It replaces the mesh of the same name, or becomes a new one, at its
+/// LODs in the other document as far as this document has them. Joints and channels are found by name; the
+/// influence of a missing joint goes to its nearest ancestor that exists here, and targets of missing
+/// channels are left out. kMismatch if the two documents differ in coordinate system, or this one has no
+/// joint of a position. `out_mesh` gets its number.
 Status copy_mesh(Document& document, const Document& from, uint32_t mesh, uint32_t& out_mesh,
                  Error& error);
 
-/// Adds the joints of another document whose names this one lacks: below the joints of the same names, at the LODs
-/// that list them there. Joints that both have stay, but a root that has a parent there becomes its child.
-/// kMismatch if the coordinate systems differ, or a joint that both have stands in another place by more than
-/// `tolerance`, in the unit of the file.
+/// Adds the joints of another document whose names this one lacks: below the joints with the names of their
+/// parents, at the LODs that list them in the other document. Joints of both documents stay, but a root
+/// that has a parent in the other one becomes its child. kMismatch if the coordinate systems differ, or the
+/// places of a joint of both differ by more than `tolerance`, in the unit of the file.
 Status merge_joints(Document& document, const Document& from, double tolerance, Error& error);
 
-/// Removes the joints that another document does not have by name.
+/// Removes the joints whose names another document lacks.
 Status split_joints(Document& document, const Document& from, Error& error);
 
 // For other operations ------------------------------------------------------------------------------

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Copies what the fields of a record point to, by the descriptions of the format.
+// Copies the data that the fields of a record point to, using the descriptions of the format.
 #pragma once
 
 #include <new>

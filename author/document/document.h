@@ -8,9 +8,9 @@
 //       marks        earlier states: a copy of the view, and which edits had been made
 //
 // Nothing that a view points to is overwritten, so an edit costs what it changes, a mark costs a copy of
-// the view, undoing is assigning one, and an edit that fails leaves no trace. The exception are field writes:
-// what the writes since the last mark and the last other edit have made, no other state can see, so they
-// change it in place.
+// the view, undoing is assigning one, and an edit that fails leaves no trace. The exception is field
+// writes: no other state can see the arrays made by writes since the last mark or other edit, so later
+// writes change these in place.
 #pragma once
 
 #include "runtime/base/arena.h"
@@ -63,7 +63,7 @@ class Document {
   Status create_empty(Error& error);
 
   /// `size` bytes of a file that passed all checks, from this document's allocator, aligned to
-  /// kBlockAlignment. Takes them, even if it fails.
+  /// kBlockAlignment. Takes ownership of them, even if it fails.
   Status open(uint8_t* bytes, size_t size, Error& error);
 
   const dna::DnaView& view() const { return view_; }
@@ -74,7 +74,7 @@ class Document {
 
   /// A number for undo(), larger than those before; 0 is the state before the first edit.
   Status mark(uint64_t& out, Error& error);
-  /// Goes back to a mark. Later marks are gone, this one stays.
+  /// Goes back to a mark. Later marks become invalid, this one stays valid.
   Status undo(uint64_t mark, Error& error);
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Operations on elements with names: finding, renaming, removing, and clearing what moves them.
+// Operations on elements with names: finding, renaming, removing, and clearing their animation.
 #pragma once
 
 #include "author/document/document.h"
@@ -31,14 +31,14 @@ Status find_element(const Document& document, Kind kind, const char* name, size_
 Status rename_element(Document& document, Kind kind, uint32_t index, const char* name, size_t count,
                       Error& error);
 
-/// Removes joints, channels, maps or meshes, and all that refers to them; the others are renumbered. Children
-/// of a joint go to its nearest kept ancestor and keep their place in the world, or become roots; its
-/// influence on vertices goes to the same joint, or to the first one left. kInvalidArgument for other kinds,
-/// and if no joint would be left for the weights.
+/// Removes joints, channels, maps or meshes, and everything that refers to them; the others are renumbered.
+/// Children of a joint go to its nearest kept ancestor and keep their place in the world, or become roots;
+/// its influence on vertices goes to the same joint, or to the first one left. kInvalidArgument for other
+/// kinds, and if no joint would be left for the weights.
 Status remove_elements(Document& document, Kind kind, Span<const uint32_t> indices, Error& error);
 
-/// Removes what moves a joint: its rows of joint groups, twists, swings and ML joints. It stays where it is
-/// relative to its parent.
+/// Removes everything that moves a joint: its rows of joint groups, twists, swings and ML joints. It stays
+/// where it is relative to its parent.
 Status clear_joint_animation(Document& document, Span<const uint32_t> joints, Error& error);
 
 /// All channels with their targets, all maps, or the animation of all joints. kInvalidArgument for other

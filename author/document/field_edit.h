@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Writes fields by the paths that find_field() reads them by.
+// Writes fields, with the paths of find_field().
 #pragma once
 
 #include "author/document/document.h"

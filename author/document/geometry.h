@@ -6,23 +6,24 @@
 
 namespace mien::author {
 
-/// Neutral transforms of `count` joints from `first` on, relative to their parents, 3 numbers each in the units
-/// of the file. Null arrays stay. kInvalidArgument for numbers that are not finite.
+/// Neutral transforms of `count` joints from `first` on, relative to their parents, 3 numbers each in the
+/// units of the file. A null array leaves its values unchanged. kInvalidArgument for numbers that are not
+/// finite.
 Status set_neutral(Document& document, uint32_t first, uint32_t count, const float* translations,
                    const float* rotations, Error& error);
 
-/// All positions of a mesh, 3 numbers each; as many as it has. Normals stay.
+/// All positions of a mesh, 3 numbers each; as many as it has. Normals do not change.
 Status set_positions(Document& document, uint32_t mesh, const float* positions, size_t count,
                      Error& error);
 
-/// The target of a channel on a mesh: `count` deltas, 3 numbers each, of `vertices` (null: 0 ... count - 1).
-/// Zero deltas are left out. Replaces the one that there is, or adds one, with its pair in
+/// The target of a channel on a mesh: `count` deltas, 3 numbers each, of `vertices` (null: 0 ... count -
+/// 1). Zero deltas are left out. Replaces the existing one, or adds one, with its pair in
 /// meshBlendShapeChannelMapping; a target without deltas is removed, with its pair.
 Status set_target(Document& document, uint32_t mesh, uint32_t channel, const uint32_t* vertices,
                   const float* deltas, size_t count, Error& error);
 
 /// Removes deltas that are not longer than `epsilon`, and targets that have none left. `out_deltas` and
-/// `out_targets` get how many.
+/// `out_targets` get their numbers.
 Status prune_targets(Document& document, float epsilon, uint64_t& out_deltas, uint64_t& out_targets,
                      Error& error);
 

@@ -13,16 +13,16 @@ struct Projection {
   bool weights = true, targets = true;
 };
 
-/// Where positions were found: the farthest place and its position.
+/// The position that is farthest from its place on the other mesh.
 struct ProjectionResult {
   double farthest = 0;
   uint32_t position = 0;
 };
 
-/// Gives `mesh` the weights and targets of `source`, interpolated at the nearest place: a coarser LOD from a finer
-/// one. Joints that no LOD of `mesh` lists hand their influence to the nearest ancestor that does, and channels
-/// that none of them lists are left out (where these LODs list none, all stay). kInvalidArgument if the source has no
-/// triangles or weights, or texture coordinates are lacking.
+/// Gives `mesh` the weights and targets of `source`, interpolated at the nearest place: a coarser LOD from
+/// a finer one. The influence of joints that no LOD of `mesh` lists goes to the nearest ancestor that one
+/// of them lists, and channels that none lists are left out (if these LODs list none at all, all are kept).
+/// kInvalidArgument if the source has no triangles or weights, or if texture coordinates are missing.
 Status project_mesh(Document& document, uint32_t mesh, uint32_t source, const Projection& how,
                     ProjectionResult& out, Error& error);
 
@@ -38,8 +38,8 @@ bool project_weights(const dna::Mesh& source, const SurfaceMatch& match, Span<co
                      uint32_t joint_count, uint32_t influences, Arena& arena,
                      dna::List<dna::VertexSkinWeights>& out);
 
-/// The targets of `source` at the places of a match, of channels with new_channels[channel] != kGone, turned and
-/// scaled by turns[position] if there are any.
+/// The targets of `source` at the places of a match, of channels with new_channels[channel] != kGone,
+/// rotated and scaled by turns[position] if there are any.
 bool project_targets(const dna::Mesh& source, const SurfaceMatch& match,
                      Span<const uint32_t> new_channels, Span<const Similarity> turns, Arena& arena,
                      dna::List<dna::BlendShapeTarget>& out);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Small entries of the joint matrix, and what they were worth.
+// Removes small entries of the joint matrix, and measures the effect.
 #pragma once
 
 #include "author/document/document.h"
@@ -11,7 +11,7 @@ struct JointPruning {
         scale = 0;  // entries up to these become 0, in the units of the file
 };
 
-/// The largest distance between the positions of two documents that differ in what controls do.
+/// The largest distance between positions of two documents whose controls act differently.
 struct PoseDifference {
   double distance = 0;   // in the unit of the file
   uint32_t control = 0;  // of the pose: a raw control, or a corrective
@@ -23,8 +23,8 @@ struct PrunedJoints {
   PoseDifference worst;
 };
 
-/// Sets small entries to 0 and removes columns and rows of joint groups that have no others left. Measures what
-/// that moves the positions of LOD 0, over all poses of ControlPoses.
+/// Sets small entries to 0 and removes columns and rows of joint groups that have no others. Measures how
+/// far that moves the positions of LOD 0, over all poses of ControlPoses.
 Status prune_joint_matrix(Document& document, const JointPruning& pruning, PrunedJoints& out,
                           Error& error);
 

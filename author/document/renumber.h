@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What refers to what. When joints, meshes, channels or maps are removed, reordered, merged or added, a function
-// for each kind walks every field that is indexed by their numbers or holds them (docs/dna-format.md, 6
-// "Layers, field by field"); no other place of the author library knows these lists.
+// The references between elements. When joints, meshes, channels or maps are removed, reordered, merged or
+// added, a function for each kind walks every field that is indexed by their numbers or holds them
+// (docs/dna-format.md, 6 "Layers, field by field"); no other place of the author library knows these lists.
 #pragma once
 
 #include "runtime/base/arena.h"
@@ -33,8 +33,8 @@ bool renumber_maps(dna::DnaView& view, const Renumbering& numbers, Arena& arena)
 /// Drops the rows of all tables that write joints with keep[joint] == 0; all joints stay.
 bool drop_joint_rows(dna::DnaView& view, Span<const uint8_t> keep, Arena& arena);
 
-/// Makes meshBlendShapeChannelMapping say what targets the mesh has: pairs without a target go, lacking ones are
-/// appended.
+/// Updates meshBlendShapeChannelMapping to the targets of the mesh: removes pairs without a target, and
+/// appends missing ones.
 bool pair_channels(dna::DnaView& view, uint32_t mesh, Arena& arena);
 
 /// Lists an element at those LODs whose bits are set, and at no other. LODs that list the same share a list.
@@ -53,7 +53,7 @@ bool copy_list(Arena& arena, dna::List<T>& list) {
   return true;
 }
 
-/// The same of an array.
+/// The same for an array.
 template <class T>
 bool copy_array(Arena& arena, const dna::Array<T>& array, dna::NewArray<T>& out) {
   out = dna::new_array<T>(arena, array.count);

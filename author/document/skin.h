@@ -15,16 +15,16 @@ namespace mien::author {
 Status set_skin_weights(Document& document, uint32_t mesh, const uint16_t* joints,
                         const float* weights, size_t positions, uint32_t influences, Error& error);
 
-/// Scales the weights of each vertex to a sum of 1. Those whose sum is 1 within 1e-6 stay.
+/// Scales the weights of each vertex to a sum of 1. Sums within 1e-6 of 1 do not change.
 Status normalize_skin_weights(Document& document, uint32_t mesh, Error& error);
 
 /// Keeps the `influences` largest weights of each vertex that has more (of equal ones the first), in their
-/// order, and scales them to the sum that all had.
+/// order, and scales them to the previous sum.
 Status limit_influences(Document& document, uint32_t mesh, uint32_t influences, Error& error);
 
-/// `iterations` times: the weights of each vertex become (1 - strength) of its own plus strength of the mean
-/// of its neighbors along edges of faces. Vertices at the same place are one. Keeps at most `influences`
-/// of them, and sums of 1.
+/// `iterations` times: the weights of each vertex become (1 - strength) of its own plus strength of the
+/// mean of its neighbors along edges of faces. Vertices at the same place count as one. Keeps at most
+/// `influences` weights per vertex, with a sum of 1.
 Status smooth_skin_weights(Document& document, uint32_t mesh, uint32_t iterations, float strength,
                            uint32_t influences, Error& error);
 

@@ -52,11 +52,12 @@ struct Similarity {
   Vec3 operator()(Vec3 p) const { return direction(p - from) + to; }
 };
 
-/// Space that moves with some points: near them as they do, in between and beyond by the similarity that fits the
-/// nearest ones best, weighted by their distance. A rotation, scale and shift of all points is reproduced exactly.
+/// Moves space with some points: near a point as the point moves, in between and beyond by the similarity
+/// that fits the nearest ones best, weighted by their distance. A rotation, scale and shift of all points
+/// is reproduced exactly.
 class Warp {
  public:
-  /// Keeps both, which are not empty. False if memory ran out.
+  /// Keeps references to both, which are not empty. False if memory ran out.
   bool build(Span<const Vec3> before, Span<const Vec3> after, Arena& arena);
 
   Similarity at(Vec3 place) const;

@@ -14,7 +14,7 @@ struct Transplant {
   uint32_t influences = 8;
 };
 
-/// What a control that both rigs have does differently afterwards.
+/// How differently a control of both rigs acts after the transplant.
 struct ControlError {
   uint32_t control = 0;  // number of the raw control in the template
   double worst = 0;      // distance of a position of LOD 0, in the unit of the file
@@ -22,13 +22,14 @@ struct ControlError {
   double moved = 0;  // the farthest that it moved a position before
 };
 
-/// Replaces the rig of the document by that of `rig`: definition, behavior and all that belongs to it, with its LODs.
-/// The character keeps its shape. Meshes of the same name keep the character's topology and positions, and get the
-/// template's weights and targets at corresponding places; other meshes are those of the template, moved with the
-/// surface. Joints that both have by name stand where the character's stood, others move with the surface, as
-/// conform() does. `out_errors` has room for the raw controls of the template; `out_count` gets how many both have.
-/// kMismatch if the systems differ, kInvalidArgument if no mesh of LOD 0 has the name of one of the template, or one
-/// cannot be matched.
+/// Replaces the rig of the document by that of `rig`: definition, behavior and everything that belongs to
+/// it, with its LODs. The character keeps its shape. Meshes of the same name keep the character's topology
+/// and positions, and get the template's weights and targets at corresponding places; other meshes are
+/// those of the template, moved with the surface. Joints with names of joints of the character keep the
+/// places of those, others move with the surface, as in conform(). `out_errors` has room for the raw
+/// controls of the template; `out_count` gets the number of those that both rigs have. kMismatch if the
+/// systems differ, kInvalidArgument if no mesh of LOD 0 has the name of one of the template, or one cannot
+/// be matched.
 Status transplant(Document& document, const Document& rig, const Transplant& how,
                   Span<ControlError> out_errors, uint32_t& out_count, Error& error);
 

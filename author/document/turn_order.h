@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The columns of a joint group rotate its quaternion joints one after another, in an order that depends on all of
-// its rows (docs/rig-evaluation.md, 4.3 "Rows, columns and LODs"). When rows go, the others have to keep theirs.
+// The columns of a joint group rotate its quaternion joints one after another, in an order that depends on
+// all of its rows (docs/rig-evaluation.md, 4.3 "Rows, columns and LODs"). When rows are removed, the
+// remaining columns must keep their order.
 #pragma once
 
 #include "runtime/base/arena.h"

@@ -38,8 +38,8 @@ struct Footprints {
   Span<uint8_t> fitted;      // per bone
   Span<uint8_t> facial;      // per bone: facial, not jaw, tongue or eye
   Span<uint32_t> parents;    // per bone
-  // What goes with the first jaw: it and the bones below it, as if they were one; without the tongue, which
-  // moves most of its own.
+  // The first jaw and the bones below it, as if they were one; without the tongue, which moves mostly by
+  // itself.
   uint32_t jaw = kNone;
   Vec3 jaw_position;
   Span<uint8_t> below_jaw;   // per bone: the jaw and what hangs below it
@@ -53,7 +53,7 @@ struct Footprints {
     return entries.slice(starts[bone], starts[bone + 1] - starts[bone]);
   }
   Span<Influenced> of_jaw() const { return carried.first(carried_count); }
-  /// Of what moves when the joint does.
+  /// The moments of everything that moves with the joint.
   const Moments& moved_by(uint32_t bone) const {
     return bone == jaw ? carried_moments : moments[bone];
   }

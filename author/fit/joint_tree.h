@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which facial bones hang below the jaw: those that go with it in the shape that opens it.
+// Finds the facial bones that belong below the jaw: those that move with it in the shape that opens it.
 #pragma once
 
 #include "author/base/joint_motion.h"
@@ -8,7 +8,7 @@
 
 namespace mien::author {
 
-/// Of the jaw's motion the least share that a bone below it takes part in.
+/// The smallest share of the jaw's motion in which a bone below it takes part.
 constexpr double kWithJaw = 0.5;
 
 /// Hangs facial bones below the jaw: those whose skin, by `weights`, takes at least kWithJaw of the

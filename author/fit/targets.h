@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Deltas as the joint matrix holds them, blend shape targets for what joints cannot do, and the
+// Deltas as the joint matrix holds them, blend shape targets for motion that joints cannot produce, and the
 // remaining error of the rig.
 #pragma once
 

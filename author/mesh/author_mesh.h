@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the stages of `mien author` hand to each other: a mesh with shapes, bones, skin weights.
+// The data that the stages of `mien author` pass on: a mesh with shapes, bones, skin weights.
 //
 //     AuthorMesh ──place──> Placement ──weigh──> SkinWeights ──fit──> joint matrix ──> DNA
 //

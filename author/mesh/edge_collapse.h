@@ -29,7 +29,7 @@ class EdgeCollapse {
   /// `floors[c]`.
   void reduce(uint32_t wanted, Span<const uint32_t> floors);
 
-  /// Takes all of a component away.
+  /// Removes a whole component.
   void remove_component(uint32_t component);
 
   uint32_t triangle_count() const { return alive_count_; }
@@ -86,7 +86,7 @@ class EdgeCollapse {
   bool may_collapse(uint32_t u, const Ring& ring, uint32_t v);
   bool keeps_facing(uint32_t u, const Ring& ring, uint32_t v, const ChartMap& map) const;
   double cost(uint32_t u, uint32_t v) const;
-  /// Whether the mirror image of the collapse may follow it, or need not as nothing changes.
+  /// Whether the mirror image of the collapse may follow it, or is not needed because nothing changes.
   bool mirror_may_collapse(uint32_t u, uint32_t v);
   uint32_t partner_of(uint32_t place) const { return mirror_.empty() ? kNone : mirror_[place]; }
   /// Finds the cheapest collapse of u and enters it into the heap.

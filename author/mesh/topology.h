@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How a mesh hangs together: places that several vertices share, components, edges with lengths.
+// The topology of a mesh: places that several vertices share, components, edges with lengths.
 #pragma once
 
 #include "author/mesh/author_mesh.h"
@@ -16,9 +16,9 @@ struct Box {
 /// `points` is not empty.
 Box bounding_box(Span<const Vec3> points);
 
-/// For each vertex the first one at the same place. Places are compared on a grid of 1e-6 of the
-/// diagonal of the bounding box, so copies of a vertex count as one. What a shape moves apart is not
-/// one place: lips that touch are two. False if memory ran out.
+/// For each vertex the first one at the same place. Places are compared on a grid of 1e-6 of the diagonal
+/// of the bounding box, so copies of a vertex count as one. Vertices that a shape moves apart are at
+/// different places: lips that touch are two. False if memory ran out.
 bool weld(Span<const Vec3> positions, Span<const Shape> shapes, Arena& arena, Arena& scratch,
           Span<uint32_t>& out);
 

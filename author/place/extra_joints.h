@@ -48,11 +48,11 @@ struct Jaw {
   Vec3 position;
   double angle = 0;  // degrees
   uint32_t shape = 0;
-  double chin_motion = 0;   // mean displacement of what moves most
+  double chin_motion = 0;   // mean displacement of the positions that move most
   RigidMotion motion = {};  // of that
 };
-/// From the shape named like jawOpen: the rigid motion that most of the lower teeth and of what else goes with
-/// them agrees on; without teeth, that of the chin. False if memory ran out.
+/// Finds the jaw by the shape named like jawOpen: its rigid motion is the one that fits most of the lower
+/// teeth and of everything that moves with them; without teeth, that of the chin. False if memory ran out.
 bool find_jaw(const AuthorMesh& mesh, double plane, Arena& scratch, Jaw& out);
 
 /// A component of its own, called tongue or moved by shapes of that name.

@@ -7,7 +7,7 @@
 
 namespace mien::author {
 
-/// What the steps of the placement share.
+/// The data that the steps of the placement share.
 struct Placing {
   const AuthorMesh& mesh;
   const PlaceOptions& options;

@@ -46,7 +46,7 @@ struct PlaceReport {
   uint32_t group_count = 0;
   uint32_t group_sizes[kMaxGroups] = {};  // front first, of places
   DepthRange group_depths[kMaxGroups];    // of their places; of empty groups 0
-  uint32_t border_count = 0;              // 0 where groups are no intervals of z
+  uint32_t border_count = 0;              // 0 if groups are not intervals of z
   double borders[kMaxGroups] = {};        // z between groups, front first
   NeckSplit neck_split = NeckSplit::kNoNeck;
   Vec3 head_mean, neck_mean;

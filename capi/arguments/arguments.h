@@ -12,7 +12,7 @@
 
 namespace mien::capi {
 
-/// No struct grows beyond this: a larger size is an uninitialized one.
+/// Structs never grow beyond this size: a larger one was not initialized.
 constexpr size_t kMaxStructSize = 4096;
 
 /// Reads a caller's desc into `out`, which is zero where the caller's is shorter or NULL.

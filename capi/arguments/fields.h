@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Fields by path as callers ask for them, of a MienDna or of what an author changes. Every function expects a
-// checked `error`, and of a result that it has been cleared.
+// Fields by path as callers ask for them, of a MienDna or of what an author changes. Every function expects
+// that `error` was checked and the result cleared.
 #pragma once
 
 #include "capi/arguments/arguments.h"
@@ -24,7 +24,7 @@ MienStatus describe_field(const dna::DnaView& view, const char* path, size_t pat
 MienStatus name_field(const dna::DnaView& view, const char* path, size_t path_count, uint32_t index,
                       MienStringView* out_name, MienError* error);
 
-/// What is read by path. Messages name the functions of its `object`: "mien_dna", "mien_document".
+/// The data that is read by path. Messages name the functions of its `object`: "mien_dna", "mien_document".
 struct FieldSource {
   const dna::DnaView& view;
   const char* object;

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Which channel of a clip drives which raw control of a rig, found once by name.
+// Maps the channels of a clip to the raw controls of a rig, found once by name.
 //
 //     values of channels --copies, sums----------------------------> raw controls
 //                        --sums--> GUI controls --table of the rig--->
 //
-// A channel drives, in this order: the raw control of its name; the GUI control of its name,
-// which the rig's own table maps to raw controls after sampling; or, as a source of the caller's
-// matrix, what the matrix says, for captures with names of their own. Names match without regard to
-// case, `.` matches `_`, and the prefix `CTRL_expressions.` may be missing. If several names match,
-// one of them has to be equal. A channel that drives nothing so far drives what its name means in other
-// spellings and vocabularies (match_controls.h), as entries behind those of the matrix do.
+// A channel drives, in this order: the raw control of its name; the GUI control of its name, which the
+// rig's own table maps to raw controls after sampling; or the controls that the caller's matrix lists for
+// it, for captures with names of their own. Names match without regard to case, `.` matches `_`, and the
+// prefix `CTRL_expressions.` may be missing. If several names match, one of them must be equal. A channel
+// that drives nothing so far drives the controls that its name matches in other spellings and vocabularies
+// (match_controls.h), like entries at the end of the matrix.
 //
 // The more direct way wins: a raw control that a channel names is driven by nothing else, and one
 // that such entries drive is not driven by GUI controls.
@@ -74,8 +74,8 @@ struct Binding : Object {
 
 constexpr uint32_t kMaxBoundGuiControls = 4096;  // including the one that is always 0
 
-/// On success, give back `out` with release(). kClipLimit for more GUI controls; kInvalidArgument for weights that are not finite,
-/// kMemory.
+/// On success, give back `out` with release(). kClipLimit for more GUI controls, kInvalidArgument for
+/// weights that are not finite, kMemory.
 Status bind_clip(const Clip& clip, const Rig& rig, Span<const MatrixEntry> matrix,
                  const Allocator& allocator, Binding*& out, Error& error);
 

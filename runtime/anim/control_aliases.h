@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which names mean the same control. The only such table: libraries, program and bindings all ask it, through
-// mien_rig_match() and mien_control_name().
+// Which names mean the same control. The only such table: libraries, program and bindings all use it,
+// through mien_rig_match() and mien_control_name().
 //
 // The name comes first, then its aliases in lower case, without separators. `*` stands for no side, left or right:
 // names of ARKit say Left and Right, `/` is the same for those of MetaHuman, which say L and R. `<` and `>` stand

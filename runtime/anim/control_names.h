@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // How names of controls match: without regard to case, `.` matches `_`, and the prefix `CTRL_expressions.`
-// may be missing. If several names match, one of them has to be equal.
+// may be missing. If several names match, one of them must be equal.
 #pragma once
 
 #include <algorithm>

@@ -14,8 +14,8 @@ namespace mien {
 
 enum class Side : uint8_t { kNone, kLeft, kRight };
 
-/// What is left of a name: its letters and digits, in lower case. Empty if the name has none, or is longer
-/// than any name of the vocabularies; nothing is like such a name.
+/// A name reduced to its letters and digits, in lower case. Empty if the name has none, or is longer than
+/// any name of the vocabularies; an empty spelling matches nothing.
 struct ControlSpelling {
   static constexpr size_t kMost = 62;
   char text[kMost];
@@ -48,7 +48,7 @@ KnownControl know_control(const ControlSpelling& spelling);
 constexpr size_t kMostKnownName = 48;
 size_t write_known_name(const KnownControl& known, char* out);
 
-/// Whether a side is where the control moves to, as in jawLeft: then left and right are no pair.
+/// Whether left and right are directions of the motion, as in jawLeft, and not sides of the face.
 bool is_direction(const ControlSpelling& spelling);
 
 }  // namespace mien

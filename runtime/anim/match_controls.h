@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Which raw controls a name of another tool means on a rig.
+// Finds the raw controls of a rig that a name of another tool stands for.
 //
 //     name -> as written -> same letters -> both sides -> expression of several controls -> alias -> both sides
 //
-// The first of these that gives controls counts.
+// The first of these steps that finds controls counts.
 #pragma once
 
 #include "runtime/anim/control_spelling.h"

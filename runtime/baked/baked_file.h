@@ -5,12 +5,11 @@
 //
 //     part:  | numbers, 8 bytes each | arrays: offset, count, element size | array | array | ...
 //
-// Parts begin at multiples of 64, in the order of the table, and so do their arrays; what is
-// between is zero. So equal objects have equal bytes, and the offsets of an object, which count from
-// the beginning of its part, do not depend on what else the file contains. A reader skips parts of
-// unknown kinds. Nothing in a file depends on the instruction set, on the size of a pointer, or on its
-// address. Numbers are in the byte order of the machine that wrote them; a file of the other order is
-// refused.
+// Parts begin at multiples of 64, in the order of the table, and so do their arrays; the gaps are zero. So
+// equal objects have equal bytes, and the offsets of an object, which count from the beginning of its part,
+// do not depend on what else the file contains. A reader skips parts of unknown kinds. Nothing in a file
+// depends on the instruction set, on the size of a pointer, or on its address. Numbers are in the byte
+// order of the machine that wrote them; a file of the other order is refused.
 #pragma once
 
 #include "runtime/base/arena.h"
@@ -65,7 +64,7 @@ enum class BakedCheck : uint32_t {
   kFull = 1,  // also compare the checksums
 };
 
-/// A file whose header and table are in order. Parts are checked when objects are made of them.
+/// A file whose header and table are in order. Parts are checked when objects are made from them.
 struct Baked : SharedBytes {
   static constexpr uint32_t kTag = 0x6D42'414B;
 
@@ -74,7 +73,7 @@ struct Baked : SharedBytes {
   const BakedPart* deformer = nullptr;  // the same
 };
 
-/// The checksum that belongs into the header.
+/// The checksum that belongs in the header.
 uint64_t baked_checksum(const uint8_t* bytes, size_t size);
 
 // Opening checks the header, the table and, for kFull, the checksum, and finds the parts. On success, give
@@ -84,8 +83,8 @@ uint64_t baked_checksum(const uint8_t* bytes, size_t size);
 /// Errors of open_file(), too.
 Status open_baked_file(const char* path, FileAccess access, BakedCheck check,
                        const Allocator& allocator, Baked*& out, Error& error);
-/// The bytes are used in place and have to outlive all that is made of them, unless `access` is kRead or
-/// they are not at a multiple of 64: then they are copied.
+/// The bytes are used in place and must outlive everything made from them, unless `access` is kRead or they
+/// are not at a multiple of 64: then they are copied.
 Status open_baked_memory(Span<const uint8_t> bytes, FileAccess access, BakedCheck check,
                          const Allocator& allocator, Baked*& out, Error& error);
 /// kFileRead, too.

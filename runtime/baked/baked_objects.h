@@ -13,13 +13,13 @@ size_t baked_size(const Rig& rig, const Deformer* deformer);
 /// `bytes` has baked_size() bytes. The same objects give the same bytes.
 void bake(const Rig& rig, const Deformer* deformer, uint8_t* bytes);
 
-/// One block of `allocator` for what is not in the file; an owner of its bytes. `baked` has a rig.
-/// To be given back by release().
+/// Takes one block of `allocator` for everything that is not in the file, and becomes an owner of the
+/// bytes. `baked` must have a rig. Give `out` back with release().
 Status open_baked_rig(const Baked& baked, const KernelTable* kernels, const Allocator& allocator,
                       Rig*& out, Error& error);
 
-/// The same for a deformer of `rig`, which was opened from this file; an owner of the rig. `baked`
-/// has a deformer.
+/// The same for a deformer of `rig`, which was opened from this file. It becomes an owner of the rig.
+/// `baked` must have a deformer.
 Status open_baked_deformer(const Baked& baked, const Rig& rig, const KernelTable* kernels,
                            const Allocator& allocator, Deformer*& out, Error& error);
 
@@ -27,19 +27,19 @@ Status open_baked_deformer(const Baked& baked, const Rig& rig, const KernelTable
 
 PartMeasure measure_part(const Rig& rig);
 PartMeasure measure_part(const Deformer& deformer);
-/// `bytes` are zero, and as many as measured. Gives the entry in the table of parts, but for its
+/// `bytes` are zero, and as many as measured. Returns the entry in the table of parts, except for its
 /// offset.
 BakedPart write_part(const Rig& rig, uint8_t* bytes);
 BakedPart write_part(const Deformer& deformer, uint8_t* bytes);
 
-/// Every count and every index in the tables: evaluation, batches, names and statistics stay within
-/// the arrays, whatever the floats are. Costs time for the tables only. `full` also proves the
-/// order of names and of correctives. kBakedStructure.
+/// Every count and every index in the tables: evaluation, batches, names and statistics stay within the
+/// arrays, whatever the floats are. Only tables cost time. `full` also checks the order of names and of
+/// correctives. kBakedStructure.
 Status check_rig(const Rig& rig, uint64_t bytes, bool full, Error& error);
 
 /// The same for deformation, and for indices that callers follow: triangles, channels, positions of
-/// vertices. Each position and each vertex is written once, so tasks never write the same memory.
-/// `full` also proves the order of joints.
+/// vertices. Each position and each vertex is written once, so tasks never write the same memory. `full`
+/// also checks the order of joints.
 Status check_deformer(const Deformer& deformer, bool full, Error& error);
 
 }  // namespace mien

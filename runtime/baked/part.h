@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One part of a baked file. An object lists what it consists of to a visitor, once and for all:
+// One part of a baked file. An object lists its members for a visitor in one place:
 //
 //     template <class Visitor> void visit(Object& object, Visitor& visitor) {
 //       visitor.number(object.count);
@@ -33,7 +33,7 @@ class PartMeasure {
                     kBlockAlignment);
   }
   size_t size() const { return table_size() + align_up(array_bytes_, kBlockAlignment); }
-  /// What the table of parts says of it, but for its place.
+  /// Its entry in the table of parts, except for the offset.
   BakedPart entry(PartKind kind, uint32_t version) const {
     return {static_cast<uint32_t>(kind), version, 0, size(), number_count_, array_count_, {}};
   }
@@ -70,8 +70,8 @@ class PartWriter {
   size_t at_;
 };
 
-/// Makes an object a view of a part: arrays point into it. The object is to be used only if
-/// finish() says so, and has to be checked even then: any number may be in it.
+/// Makes an object a view of a part: arrays point into it. Use the object only if finish() returns true,
+/// and check it even then, because it may hold any numbers.
 class PartReader {
  public:
   /// `expected` is the measure of an object of this kind, with or without its arrays.

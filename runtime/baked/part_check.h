@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the checks of parts have in common. Index arrays are long, so each is looked through in one
-// pass that compilers turn into vector code.
+// Helpers for the checks of parts. Index arrays are long, so each is checked in one pass that compilers
+// vectorize.
 #pragma once
 
 #include <cstring>
@@ -23,7 +23,7 @@ struct Checker {
   }
 };
 
-/// The largest of some numbers, and the bits that any of them has.
+/// The largest of some numbers, and the union of their bits.
 template <class T>
 struct Extent {
   T max = 0, bits = 0;
@@ -64,7 +64,7 @@ bool below(const Span<T>& values, uint64_t limit) {
   return values.empty() || extent_of(values).max < limit;
 }
 
-/// `first` tells where each of `count` runs begins, and then where the last one ends.
+/// `first` holds the beginnings of `count` runs, then the end of the last one.
 inline bool is_runs(const Span<uint32_t>& first, size_t count, size_t limit) {
   if (first.count <= count || first[0] != 0) return false;
   const uint32_t* at = first.data;
@@ -78,7 +78,7 @@ inline bool fits(uint64_t first, uint64_t count, uint64_t limit) {
   return first <= limit && count <= limit - first;
 }
 
-/// A bool out of a file may be any byte, and then must not be read as a bool.
+/// A bool from a file may be any byte, and must not be read as a bool before it is checked.
 inline bool is_flag(const bool& flag) {
   uint8_t byte;
   memcpy(&byte, &flag, 1);

@@ -13,8 +13,8 @@ struct Allocator {
   void* user = nullptr;
   void* (*allocate)(void* user, size_t size, size_t alignment) = nullptr;
   void (*release)(void* user, void* block, size_t size, size_t alignment) = nullptr;
-  /// The least that an Arena requests at a time. 0: each of its arrays is a block of its own that ends
-  /// with it, so that tests can let any of them fail, and sanitizers see a step past its end.
+  /// The smallest request of an Arena. 0: each of its arrays is a block of its own that ends with it, so
+  /// that tests can let any of them fail, and sanitizers notice an access past its end.
   size_t arena_chunk = 16 * 1024;
 
   /// Null also if the allocator gave a misaligned block, which goes back to it.

@@ -4,7 +4,7 @@
 //     struct Instance : Object {
 //       static constexpr uint32_t kTag = ...;   // of its kind
 //       const Rig* rig = nullptr;               // made by share(), so that the rig stays
-//       ~Instance() { release(rig); }           // gives up what it owns; its block is release()'s affair
+// ~Instance() { release(rig); }           // gives up what it owns; release() frees its block
 //     };
 //
 // Arrays of an object lie in its block or in memory that it owns, such as SharedBytes.

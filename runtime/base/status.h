@@ -76,8 +76,8 @@ enum class Status : int32_t {
   kAuthorCanceled = 82,
 };
 
-/// Name of a status as in mien.h, without its prefix ("DNA_TRUNCATED").
-/// Static storage; "UNKNOWN" for a number that is no status.
+/// Name of a status as in mien.h, without its prefix ("DNA_TRUNCATED"). Static storage; "UNKNOWN" for a
+/// number that is not a status.
 const char* status_name(Status status);
 
 constexpr uint64_t kNoOffset = ~uint64_t{0};
@@ -95,7 +95,7 @@ struct Error {
 MIEN_PRINTF(4, 5)
 Status fail(Error& error, Status status, uint64_t byte_offset, const char* format, ...);
 
-/// Replaces, in place, each control character and each byte that is no part of valid UTF-8 by '?': a
+/// Replaces, in place, each control character and each byte that is not part of valid UTF-8 by '?': a
 /// message must not move the cursor of a terminal, whatever the file says.
 void make_printable(char* text);
 

@@ -35,7 +35,7 @@ struct Matrix3 {
 Matrix3 matrix_from_euler(const RotationConvention& convention, const float angles[3]);
 /// The length of `q` does not matter; zero gives the identity.
 Matrix3 matrix_from_quaternion(const Quaternion& q);
-/// To angles about x, y, z. In gimbal lock the angle that is left open is 0.
+/// To angles about x, y, z. In gimbal lock the free angle is 0.
 void euler_from_matrix(const RotationConvention& convention, const Matrix3& matrix,
                        float angles[3]);
 Matrix3 operator*(const Matrix3& a, const Matrix3& b);
@@ -48,9 +48,9 @@ Matrix3 change_of_axes(const uint32_t from[3], const uint32_t to[3]);
 /// Unit length; identity if there is no direction.
 Quaternion normalized(const Quaternion& q);
 
-/// The part of a rotation about an axis (0, 1, 2: x, y, z), or what is left without it: how RBF
-/// solvers see it (docs/rig-evaluation.md, 6.2 "Preparation of inputs and targets"). Not a number
-/// if `q` has no such part.
+/// The part of a rotation about an axis (0, 1, 2: x, y, z), or the rest of the rotation, as RBF solvers
+/// compare them (docs/rig-evaluation.md, 6.2 "Preparation of inputs and targets"). Not a number if `q` has
+/// no such part.
 Quaternion rotation_part(const Quaternion& q, uint32_t axis, bool swing);
 
 }  // namespace mien

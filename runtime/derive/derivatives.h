@@ -39,7 +39,7 @@ constexpr uint32_t kMatrixParts = 12;  // three axes and the translation; the la
 
 constexpr uint32_t kNoRow = ~uint32_t{0};
 
-/// The derivative of one value by one other, as a conditional table has it at the current input.
+/// The derivative of one value of a conditional table by one input, at its current value.
 struct TableSlope {
   uint16_t input, output;
   float slope;
@@ -56,10 +56,10 @@ struct Derivatives : Object {
   }
 
   uint32_t lod = 0;
-  uint32_t stages = 0;  // that have derivatives; what the others write is constant
+  uint32_t stages = 0;  // that are differentiated; results of the others are constants
   bool linearized = false;
 
-  // Values of the instance, at which the derivatives are.
+  // Values of the instance, at which the derivatives are taken.
   Span<float> values;    // [control]
   Span<float> channels;  // [channel]
   JointPose pose;        // with a deformer

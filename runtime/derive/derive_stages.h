@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The derivatives of each stage: linearize_...() computes the coefficients, push_...() multiplies directions,
-// pull_...() gradients. A value has L lanes, 1 or kBatchLanes. A stage that assigns a value takes its gradient
-// away, so that what wrote it before gets none.
+// The derivatives of each stage: linearize_...() computes the coefficients, push_...() multiplies
+// directions, pull_...() gradients. A value has L lanes, 1 or kBatchLanes. A stage that assigns a value
+// clears its gradient, so that earlier writers of it get none.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Dual numbers: a value and its derivatives by N variables. What stages of rotations do is written once more
-// with them, in double precision, and gives small matrices of derivatives.
+// Dual numbers: a value and its derivatives by N variables. The stages that compute rotations are repeated
+// with them in double precision, which gives small matrices of derivatives.
 #pragma once
 
 #include <cmath>

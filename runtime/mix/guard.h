@@ -2,7 +2,8 @@
 // Guards keep later layers from opening what speech or a blink closes.
 //
 // A guard knows a distance, such as the gap between the inner edges of the lips, as a measured function of
-// a few raw controls. It holds back what would make the distance larger than it is in the protected row.
+// a few raw controls. It holds back changes that would make the distance larger than it is in the protected
+// row.
 #pragma once
 
 #include <cstdint>
@@ -90,7 +91,7 @@ struct GuardTable {
   const KernelTable* kernels = nullptr;
 };
 
-/// To be called twice, as Placer says.
+/// Call it twice, as Placer describes.
 void place_guards(Placer& placer, Span<const Guard> guards, const KernelTable* kernels,
                   GuardTable& out);
 
@@ -109,8 +110,8 @@ inline void guard_distances(const GuardTable& guards, const float* row, float* o
 /// their order makes no difference, and mirrored rows give mirrored results. Curves with the largest gains
 /// go first, so that as little as possible of the row is lost; both halves of a face go together
 /// (Guard::together). Curves that do not open the distance stay. The amounts are in closed form, because f
-/// is linear in each curve. A curve that one guard took back may have helped another: then all guards look
-/// at the row once more.
+/// is linear in each curve. A curve that one guard took back may have helped another, so all guards then
+/// look at the row again.
 void hold_guards(const GuardTable& guards, const float* protected_row, const float* distances,
                  const float* activations, const float* free_row, float* back, float* row);
 constexpr uint32_t kGuardSweeps = 2;

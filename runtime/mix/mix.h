@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is mixed for one rig, and how. Immutable, shared by any number of characters.
+// The description of what is mixed for one rig, and how. Immutable, shared by any number of characters.
 //
 // A row holds a value for each curve:
 //
@@ -164,8 +164,8 @@ struct MixDesc {
   const KernelTable* kernels = nullptr;
 };
 
-/// Immutable, in one block of memory: a copy of the desc, and what steps need besides. Masks of the copy
-/// are 0 for curves that the layer cannot change; there is no gaze if no layer generates it.
+/// Immutable, in one block of memory: a copy of the desc, and further data that steps need. Masks of the
+/// copy are 0 for curves that the layer cannot change; there is no gaze if no layer generates it.
 struct Mix : Object, MixDesc {
   static constexpr uint32_t kTag = 0x6D4D'4958;
 

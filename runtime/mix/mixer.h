@@ -3,9 +3,9 @@
 //
 //     | Mixer | rows of a step | players | events of the last step | state |
 //
-// The state holds everything that later steps depend on but queued rows of streams, without pointers, so
-// a copy of its bytes is a snapshot. Players refer to clips by pointers, the state by ids that the caller
-// chooses (ClipSource).
+// The state holds everything that later steps depend on, except queued rows of streams, without pointers,
+// so a copy of its bytes is a snapshot. Players refer to clips by pointers, the state by ids that the
+// caller chooses (ClipSource).
 //
 // A step allocates nothing, locks nothing and cannot fail. Time is in ticks. Most of what runs is a
 // function of time alone; docs/mixing.md, 8 "Time, numbers, memory" lists what depends on the steps.

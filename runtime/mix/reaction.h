@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reactions: what a face does in response to a stimulus, as data.
+// Reactions: responses of a face to a stimulus, as data.
 //
 // A reaction is a list of strokes. Each moves some curves to a pose and back to 0:
 //

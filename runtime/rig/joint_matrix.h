@@ -33,13 +33,13 @@
 
 namespace mien {
 
-/// The first of a run of block rows, of the panel's.
+/// Where a row panel begins.
 struct JointPanel {
   uint32_t first_block_row;
   uint32_t first_target;  // into JointMatrix::targets
 };
 
-/// How many rows the kinds of targets have.
+/// The number of rows of each kind of target.
 constexpr uint32_t kTargetRows[] = {6, 3, 1};
 constexpr uint32_t kTargetKinds = 3;
 
@@ -49,7 +49,7 @@ constexpr uint32_t kMaxTileBlockRows = 1024;
 constexpr uint32_t kMaxBlockRows = 0x10000 / kBlockRowUnit;  // of the whole matrix
 static_assert(kMaxTileBlockRows >= kMaxPanelBlockRows, "a panel fits");
 
-/// How many block pairs and how many single blocks of a column come before some panel.
+/// The number of block pairs and of single blocks of a column before a panel.
 struct ColumnPart {
   uint16_t pairs, singles;
 };
@@ -62,19 +62,20 @@ struct JointMatrix {
   Span<uint16_t> columns;            // [column] control, ascending
   Span<uint32_t> column_of_control;  // [control] or kNoColumn
   Span<JointColumn> starts;          // [column], one more at the end
-  Span<ColumnPart> parts;        // [column][panel], one more at the end of each column: what of the
-                                 // column comes before the panel
+  Span<ColumnPart> parts;        // [column][panel], one more at the end of each column: the part of
+                                 // the column before the panel
   Span<JointPanel> panels;       // one more at the end
   Span<uint32_t> panels_at_lod;  // leading panels
 
-  // By panel, with packed rows counted from its first one: those of six rows, of three, of one; of each kind
-  // those that more LODs reach first. After the last panel, if fits_tile(), once more those of all panels, in
-  // order of their outputs, with packed rows counted from the first one of the matrix.
+  // By panel, with packed rows counted from its first one: those of six rows, of three, of one; of each
+  // kind those that more LODs reach first. After the last panel, if fits_tile(), the targets of all panels
+  // follow again, in order of their outputs, with packed rows counted from the first one of the matrix.
   Span<JointTarget> targets;
   Span<uint16_t> targets_at_lod;  // [panel, or all][kind][lod]: leading ones of the kind
 
-  // The columns from first_strip_column on once more, by strips of block rows, with zeros where a block row
-  // has no block. Only where that is small and most of these columns may be in use, else all are empty.
+  // A second copy of the columns from first_strip_column on, by strips of block rows, with zeros where a
+  // block row has no block. Made only where it is small and most of these columns may be in use; else all
+  // are empty.
   uint32_t first_strip_column = 0;
   Span<RowStrip> strips;        // one more at the end
   Span<uint16_t> strip_inputs;  // controls, ascending in each strip

@@ -71,8 +71,8 @@ struct PsdTable {
   Span<float> weights;         // [entry]
   Span<uint32_t> first_input;  // [entry], one more at the end
   Span<uint16_t> inputs;       // control numbers
-  Span<uint16_t> run_lengths;  // [entry] so many from here on have the same number of inputs and do
-                               // not read each other
+  Span<uint16_t> run_lengths;  // [entry] number of entries from here on that have the same number
+                               // of inputs and do not read each other
   Span<uint32_t> count_at_lod;
   Span<uint16_t> entry_of_psd;  // where corrective p stands
 };
@@ -105,8 +105,8 @@ struct GroupRotations {
 };
 
 /// The turns of all groups are packed into blocks of kBlockLanes, one lane each, as simd/rotation_kernels.h
-/// draws them: turns used by more LODs first, then those with more steps. A step is a column of the
-/// lane's group that turns the joint; a LOD uses the first steps of a lane.
+/// describes: turns used by more LODs first, then those with more steps. A step is a column of the lane's
+/// group that turns the joint; a LOD uses the first steps of a lane.
 struct RotationTable {
   Span<GroupRotations> groups;  // one for each joint group
   Span<AngleJoint> angle_joints;
@@ -232,9 +232,9 @@ struct TwistSwing {
   uint32_t first_output, output_count;  // into TwistSwingTable::outputs
 };
 
-/// The outputs of all set-ups are packed into blocks of kBlockLanes, one lane each, as simd/rotation_kernels.h
-/// draws them, those used by more LODs first. They read controls only, so their order matters only
-/// where two of them write the same joint.
+/// The outputs of all set-ups are packed into blocks of kBlockLanes, one lane each, as
+/// simd/rotation_kernels.h describes, those used by more LODs first. They read controls only, so their
+/// order matters only where two of them write the same joint.
 struct TwistSwingTable {
   Span<TwistSwing> setups;
   Span<RotationOutput> outputs;  // in order; a later one for the same joint counts

@@ -23,7 +23,7 @@ constexpr uint64_t work_budget(uint64_t bytes) {
 /// Steps of the RBF solvers in a frame at each LOD.
 uint64_t count_rbf_steps(const Rig& rig, uint64_t budget);
 
-/// The same of the ML operations.
+/// The same for the ML operations.
 uint64_t count_ml_steps(const Rig& rig, uint64_t budget);
 
 /// Steps of inverting a matrix with a row for each pose, and of finding its entries.

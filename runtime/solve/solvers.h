@@ -49,7 +49,7 @@ struct SpringSolver {
   float frequency = 3;        // of the undamped spring, in Hertz; above 0
   float damping = 0.3f;       // damping ratio, 0 or more; 1 is critical damping
   float rest_offset[3] = {};  // from the pose's place, in model space
-  float stretch = 1e9f;       // farthest from there
+  float stretch = 1e9f;       // largest distance from it
   float teleport = 1e9f;      // a goal that jumps farther in a step takes the joint along
   uint16_t reads[2] = {};     // set by describe()
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What `mien accept` found out about a file, in plain structs. Details name parts of the rig by their numbers,
-// so that a report tells nothing of the character.
+// The findings of `mien accept`, as plain structs. Details name parts of the rig by their numbers, so that
+// a report reveals nothing about the character.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace mien::cli {
 struct Check {
   std::string name;
   bool passed = true;
-  bool skipped = false;  // what it needs is not there; counts as passed
+  bool skipped = false;  // something that it needs is missing; counts as passed
   std::string detail;    // one sentence
 };
 

@@ -11,8 +11,8 @@ namespace mien::cli {
 
 namespace {
 
-// What float arithmetic may lose, as docs/rig-evaluation.md, 10 has it. Of angular RBF solvers the distance of
-// equal rotations is mostly rounding.
+// The loss of precision that floats may cause, as in docs/rig-evaluation.md, 10. In angular RBF solvers,
+// the distance of equal rotations is mostly rounding.
 constexpr double kNoise = 0x1p-22, kNoiseMargin = 32;
 constexpr double kLearned = 1e-4, kRbf = 2e-3, kWeights = 1e-5;
 constexpr double kLength = 1e-5;  // of translations and scales, and of the largest of the pose

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Joints that were baked out of an engine against those of the rig (docs/engine-poses.md):
+// Compares joints baked in an engine with those of the rig (docs/engine-poses.md):
 //
 //     {"unit": "cm", "system": "unreal", "poses": [
 //       {"controls": {"CTRL_expressions.jawOpen": 1}, "lod": 0,
@@ -19,7 +19,7 @@ struct PoseOptions {
 };
 
 /// A check for each pose. Fails with exit code 2 and the place in the file if the poses are malformed or
-/// name what the rig lacks.
+/// name something that the rig lacks.
 std::vector<Check> check_poses(const PoseOptions& options, const Session& session);
 
 }  // namespace mien::cli

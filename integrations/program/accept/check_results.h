@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Checks of what evaluation gives.
+// Checks of the results of evaluation.
 #pragma once
 
 #include "integrations/program/accept/accepted_rig.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is in a file, as counts and histograms: nothing that tells one character from another of its kind.
+// The contents of a file as counts and histograms, which do not identify the character.
 #pragma once
 
 #include "integrations/program/accept/accepted_rig.h"

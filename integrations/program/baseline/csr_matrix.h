@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The yardstick of `mien bench`: the joint matrix in compressed sparse rows, the plain way.
+// The reference of `mien bench`: the joint matrix in compressed sparse rows, multiplied in the plain way.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// mien accept: everything that can be checked of a file and of what the library makes of it.
+// mien accept: checks an exported character, and the results of the library for it.
 #include <cmath>
 #include <cstdio>
 

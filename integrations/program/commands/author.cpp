@@ -106,7 +106,7 @@ MienAuthorDesc parse_options(const AuthorCommand& command) {
   return desc;
 }
 
-/// What is kept of a mesh, in its unit and axes.
+/// The part of a mesh that is kept, in its unit and axes.
 struct Crop {
   double low[3] = {-INFINITY, -INFINITY, -INFINITY}, high[3] = {INFINITY, INFINITY, INFINITY};
 
@@ -118,7 +118,7 @@ struct Crop {
   }
 };
 
-/// "-1,1,5,,," keeps what is within 1 of the middle and above 5.
+/// "-1,1,5,,," keeps everything within 1 of the middle and above 5.
 Crop parse_crop(const std::string& text) {
   Crop crop;
   const auto wrong = [&](const std::string& why) {
@@ -329,7 +329,7 @@ void note_turned(const AuthorCommand& command, const MeshFile& mesh, const Json&
   }
 }
 
-/// Notes about input that is valid but probably not what was meant.
+/// Notes about input that is valid but probably a mistake.
 void note_oddities(const AuthorCommand& command, const MeshFile& mesh, const Json& report,
                    const Session& session) {
   const double size = report["mesh"]["diagonal"].get<double>();
@@ -412,7 +412,7 @@ void name_as_metahuman(MeshFile& mesh, const Session& session) {
                     " shapes have a counterpart among MetaHuman's raw controls, and its name");
 }
 
-/// What names of shapes mean elsewhere, for the report; a note tells what is unknown.
+/// The usual names of shapes, for the report; a note lists unknown ones.
 Json usual_names(const MeshFile& mesh, const Session& session) {
   Json usual = Json::object();
   std::string unknown;
@@ -442,8 +442,8 @@ MeshStand stand_of(const AuthorCommand& command) {
   return {axis_of(up_of(command)), axis_of(front_of(command))};
 }
 
-/// Turns the axes where the mesh says plainly that it stands in another way, and refuses a head that is
-/// turned by an angle that no axes make up for.
+/// Changes the axes if the mesh clearly has others, and refuses a head that is rotated by an angle that
+/// exchanging axes cannot correct.
 void settle_axes(AuthorCommand& command, const MeshFile& mesh, const Session& session) {
   const MeshStand given = stand_of(command);
   const StandGuess guess = guess_stand(mesh, given);
@@ -491,7 +491,7 @@ std::string limit(double value) {
   return text;
 }
 
-/// Of a whole body keeps the head and the shoulders.
+/// Crops a whole body to head and shoulders.
 void settle_crop(const AuthorCommand& command, const BodyGuess& body, MeshFile& mesh,
                  const Session& session) {
   if (!body.is_body || !command.crop.empty()) return;
@@ -508,7 +508,7 @@ void settle_crop(const AuthorCommand& command, const BodyGuess& body, MeshFile& 
            text + "; if that is wrong, give another box");
 }
 
-/// glTF is in meters. Of other meshes the size of the head tells the unit.
+/// glTF is in meters. For other meshes, the size of the head decides.
 void settle_unit(const AuthorCommand& command, const BodyGuess& body, const MeshFile& mesh,
                  MienAuthorDesc& desc, const Session& session) {
   if (!command.unit.empty()) return;

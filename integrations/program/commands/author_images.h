@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Images of how a rig was made: groups in depth, face mask, bones, weights, LODs, shapes beside what the
-// rig makes of them.
+// Images of how a rig was made: groups in depth, face mask, bones, weights, LODs, input shapes beside those
+// of the rig.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -18,7 +18,7 @@ struct AuthorImage {
   render::Image image;
 };
 
-/// What a rig was made of, and what came out.
+/// The input of a rig, and the result.
 struct MadeRig {
   const MeshFile& mesh;
   double unit;  // centimeters of one unit of the mesh

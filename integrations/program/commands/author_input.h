@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the options of `mien author` leave open about a mesh: which way it stands, its unit, and where the
+// Guesses for options of `mien author` that were not given: the axes of a mesh, its unit, and where the
 // head of a whole body is.
 #pragma once
 
@@ -27,8 +27,8 @@ struct MeshStand {
   double depth_of(const double* p) const { return front.sign * p[front.axis]; }
 };
 
-/// How a mesh stands by its own signs: the plane about which it is a mirror image of itself, the nose, which
-/// stands out from the middle of the face, and the throat below it.
+/// The axes of a mesh, derived from its shape: the plane of symmetry, the nose, which stands out from the
+/// middle of the face, and the throat below it.
 struct StandGuess {
   MeshStand stand;
   double symmetry_error = 0;  // of the halves as given, in shares of the diagonal
@@ -48,7 +48,8 @@ struct BodyGuess {
 };
 BodyGuess guess_body(const MeshFile& mesh, const MeshStand& stand);
 
-/// Centimeters per unit of the mesh, for a head so high: of the usual units the one that makes a head of it.
+/// Centimeters per unit of the mesh, for a head of this height: the usual unit that gives it the size of a
+/// head.
 struct UnitGuess {
   double centimeters = 1;
   const char* name = "cm";

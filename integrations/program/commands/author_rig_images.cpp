@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Images of the rig: weights, and shapes beside what the rig makes of them.
+// Images of the rig: weights, and input shapes beside those of the rig.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -307,14 +307,14 @@ namespace {
 
 // Shapes ---------------------------------------------------------------------------------------------
 
-/// An expression of the input and what the rig makes of it.
+/// An expression of the input and that of the rig.
 struct ShownShape {
   const MeshShape* shape;
   uint32_t control;
   double energy = 0, error = 0;  // squared; of the rig, relative
 };
 
-/// Half of them those that move most, half those of which most is left to do.
+/// Half of them those that move most, half those with the largest error.
 std::vector<ShownShape> choose_shapes(const MadeRig& made) {
   std::vector<ShownShape> all;
   const Json& errors = made.report["fit"]["per_shape"];
@@ -419,7 +419,8 @@ render::Image draw_shapes(const MadeRig& made, const Source& source) {
     }
     return longest;
   };
-  // One scale for all, so that they can be compared, and none that makes much of what no one sees.
+  // One scale for all, so that they can be compared, and one that does not exaggerate invisible
+  // differences.
   float longest = 0.005f * studio.options.scale;
   for (const ShownShape& shown : shapes) longest = std::max(longest, longest_of(pose(shown)));
 

@@ -85,7 +85,7 @@ void paint(std::vector<uint8_t>& colors, size_t position, render::Color color);
 
 std::vector<Bone> read_bones(const Source& source, const Json& report);
 
-/// What each joint moves.
+/// The weights of each joint.
 render::Image draw_weights(const MadeRig& made, const Source& source,
                            const std::vector<Bone>& bones);
 
@@ -99,7 +99,7 @@ render::Image draw_jaw(const MadeRig& made, const Source& source, const std::vec
 /// The eyes looking to the left, right, up and down, by the controls that turn them. There have to be some.
 render::Image draw_eyes(const MadeRig& made, const Source& source, const std::vector<Bone>& bones);
 
-/// Shapes, what the rig makes of them, and what is left to do. There have to be some.
+/// Input shapes, those of the rig, and the distance between them. There must be some.
 render::Image draw_shapes(const MadeRig& made, const Source& source);
 
 }  // namespace mien::cli::author_images

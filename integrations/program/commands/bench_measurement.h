@@ -99,7 +99,7 @@ struct BenchRow {
   double evaluate_ns = 0, joints_ns = 0;
 };
 
-/// The yardstick of a LOD: its joint matrix in compressed sparse rows.
+/// The reference of a LOD: its joint matrix in compressed sparse rows.
 struct CsrRow {
   uint32_t lod;
   bench::CsrMatrix matrix;

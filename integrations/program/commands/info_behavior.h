@@ -11,7 +11,7 @@
 
 namespace mien::cli {
 
-/// So many of each kind.
+/// Counts by kind.
 struct Tally {
   const char* key;    // in JSON
   const char* label;  // for people

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What differs between two DNA files: names, fields, and what their controls do.
+// The differences between two DNA files: names, fields, and the effects of controls.
 #pragma once
 
 #include <mien.h>

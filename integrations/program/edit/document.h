@@ -30,8 +30,8 @@ Document open_document(const std::string& path, const Session& session);
 [[noreturn]] void fail_edit(const Document& document, const std::string& why,
                             const std::string& what_to_do);
 
-/// Fails unless `status` is MIEN_OK. Of arguments that do not suit the document, the message of the library
-/// tells.
+/// Fails unless `status` is MIEN_OK. For arguments that do not suit the document, it shows the message of
+/// the library.
 void check_edit(const Document& document, MienStatus status, const MienError& error);
 
 /// "joint", "mesh", "blend shape", "animated map", "raw control", "GUI control"

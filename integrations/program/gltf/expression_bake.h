@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Expressions as morph targets, and what that loses against the rig.
+// Expressions as morph targets, and their error compared with the rig.
 #pragma once
 
 #include <functional>

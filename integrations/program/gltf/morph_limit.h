@@ -10,13 +10,13 @@
 namespace mien::gltf {
 
 struct MorphLoss {
-  std::vector<std::string> names;  // of what was left out, the largest move first
+  std::vector<std::string> names;  // of dropped targets, the largest move first
   double max = 0;                  // move of a vertex by one of them, meters
   double rms = 0;                  // of the moves of all of them
 };
 
-/// Leaves each mesh the `most` targets, by name, whose largest moves are the largest in any mesh. Animations
-/// follow, and correctives of what is left out go with it.
+/// Leaves each mesh the `most` targets, by name, whose largest moves are the largest in any mesh.
+/// Animations are adapted, and correctives of dropped targets are dropped.
 MorphLoss limit_morphs(size_t most, Scene& scene);
 
 }  // namespace mien::gltf

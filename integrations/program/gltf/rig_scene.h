@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Rig -> Scene: its skeleton, its skinned meshes, its blend shape channels as morph targets.
 //
-// What the file then holds is Mien's own deformation: joints with translation, rotation and scale
-// relative to their parents, targets added before linear skinning. What drives joints and channels
-// (controls, correctives, networks) has no place in glTF; poses and animations are results.
+// The file holds Mien's own deformation: joints with translation, rotation and scale relative to their
+// parents, targets added before linear skinning. glTF cannot hold what drives joints and channels
+// (controls, correctives, networks); poses and animations are results.
 #pragma once
 
 #include <functional>
@@ -20,7 +20,7 @@ struct SceneOptions {
   std::function<void(double share)> progress;  // called now and then; may be empty
 };
 
-/// What glTF has no place for.
+/// Losses in glTF.
 struct Losses {
   uint32_t places = 0;                    // for influences, per vertex
   size_t positions = 0;                   // with influences

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What a file of a face holds, in plain structs: joints, skinned meshes with morph targets,
-// materials, an animation. Everything is in the axes and units of glTF: meters, y up, z to the
-// front of the face, x to the left of the character, triangles counter-clockwise from outside.
+// The contents of a file of a face, as plain structs: joints, skinned meshes with morph targets, materials,
+// an animation. Everything is in the axes and units of glTF: meters, y up, z to the front of the face, x to
+// the left of the character, triangles counter-clockwise from outside.
 //
 //     Mien handles -> (rig_scene, expression_bake) -> Scene -> (glb_writer, obj_writer) -> bytes
 #pragma once
@@ -56,7 +56,7 @@ struct MorphTarget {
   std::vector<Float3> normals;  // by what they turn
 };
 
-/// A target whose weight is to be the product of the weights of others. glTF itself cannot say that: a
+/// A target whose weight should be the product of the weights of others. glTF itself cannot express that: a
 /// program has to read it from the extras.
 struct Corrective {
   uint32_t target;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a VRM 1.0 file says beyond glTF: who it is, which nodes are the bones of a person, which morph targets are
-// its expressions, where it looks.
+// The additions of a VRM 1.0 file to glTF: who the character is, which nodes are the bones of a person,
+// which morph targets are its expressions, and how its eyes turn.
 #pragma once
 
 #include <nlohmann/json.hpp>

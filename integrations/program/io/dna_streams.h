@@ -50,7 +50,7 @@ class FileBytes {
 /// Searches from the beginning to the end; takes memory for one DNA stream at a time.
 FoundStreams find_dna_streams(FileBytes& file);
 
-/// The one stream of a file that is no DNA file itself, or nothing if there is none. Fails if there are
+/// The one stream of a file that is not a DNA file itself, or nothing if there is none. Fails if there are
 /// several, or compressed payloads only, or if the stream is truncated; `cannot` is what failed by that.
 std::optional<DnaStream> only_dna_stream(FileBytes& file, const char* cannot);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is read whole: standard input, pipes, devices, and JSON. Each with a limit, so that an endless
-// input ends in an error and not in all of the memory.
+// Inputs that are read as a whole: standard input, pipes, devices, and JSON. Each has a limit, so that an
+// endless input gives an error instead of using up all memory.
 #pragma once
 
 #include <cstdint>
@@ -35,7 +35,7 @@ std::string read_viewable(const std::string& path);
 /// The bytes of a stream that should hold a clip. Of another one the beginning is returned.
 std::string read_clip_stream(const std::string& path);
 
-/// A file or stream of text, such as a take. Of bytes that are no text the beginning is returned.
+/// A file or stream of text, such as a take. If the bytes are not text, the beginning is returned.
 std::string read_text(const std::string& path, const std::string& what);
 
 /// A file or stream that should hold a mesh or shapes: GLB, .mshp, or text. Of other bytes the beginning

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What names of joints tell.
+// Meanings of joint names.
 #pragma once
 
 #include <string>

@@ -17,10 +17,10 @@ struct DeformOptions {
   bool tangents = false;
 };
 
-/// Compiles the geometry of a checked view. kMismatch if it has not the joints, channels and meshes of `rig`.
-/// On success `out` is one block of `allocator`, which release() frees, and shares the
-/// rig. kDnaValue: a joint is its own ancestor, or a position, delta or weight is not finite.
-/// kDnaLimit: a position has more than 65535 influences. kMemory.
+/// Compiles the geometry of a checked view. kMismatch if its joints, channels or meshes are not those of
+/// `rig`. On success `out` is one block of `allocator`, which release() frees, and shares the rig.
+/// kDnaValue: a joint is its own ancestor, or a position, delta or weight is not finite. kDnaLimit: a
+/// position has more than 65535 influences. kMemory.
 Status compile_deformer(const dna::DnaView& view, const Rig& rig, const DeformOptions& options,
                         const Allocator& allocator, Deformer*& out, Error& error);
 
@@ -36,7 +36,7 @@ struct MeshPlan {
   size_t triangle_count = 0, face_count = 0;
 };
 
-/// A mesh of the DNA, and what its compilation needs.
+/// A mesh of the DNA, and the data that its compilation needs.
 struct MeshSource {
   const dna::DnaView& view;
   const dna::Mesh& mesh;
@@ -48,7 +48,7 @@ struct MeshSource {
   Status no_memory() const;
 };
 
-// The skeleton needs nothing but the rig.
+// The skeleton only needs the rig.
 
 void place_skeleton(const Rig& rig, Placer& placer, Skeleton& skeleton);
 /// kDnaValue if a joint is its own ancestor; kMemory if `scratch` runs out.

@@ -26,15 +26,14 @@ struct CompileOptions {
 Status compile_rig(const dna::DnaView& view, const CompileOptions& options,
                    const Allocator& allocator, Rig*& out, Error& error);
 
-// The blocks. place_...() says how much memory a block takes (its spans get their counts, and their
-// data when the block row is there); fill_...() writes it. `scratch` is for the time of
-// compilation.
+// The blocks. place_...() says how much memory a block takes (its spans get their counts, and their data
+// when the block row is there); fill_...() writes it. `scratch` is temporary memory for the compilation.
 
 void place_controls(const dna::DnaView& view, Placer& placer, Rig& rig);
 /// kMemory (scratch), or kDnaValue for correctives that depend on each other in a cycle.
 Status fill_controls(const dna::DnaView& view, Arena& scratch, Rig& rig, Error& error);
 
-/// What planning needs of a joint group.
+/// The data of a joint group that planning needs.
 struct GroupColumns {
   Span<uint16_t> inputs;   // controls
   Span<uint64_t> nonzero;  // [row][column / 64] bit column % 64: the number is not zero
@@ -65,7 +64,7 @@ struct PlannedRows {
   uint8_t reach() const { return reaches[0]; }  // of the whole range: the rows are in order
 };
 
-/// What a control has in two neighboring block rows, of which the first has an even number.
+/// The blocks of a control in two neighboring block rows, the first of which has an even number.
 struct BlockHalves {
   uint16_t control;
   uint8_t is_pair;    // a block in both
@@ -149,7 +148,7 @@ struct RotationPlan {
   size_t step_count = 0;         // of all blocks
 };
 
-/// After that of the joints. kMemory (scratch).
+/// Call it after plan_joints(). kMemory (scratch).
 Status plan_rotations(const dna::DnaView& view, const JointPlan& joints, const Rig& rig,
                       Arena& scratch, RotationPlan& plan, Error& error);
 void place_rotations(const RotationPlan& plan, Placer& placer, Rig& rig);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Blocks of the joint matrix, out of the numbers of a file.
+// Blocks of the joint matrix, from the numbers of a file.
 #pragma once
 
 #include <algorithm>

@@ -7,9 +7,9 @@
 
 namespace mien {
 
-/// Where a row's result goes. Rows of joints represented by quaternions go nowhere: their columns
-/// are turns. With quaternion outputs the attributes behind the rotation move up by one, and angles
-/// stand behind all joints until they are made into quaternions.
+/// Where a row's result goes. Rows of joints represented by quaternions go nowhere: their columns are
+/// turns. With quaternion outputs the attributes behind the rotation move up by one, and angles follow all
+/// joints until they are converted to quaternions.
 inline uint32_t output_of(const dna::DnaView& view, const Rig& rig, uint32_t file_output) {
   const uint32_t joint = file_output / kFileAttributes, attribute = file_output % kFileAttributes;
   if (dna::is_rotation(file_output) && dna::is_quaternion_joint(view, joint)) return kNoOutput;

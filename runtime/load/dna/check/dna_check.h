@@ -8,7 +8,7 @@
 
 namespace mien::dna {
 
-// `lods` (bit l for LOD l, 0 for all) will be selected: what only others use need not be right.
+// `lods` (bit l for LOD l, 0 for all) will be selected: data that only other LODs use need not be valid.
 
 /// Descriptor, dsce and definition: all that LOD selection and the other layers rely on.
 /// False if the sink ended the examination.

@@ -60,7 +60,7 @@ class Checker {
   /// The sink has stopped the examination.
   bool stopped() const { return stopped_; }
 
-  /// Reports what flood control held back. False if the sink ended the examination.
+  /// Reports the findings that were held back by the limit. False if the sink ended the examination.
   bool finish();
 
   MIEN_PRINTF(5, 6)

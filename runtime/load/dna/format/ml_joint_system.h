@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The coordinate system of what networks give to joints, where it is not that of the rig
+// The coordinate system of the joint values that networks compute, if it is not that of the rig
 // (docs/rig-evaluation.md, 8.6 "ML joints"). The rig compiler and conversion both need it.
 #pragma once
 
