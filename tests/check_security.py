@@ -32,7 +32,7 @@ def mistakes(text, version, fuzzers, faults):
             found.append(f"SECURITY.md: no row of executions for `{fuzzer}`")
     rows = re.findall(r"^\| `fuzz_\w+` \| *([\d,]+) \|", text, re.MULTILINE)
     millions = f"{sum(int(row.replace(',', '')) for row in rows) / 1e6:.1f}"
-    if f"These are {millions} million" not in text:
+    if f"In total {millions} million inputs" not in text:
         found.append(f"SECURITY.md: the rows add up to {millions} million executions")
     if not re.search(rf"\d+ of {faults} were noticed", text):
         found.append(f"SECURITY.md: tests/mutation/faults.tsv has {faults} planted faults")
@@ -52,7 +52,7 @@ def missing_tests(text, sources):
 
 def self_test():
     text = ("80 of 90 were noticed\n\n### Numbers of 1.2.3\n\n| fuzzer | executions |\n|---|---|\n"
-            "| `fuzz_a` | 1,100,000 |\n\nThese are 1.1 million.\n")
+            "| `fuzz_a` | 1,100,000 |\n\nIn total 1.1 million inputs.\n")
     assert not mistakes(text, "1.2.3", ["fuzz_a"], 90)
     assert len(mistakes(text, "1.2.4", ["fuzz_a"], 90)) == 1
     assert len(mistakes(text, "1.2.3", ["fuzz_a", "fuzz_b"], 90)) == 1
