@@ -159,7 +159,7 @@ void copy_desc(const MienFitDesc& desc, MienFit& fit) {
   }
 }
 
-/// What the fit has of libmien.
+/// The objects of libmien that the fit owns.
 MienStatus create_parts(const MienFitDesc& desc, MienFit& fit, MienError* error) {
   MienInstanceDesc instance = mien_instance_desc_default();
   instance.allocator = desc.allocator;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A fit: what is to be met by a rig, what its controls move, and the memory of a solve. Built on the public
+// A fit: the targets of a rig, the effects of its controls, and the memory of a solve. Built on the public
 // interface of libmien alone.
 //
 //     control row -> evaluate -> joints, points -> residuals -> gradient, in reverse

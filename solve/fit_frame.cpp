@@ -133,7 +133,7 @@ double regularize(const Frame& f, const float* raw, double* gradient) {
     cost += f.in.prior_weight * square(to_prior) + f.in.smooth_weight * square(to_start) +
             f.in.sparse_weight * std::fabs(raw[c]);
     if (!gradient) continue;
-    // At 0 the side on which the control may move: a sum of magnitudes has a corner there.
+    // At 0, the sign of the side to which the control may move: the sum of magnitudes has a kink there.
     const double sign = raw[c] > 0 ? 1 : raw[c] < 0 ? -1 : fit.upper[i] > 0 ? 1 : -1;
     gradient[i] += f.in.prior_weight * to_prior + f.in.smooth_weight * to_start +
                    0.5 * f.in.sparse_weight * sign;
@@ -225,7 +225,7 @@ size_t list_free(const MienFit& fit) {
   return count;
 }
 
-/// What the metric of points is multiplied by: their weights, and in images how large they appear.
+/// The factor of the metric of points: their weights, and in images the scale at which they appear.
 double point_factor(const Frame& f) {
   const MienFit& fit = f.fit;
   if (!f.has_points()) return 0;
@@ -278,7 +278,7 @@ double take_step(Frame& f, size_t free_count, double damping) {
     const uint32_t i = fit.free[a], c = fit.controls[i];
     const double low = fit.lower[i], high = fit.upper[i], from = fit.best[c];
     double to = std::min(std::max(from + fit.step[a], low), high);
-    // A control does not jump over the corner of a sum of magnitudes.
+    // A control does not jump over the kink of the sum of magnitudes.
     if (f.in.sparse_weight > 0 && from * to < 0) to = 0;
     farthest = std::max(farthest, std::fabs(to - from));
     fit.raw[c] = static_cast<float>(to);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What controls move: the metric G = P^T W P of all controls, where P are the derivatives of joint values, or of
-// points, by controls at the neutral pose. For joint values it holds in every pose (where rotations are sums
-// of angles); for points it is near enough for steps, whose gradients are exact.
+// The effects of controls: the metric G = P^T W P of all controls, where P are the derivatives of joint
+// values, or of points, by controls at the neutral pose. For joint values it holds in every pose (where
+// rotations are sums of angles); for points it is near enough for steps, whose gradients are exact.
 #include <algorithm>
 #include <cmath>
 
@@ -141,7 +141,8 @@ bool measure_points(MienFit& fit, Arena& arena) {
   return true;
 }
 
-/// Pivoted factorization: how much of what a control moves no control chosen before it moves.
+/// Pivoted factorization: the share of the effect of a control that the controls chosen before it cannot
+/// reproduce.
 void find_observability(MienFit& fit) {
   const size_t count = fit.controls.count;
   for (size_t i = 0; i < count; ++i) {

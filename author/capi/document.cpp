@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Documents: creating, fields, undoing, and what becomes of them. mien_author.h is the manual.
+// Documents: creating, fields, undoing, and converting to files. mien_author.h is the manual.
 #include "author/capi/document.h"
 
 #include "author/document/field_edit.h"

@@ -97,7 +97,7 @@ class Transplanter {
     return add_layers();
   }
 
-  /// The index lists what the template has: of old versions a writer would leave out the rest.
+  /// The index lists the layers of the template: for old versions, a writer would leave out the others.
   bool add_layers() {
     const Span<dna::IndexEntry> entries =
         arena_.array<dna::IndexEntry>(view_.index.count + dna::kLayerIdCount);
@@ -252,7 +252,7 @@ class Transplanter {
   Span<Vec3> before_, after_;
 };
 
-/// What raw controls of the same name do to meshes of the same name, before and after.
+/// Compares the effects of raw controls of the same name on meshes of the same name, before and after.
 Status measure_controls(const dna::DnaView& old_view, const dna::DnaView& new_view,
                         const Allocator& allocator, Span<ControlError> out, uint32_t& out_count,
                         Error& error) {

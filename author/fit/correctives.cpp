@@ -10,7 +10,7 @@ namespace mien::author {
 
 namespace {
 
-/// Half of what both displacements do along the longer one is taken back once.
+/// Half of the motion that both displacements have along the longer one is subtracted once.
 Vec3 damped_sum(Vec3 a, Vec3 b) {
   const Vec3 longer = dot(a, a) >= dot(b, b) ? a : b, shorter = dot(a, a) >= dot(b, b) ? b : a;
   const double squares = dot(longer, longer);

@@ -102,10 +102,10 @@ void turn_back(const Vec3 a[3], const Vec3 b[3], Vec3 out[3]) {
   for (int r = 0; r < 3; ++r) out[r] = {dot(a[r], b[0]), dot(a[r], b[1]), dot(a[r], b[2])};
 }
 
-/// The rigid motion of these vertices that leaves least to do, all else held: weighted Procrustes with
-/// masses w^2 towards y = M v + rest / w. As w y = w M v + rest, no vertex is divided by its weight.
-/// It turns by no more than `max_half_sine` from `parent`, and is damped by a share `hold` of the
-/// footprint.
+/// The rigid motion of these vertices with the smallest remaining displacement, everything else held:
+/// weighted Procrustes with masses w^2 towards y = M v + rest / w. As w y = w M v + rest, no vertex is
+/// divided by its weight. It turns by no more than `max_half_sine` from `parent`, and is damped by a share
+/// `hold` of the footprint.
 Affine fit_rigid(const Fitter& fitter, Span<const Influenced> entries, const Moments& m,
                  const Affine& motion, const Affine& parent, double max_half_sine, double hold,
                  const FitLane& lane) {
@@ -141,8 +141,8 @@ bool is_whole(const Fitter& fitter, const Influenced& e) {
   return double{e.weight} > 0.999 * scale;
 }
 
-/// The rigid motion that most of what is whole on the jaw, such as teeth, agrees on: in rounds, each vertex
-/// counts by the inverse of how far it is off. Without teeth `motion`, which is where it starts.
+/// The rigid motion that fits vertices entirely on the jaw, such as teeth: in rounds, each vertex is
+/// weighted by the inverse of its residual. Starts from `motion`, which is the result without teeth.
 Affine fit_teeth(const Fitter& fitter, Affine motion, const FitLane& lane) {
   constexpr int kRounds = 20;
   constexpr size_t kTeeth = 20;     // vertices at least
@@ -226,7 +226,7 @@ void descend(const Fitter& fitter, FitLane& lane, Span<const uint8_t> active,
   }
 }
 
-/// The turn about a point that leaves least to do for these vertices.
+/// The rotation about a point with the smallest remaining displacement of these vertices.
 Affine turn_about(const Fitter& fitter, Span<const Influenced> entries, Vec3 center,
                   double max_half_sine, const FitLane& lane) {
   Vec3 map[3];
@@ -244,8 +244,8 @@ Affine turn_about(const Fitter& fitter, Span<const Influenced> entries, Vec3 cen
   return out;
 }
 
-/// The jaw goes first, with all that hangs below it, in shapes that move most of that as a whole, and keeps
-/// that motion. Whether it moves.
+/// Fits the jaw first, with everything below it, in shapes that move most of that rigidly; the jaw keeps
+/// this motion. Returns whether it moves.
 bool open_jaw(const Fitter& fitter, FitLane& lane, Span<Affine> motions) {
   const Footprints& f = fitter.footprints;
   if (f.jaw == kNone || !(f.carried_moments.mass > 0)) return false;
@@ -267,7 +267,7 @@ bool open_jaw(const Fitter& fitter, FitLane& lane, Span<Affine> motions) {
     take_off(fitter, all, motion, still, lane);
     return opens;
   };
-  // About its joint, if that is enough: on the skin a turn and a shift are easily mistaken for each other.
+  // About its joint, if that is enough: on the skin, rotation and translation are hard to tell apart.
   Affine next = turn_about(fitter, all, f.jaw_position, half, lane);
   if (!opens_by(next)) {
     next = fit_rigid(fitter, all, f.carried_moments, still, still, half, 0, lane);

@@ -13,8 +13,8 @@ namespace mien::author {
 namespace {
 
 constexpr uint32_t kLeastTriangles = 8;  // of a component; smaller ones stay as they are
-// What a component has at least, or it goes: teeth and lashes in pieces are worse than none. Small ones count as if
-// they had more, or lashes would go at once.
+// The fewest triangles of a small component; with fewer it is removed, because fragments of teeth and
+// lashes look worse than none. Those below kSmall count as that large, or lashes would be removed at LOD 1.
 constexpr uint32_t kLeastOfSmall = 12, kSmall = 128;
 constexpr double kLargeObject = 0.4;  // of the diagonal of the skin
 constexpr double kRound = 0.05;       // of its radius: how far a ball is from one
@@ -54,8 +54,8 @@ bool choose_poses(const AuthorMesh& mesh, uint32_t most, Arena& arena, Span<Shap
   return true;
 }
 
-/// What is left of `mesh`. Parts without a triangle, because all their faces are degenerate, stay
-/// as they are.
+/// The remaining part of `mesh`. Parts without a triangle, because all their faces are degenerate, stay as
+/// they are.
 bool take_triangles(const AuthorMesh& mesh, const EdgeCollapse& left, Arena& arena,
                     LodTriangles& out) {
   Span<uint32_t> corners, uvs, starts;
@@ -142,7 +142,8 @@ bool is_ball(const AuthorMesh& mesh, uint32_t component) {
   return std::sqrt(squares / static_cast<double>(count)) < kRound * radius;
 }
 
-/// Components that go whole once they would have next to nothing: all but the skin, the largest and balls.
+/// Components that are removed as a whole when too few triangles would be left: all but the skin, the
+/// largest and balls.
 bool find_small_components(const AuthorMesh& mesh, Span<const uint32_t> whole, Arena& scratch,
                            Span<uint8_t>& out) {
   if (!make(scratch, whole.count, out)) return false;

@@ -298,8 +298,8 @@ bool find_jaw(const AuthorMesh& mesh, double plane, Arena& scratch, Jaw& out) {
     out.chin_motion += moved[i].motion / static_cast<double>(chin);
     ++used;
   }
-  // What is not skin and goes at least half as far is the lower teeth, and what they carry. Without any, the
-  // chin has to do.
+  // Vertices outside the skin that move at least half as far are the lower teeth and what they carry.
+  // Without any, the chin is used.
   const double least = kPart * out.chin_motion;
   size_t teeth = 0;
   for (size_t i = 0; i < count && moved[i].motion >= least; ++i) {
@@ -320,7 +320,7 @@ bool find_jaw(const AuthorMesh& mesh, double plane, Arena& scratch, Jaw& out) {
     ++used;
   }
   RigidMotion motion = fit_rigid(from, to);
-  // Not all of it is rigid, as a tongue: what is off counts by the inverse of how far.
+  // Not all of it is rigid, such as a tongue: vertices are weighted by the inverse of their residuals.
   for (int round = 0; round < kRounds && has_teeth; ++round) {
     for (size_t i = 0; i < all; ++i) {
       weights[i] = 1 / (length(to[i] - motion(from[i])) + kAgreed * out.chin_motion);

@@ -32,8 +32,8 @@ void measure_groups(const dna::Joints& joints, GroupReport& report) {
   }
 }
 
-/// Diagonal of the box of the mask: what else the mesh has, as a body, does not change what counts
-/// as small on the face.
+/// Diagonal of the box of the mask, so that other parts of the mesh, such as a body, do not change which
+/// offsets count as small on the face.
 double size_of_face(const AuthorMesh& mesh, const Placement& placement) {
   if (placement.mask.empty()) return mesh.diagonal;
   Vec3 low = mesh.positions[placement.mask[0]], high = low;
@@ -304,8 +304,8 @@ class RigMaker {
     return collapse_weights(placement_, placement_.lod_facial_counts[l], out, for_heirs, out);
   }
 
-  /// New weights, and those that result from dropping bones, are fitted to the motions. What fits
-  /// better the first time is taken from then on.
+  /// New weights, and those that result from dropping bones, are fitted to the motions. The variant that
+  /// fits better the first time is used from then on.
   bool fit_lod_weights(uint32_t l) {
     FittedLod& lod = lods_[l];
     LodStarts& starts = starts_[l];

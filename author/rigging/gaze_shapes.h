@@ -29,8 +29,8 @@ struct GazeReport {
   GazeEye eyes[2];  // left, right; without a bone if there is no such eye
 };
 
-/// What a name like eyeLookOutLeft, EyeLookUp_R, eyeLookLeftL or lookDown says. Without a side it is of
-/// both eyes. False if the name says nothing about the gaze.
+/// The meaning of a name like eyeLookOutLeft, EyeLookUp_R, eyeLookLeftL or lookDown. A name without a side
+/// means both eyes. False if the name has nothing to do with the gaze.
 struct GazeName {
   bool of_eye[2] = {true, true};  // left, right
   bool is_inward = false, is_outward = false;

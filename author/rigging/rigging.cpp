@@ -91,7 +91,7 @@ class Rigger {
                : no_memory();
   }
 
-  /// What goes with the jaw hangs below it.
+  /// Puts bones that move with the jaw below it.
   bool hang_bones() {
     Jaw jaw;
     Arena scratch(allocator_);

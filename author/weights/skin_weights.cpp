@@ -38,8 +38,8 @@ struct Weighing {
   Span<uint8_t> counts = {};
 };
 
-/// The shortest paths to a vertex known so far in the search, for as many bones as it may
-/// keep. What is not among them need not be queued.
+/// The shortest paths to a vertex known so far in the search, for as many bones as it may keep. Others need
+/// not be queued.
 struct ShortestWays {
   uint32_t capacity = 0;
   Span<uint16_t> bones = {};
@@ -176,8 +176,8 @@ double noise_of(const AuthorMesh& mesh, const Shape& shape, Span<double> room) {
   return std::max(least, kNoise * kNoise * *most);
 }
 
-/// The mask and all else of the skin that a shape moves: below the throat there are no bones, but
-/// the chin pulls at what is there. False if memory ran out.
+/// The mask, and other skin that a shape moves: there are no bones below the throat, but the chin pulls the
+/// skin there. False if memory ran out.
 bool find_moved(const Weighing& w, Span<uint32_t>& out) {
   const AuthorMesh& mesh = w.mesh;
   Span<uint8_t> is_in;

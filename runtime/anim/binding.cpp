@@ -21,8 +21,8 @@ struct Share {
   float weight;
 };
 
-/// Shares of channels whose names mean other controls: of a channel two at most, those of both sides; more only of
-/// the expressions of a vocabulary, each of which one channel drives.
+/// Shares of channels whose names match other controls: at most two per channel, one for each side, except
+/// for expressions of a vocabulary, each of which a single channel drives.
 constexpr size_t kMostOfExpressions = 512;
 size_t most_matched(const Clip& clip) {
   return 2 * size_t{clip.channel_count} + kMostOfExpressions;

@@ -21,7 +21,8 @@ bool is_letter(char c) {
   return (l >= 'a' && l <= 'z') || (l >= '0' && l <= '9') || static_cast<unsigned char>(c) >= 0x80;
 }
 
-/// Without what names its group: "CTRL_expressions_jawOpen", "face:jawOpen" and "face.jawOpen" are "jawOpen".
+/// Without the name of its group: "CTRL_expressions_jawOpen", "face:jawOpen" and "face.jawOpen" are
+/// "jawOpen".
 Span<const char> without_group(Span<const char> name) {
   for (size_t i = name.count; i-- > 1;) {
     const char c = name[i - 1];

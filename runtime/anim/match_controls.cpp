@@ -40,7 +40,7 @@ ControlSpelling with_side(ControlSpelling spelling, Side side) {
 
 Span<const char> text_of(const char* text) { return {text, strlen(text)}; }
 
-/// What stands behind the last dot, without the prefix of controls.
+/// The part after the last dot, without the prefix of controls.
 Span<const char> short_of(Span<const char> name) {
   for (size_t i = name.count; i-- > 1;) {
     if (name[i - 1] == '.') return without_prefix(name.slice(i, name.count - i));
@@ -88,8 +88,8 @@ void ControlFinder::sort(Span<ControlKey> by_spelling, Span<ControlKey> by_alias
   by_alias_ = by_alias;
 }
 
-/// The control of the same name without regard to case, `.` being `_`, with or without what stands before its
-/// last dot. kUnmatched if several are.
+/// The control of the same name without regard to case, `.` being `_`, with or without the part before its
+/// last dot. kUnmatched if there are several.
 uint32_t ControlFinder::find_folded(Span<const char> name) const {
   const uint32_t* exact = std::lower_bound(
       names_.sorted.begin(), names_.sorted.end(), name,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Whether the tables of a deformer that came from outside keep deformation within its arrays. What
-// packing lays out one behind the other has to lie so here: then nothing is counted twice, work is
-// bounded by the size of the file, and no two tasks write the same vertex.
+// Whether the tables of a deformer that came from outside keep deformation within its arrays. Arrays that
+// packing lays out one after another must lie so here, too: then nothing is counted twice, work is bounded
+// by the size of the file, and no two tasks write the same vertex.
 #include <algorithm>
 
 #include "runtime/baked/baked_objects.h"

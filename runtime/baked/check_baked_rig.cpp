@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Whether the tables of a rig that came from outside keep evaluation within its arrays. What
-// compilation lays out one behind the other has to lie so here: then nothing is counted twice, and
-// work and memory are bounded by the size of the file.
+// Whether the tables of a rig that came from outside keep evaluation within its arrays. Arrays that
+// compilation lays out one after another must lie so here, too: then nothing is counted twice, and work and
+// memory are bounded by the size of the file.
 #include <algorithm>
 #include <cstring>
 
@@ -148,8 +148,8 @@ bool check_controls(const RigChecker& c) {
          check_leading(c, channels.count_at_lod, channels.inputs.count, "blend shape channels");
 }
 
-/// Runs are what they are said to be, each corrective stands where it is looked for, and behind all
-/// that it reads.
+/// Runs have the stated lengths, and each corrective is where it is looked up, after everything that it
+/// reads.
 bool is_ordered(const Rig& rig) {
   const PsdTable& psds = rig.psds;
   const uint32_t count = rig.psd_count, first_psd = rig.raw_count;
@@ -221,8 +221,8 @@ bool check_panels(const RigChecker& c) {
          check_leading(c, joints.panels_at_lod, count, "LODs of the joint matrix");
 }
 
-/// What a LOD writes of all panels at once is of panels that it sums: of the others there is in
-/// memory whatever was there before.
+/// The targets of all panels at once that a LOD writes belong to panels that it sums: the sums of other
+/// panels are stale.
 bool are_summed(const JointMatrix& joints, const JointTarget* targets, uint32_t rows,
                 const Span<uint16_t>& at_lod) {
   bool good = true;
@@ -293,8 +293,8 @@ size_t count_falls(const Span<ColumnPart>& parts) {
   return falls;
 }
 
-/// What columns have for a tile adds to block rows of the tile. (A pair adds to the even block row
-/// it is in and the next one: tiles end with an odd one.)
+/// The blocks of columns in a tile add to block rows of the tile. (A pair adds to the even block row it is
+/// in and the next one: tiles end with an odd one.)
 bool check_tiles(const JointMatrix& joints) {
   const auto fit = [](const Span<uint16_t>& block_rows, uint32_t first, uint32_t end) {
     const Extent<uint16_t> extent =
@@ -526,7 +526,7 @@ bool check_rbf(const RigChecker& c) {
 
 // Learned behavior --------------------------------------------------------------------------------
 
-/// `widest` becomes what the layers ask of the scratch of an instance.
+/// `widest` becomes the scratch size that the layers need in an instance.
 bool check_layers(const RigChecker& c, uint64_t& widest) {
   const MlTable& ml = c.rig.ml;
   const size_t values = c.rig.half_storage ? ml.halves.count : ml.values.count;
@@ -548,8 +548,8 @@ bool check_layers(const RigChecker& c, uint64_t& widest) {
   return true;
 }
 
-/// What a step takes lies in the buffer or in the list of controls, and what it makes of it fits.
-/// `widest` grows to the most values that a step takes.
+/// The inputs of a step lie in the buffer or in the list of controls, and its outputs fit. `widest` grows
+/// to the most values that a step takes.
 bool check_step_inputs(const RigChecker& c, const MlStep& step, uint64_t& widest) {
   const MlTable& ml = c.rig.ml;
   bool good = fits(step.first_dependency, step.dependency_count, ml.dependencies.count) &&

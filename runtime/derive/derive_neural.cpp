@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Derivatives of networks and weighted sums (docs/derivatives.md, 3). A layer is a product with its weights,
-// forward, or with the transposed ones, which are stored once more, in reverse.
+// Derivatives of networks and weighted sums (docs/derivatives.md, 3). A layer is a product with its
+// weights, forward, or with the transposed ones, which are stored separately, in reverse.
 #include <cmath>
 #include <utility>
 

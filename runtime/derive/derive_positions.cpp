@@ -16,7 +16,7 @@
 namespace mien {
 namespace {
 
-constexpr float kMinChannelWeight = 1e-5f;  // as deformation has it
+constexpr float kMinChannelWeight = 1e-5f;  // as in deformation
 
 /// Calls f(run, first sorted position, count) for the parts of skin runs in a block.
 template <class F>

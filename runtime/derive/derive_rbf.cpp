@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Derivatives of RBF solvers (docs/derivatives.md, 4). The weights are computed once more, in double
-// precision, with their derivatives by the controls that the solver reads.
+// Derivatives of RBF solvers (docs/derivatives.md, 4). The weights are computed again, in double precision,
+// with their derivatives by the controls that the solver reads.
 #include <cmath>
 
 #include "runtime/derive/derive_stages.h"
@@ -22,8 +22,8 @@ uint16_t input_control(const RbfTable& rbf, const RbfSolverPlan& plan, uint32_t 
       .rotations[lane / kBlockLanes * 4 * kBlockLanes + i % 4 * kBlockLanes + lane % kBlockLanes];
 }
 
-/// What a solver compares of a rotation a b c w, with a the axis of the twist: b c w of the swing, or a w.
-/// Returns how many.
+/// The numbers of a rotation a b c w, with a the axis of the twist, that a solver compares: b c w of the
+/// swing, or a w. Returns their number.
 uint32_t split(const double* q, bool swing, Part* parts) {
   const Part a = Part::variable(q[0], 0), b = Part::variable(q[1], 1);
   const Part c = Part::variable(q[2], 2), w = Part::variable(q[3], 3);
@@ -50,8 +50,7 @@ struct Scratch {
   double* sums;         // [number]
 };
 
-/// The weight of a distance and its derivative. Falling to 0 is not a kink to stand on: a weight of 0 has
-/// the slope 0.
+/// The weight of a distance and its derivative. A weight of 0 has the slope 0.
 double weight_of(const RbfSolverPlan& plan, double distance, double& slope) {
   const double x = distance * plan.scale;
   if (plan.function < 2) {

@@ -15,8 +15,8 @@ constexpr float kEnough = 5e-5f;  // millimeters beyond a limit that need no oth
 float higher(float a, float b) { return a > b ? a : b; }
 float lower(float a, float b) { return a < b ? a : b; }
 
-/// How far a curve may go back, and how much that closes with the others as they are now; zeros if it opens
-/// nothing.
+/// How far a curve may be taken back, and by how much that closes the distance while the others stay as
+/// they are; zeros if it opens nothing.
 struct Opening {
   float change, closes;
 };

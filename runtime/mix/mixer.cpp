@@ -211,7 +211,7 @@ Status play_clip(Mixer& mixer, uint32_t index, const ClipSource& source, const L
   if (was_crossing) release_player(mixer, layer.previous);
   layer.previous = kNoPlayer;
   if (crosses) {
-    // If a crossfade was under way, what it had reached leads over to the player that stays.
+    // If a crossfade was in progress, the transition starts from its current result.
     if (fade_value(layer.cross, now) != 1.0f) {
       start_offsets(mixer, index, mixer.players[layer.current].rows.data, now, ticks);
     }

@@ -3,10 +3,9 @@
 //
 //     | "MIENSNP\n" | version u32 | size u32 | fingerprint of the mix u64 | state |
 //
-// Its bytes may come from anywhere. All that is used as an index or takes part in arithmetic of
-// times is checked before anything changes. Numbers that are only computed with may have any value that
-// steps keep: rows may not be finite, because sums of large numbers of a clip are not either, and limits
-// make finite numbers of them.
+// Its bytes may come from anywhere. Everything that is used as an index or in arithmetic of times is
+// checked before anything changes. Other numbers may have any value that steps can keep: rows need not be
+// finite, because sums of large numbers of a clip are not either, and limits make them finite.
 #include <algorithm>
 #include <cmath>
 #include <cstring>

@@ -9,7 +9,7 @@
 namespace mien {
 namespace {
 
-constexpr float kLeastGain = 0.05f;       // millimeters: what is less is not worth a curve
+constexpr float kLeastGain = 0.05f;       // millimeters: smaller gains are not worth a curve
 constexpr float kGainStep = 1 / 1024.0f;  // millimeters
 constexpr float kProbeValue = 0.5f;       // of the controls that are tried
 constexpr double kLeastOfHalves = 0.5;    // of the gain of a control, that its counterpart has

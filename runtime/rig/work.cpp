@@ -12,7 +12,7 @@ uint32_t count_lods(const Rig& rig, uint64_t lods) {
   return count;
 }
 
-/// Distances, weights and interpolation, which kernels compute, then what the poses drive.
+/// Distances, weights and interpolation, which kernels compute, then the controls that the poses drive.
 uint64_t solver_steps(const RbfTable& rbf, uint32_t index, uint64_t budget) {
   const RbfSolverPlan& plan = rbf.plans[index];
   const uint64_t lanes = padded(uint64_t{plan.pose_count});

@@ -134,7 +134,7 @@ bool plan_stack(const StackDesc& desc, const DepthFirst& tree, Arena& scratch, S
   for (size_t i = 0; i < desc.solvers.count; ++i) {
     const SolverDesc& from = desc.solvers[i];
     Solver& solver = plan.solvers[i] = planned_solver(from, plan);
-    // What is stale before it runs, and which of that it reads.
+    // The ranges that are stale before it runs, and those of them that it reads.
     solver.first_update = static_cast<uint32_t>(plan.updates.count);
     for (size_t r = 0; r < stale.count;) {
       const JointRange range = stale[r];

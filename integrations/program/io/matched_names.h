@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What names of controls mean on a rig: mien_rig_match(), and before it what a file of the user says.
+// The meaning of control names on a rig: the user's file first, then mien_rig_match().
 #pragma once
 
 #include <mien.h>

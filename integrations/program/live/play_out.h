@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Rows as they arrive over a network: out of order, twice, in bunches, or not. Sorts them by the time that
-// their sender gives them, and hands them on just before they are played.
+// Rows as they arrive over a network: out of order, twice, in bunches, or not at all. Sorts them by the
+// time that their sender gives them, and hands them on just before they are played.
 //
-// A row is played `delay` after its time in the local clock. What the sender's clock reads there is
-// unknown; the packet that took least time tells best. So the offset between the clocks follows the
+// A row is played `delay` after its time in the local clock. The offset of the sender's clock is unknown;
+// the packets that took the least time give the best estimate. So the offset between the clocks follows the
 // earliest packets at once, and later ones slowly, as clocks drift. Between two rows the mixer
 // interpolates; where one is lost, over the gap.
 #pragma once

@@ -30,7 +30,7 @@ double default_of(const LayerRig& rig, uint32_t control) {
   return 0;
 }
 
-/// What a network's mask leaves of it (docs/rig-evaluation.md, 8.5 "Region masks" and 12.12 "Masks
+/// The share that the mask of a network leaves (docs/rig-evaluation.md, 8.5 "Region masks" and 12.12 "Masks
 /// may blend").
 double mask_of(const LayerRig& rig, uint32_t network, const Row& masks, bool blend) {
   for (size_t r = 0; r < rig.regions.size(); ++r) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Learned behavior of a LayerRig in double precision (docs/rig-evaluation.md, 8 "Machine-learned
+// Machine-learned behavior of a LayerRig in double precision (docs/rig-evaluation.md, 8 "Machine-learned
 // behavior").
 #pragma once
 

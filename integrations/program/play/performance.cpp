@@ -36,7 +36,7 @@ int64_t ticks_of(double seconds) {
 
 void checked(MienStatus status, const MienError& error, const std::string& where) {
   if (status == MIEN_OK) return;
-  // What a scene asks for and cannot be is the scene's fault.
+  // If a scene asks for something impossible, it is an error of the scene.
   const bool own = status == MIEN_ERROR_INVALID_ARGUMENT || status == MIEN_ERROR_MISMATCH;
   if (own && error.message[0]) fail(kInvalid, kCannot, where, error.message, "change the scene");
   check(status, &error, kCannot, where);

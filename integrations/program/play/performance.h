@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A scene on a rig: the mix that it describes, its clips, and the frames that come of it.
+// A scene on a rig: the mix that it describes, its clips, and the resulting frames.
 #pragma once
 
 #include <deque>

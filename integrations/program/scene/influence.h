@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What one control does: the neutral pose and the pose with the control set, compared value by
-// value and position by position.
+// The effect of one control: the neutral pose and the pose with the control set, compared value by value
+// and position by position.
 #pragma once
 
 #include <string>

@@ -155,7 +155,7 @@ Status fill_psds(const dna::DnaView& view, Span<uint8_t> reach, Arena& scratch, 
   const uint32_t count = rig.psd_count, entries = table.rows.count, first_psd = view.first_psd();
   PsdTable& psds = rig.psds;
 
-  // What channels and maps read; joint groups have marked theirs.
+  // Marks the controls that channels and maps read; joint groups have marked theirs.
   for (uint32_t i = 0; i < rig.channels.inputs.count; ++i) {
     uint8_t& r = reach[rig.channels.inputs[i]];
     r = std::max(r, lod_reach(view.bhvr.channels.lods, rig.lod_count, i));

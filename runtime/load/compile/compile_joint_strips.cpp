@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Strips of block rows (RowStrip in simd/joint_kernels.h): the columns that are in use as a rule, once more by rows.
+// Strips of block rows (RowStrip in simd/joint_kernels.h): a second copy, by rows, of columns that are
+// usually in use.
 #include <algorithm>
 
 #include "runtime/load/compile/joint_blocks.h"
@@ -8,8 +9,8 @@ namespace mien {
 namespace {
 
 /// The first control that strips have, or that behind the last one. They are worth their memory where
-/// columns have few blocks, as those of correctives of a body, and where nearly all are in use, as those of
-/// networks are.
+/// columns have few blocks, as for the correctives of a body, and where nearly all are in use, as for
+/// networks.
 uint32_t first_strip_control(const dna::DnaView& view, const Rig& rig, const JointPlan& plan) {
   constexpr size_t kFewBlocks = 4;  // of a column
   if (plan.block_row_count() == 0 || plan.block_row_count() > kMaxTileBlockRows)

@@ -14,17 +14,17 @@ namespace {
 
 // Panels ---------------------------------------------------------------------------------------
 
-/// How many block rows a panel has at most. Small panels tell changes apart; their table has an
-/// entry for each column, though, and shall stay small beside the blocks.
+/// The largest number of block rows of a panel. Small panels track changes better, but their table has an
+/// entry for each column, and must stay small compared with the blocks.
 uint32_t panel_size(size_t block_row_count, size_t block_count, size_t column_count) {
-  constexpr size_t kMarks = 48;  // of kPanelBits: LODs divide some panels once more
+  constexpr size_t kMarks = 48;  // of kPanelBits: LODs divide some panels again
   const size_t affordable = column_count ? std::max<size_t>(block_count / column_count / 4, 1) : 1;
   const size_t count = std::min(kMarks, affordable);
   const size_t size = (block_row_count + count - 1) / count;
   return static_cast<uint32_t>(std::clamp<size_t>(size + size % 2, 2, kMaxPanelBlockRows));
 }
 
-/// Calls f(first block row) for each panel, and once more for the end.
+/// Calls f(first block row) for each panel, and for the end.
 template <class F>
 void for_each_panel(const JointPlan& plan, F&& f) {
   const uint32_t block_row_count = plan.block_row_count();

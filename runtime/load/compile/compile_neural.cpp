@@ -22,7 +22,7 @@ MlOperationType type_of(const MlOperation& operation) {
   return static_cast<MlOperationType>(operation.type);
 }
 
-/// What each operation becomes, before there is memory for it. Networks without operations are seen
+/// The step that each operation becomes, before there is memory for it. Networks without operations count
 /// as one step each, which gathers the network's inputs and scatters its outputs.
 struct Visit {
   const MlType* type;  // null: no operations
@@ -77,8 +77,8 @@ void for_each_gather(const DnaView& view, const Visit& visit, F&& f) {
   }
 }
 
-/// The same for what scatters the outputs of networks: calls f(set, number, parameters) for every
-/// dependency of every scatter.
+/// The same for scatters of the outputs of networks: calls f(set, number, parameters) for every dependency
+/// of every scatter.
 template <class F>
 void for_each_scatter(const MlType& type, F&& f) {
   for (const auto& set : type.operations) {
@@ -264,8 +264,8 @@ Status place_ml(const DnaView& view, Placer& placer, Rig& rig, Error& error) {
   for_each_step(view, [&](const Visit& visit) {
     ++steps;
     buffer += padded(output_count(view, visit));
-    // What a step gathers lies where the inputs of its first layer do, whether the layer takes it
-    // or not; a step that gathers nothing takes the outputs of what it depends on.
+    // Gathered values are placed at the inputs of the first layer of a step, whether the layer takes them
+    // or not; a step that gathers nothing takes the outputs of its dependencies.
     size_t inputs = 0;
     for_each_gather(view, visit, [&](const auto& indices) { inputs += indices.count; });
     controls += inputs;

@@ -244,7 +244,7 @@ bool fill_radii_and_inverses(const dna::DnaView& view, Arena& scratch, RbfTable&
   return true;
 }
 
-/// Pose controls: lists of what each pose drives.
+/// Pose controls: the lists of controls that each pose drives.
 void fill_poses(const dna::DnaView& view, RbfTable& rbf) {
   for (uint32_t p = 0; p < view.rbfe.poses.count; ++p) {
     const dna::RbfPoseControls& from = view.rbfe.poses[p];

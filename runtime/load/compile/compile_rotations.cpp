@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What joint groups do to rotations: angles that become quaternions, and joints represented by
-// quaternions (docs/rig-evaluation.md, 4.3, 4.7, 4.8). The latter are turns here.
+// Rotations of joint groups: angles that become quaternions, and joints represented by quaternions
+// (docs/rig-evaluation.md, 4.3, 4.7, 4.8), which are called turns here.
 #include <algorithm>
 
 #include "runtime/base/half.h"

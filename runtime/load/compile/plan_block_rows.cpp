@@ -124,7 +124,7 @@ void for_each_rows(const dna::DnaView& view, const JointPlan& plan, const Span<u
   }
 }
 
-/// What a group reads: bit c % 1024 for control c.
+/// The controls that a group reads: bit c % 1024 for control c.
 struct GroupSignature {
   uint64_t words[16];
 

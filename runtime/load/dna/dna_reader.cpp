@@ -161,7 +161,7 @@ class FieldReader {
     read(element);
   }
 
-  // A mesh of a LOD that was not chosen is jumped over.
+  // A mesh of a LOD that was not chosen is skipped.
   void read_element(Mesh& mesh, uint32_t index) {
     if (!kept_meshes || (index < mesh_count && kept_meshes[index])) return read(mesh);
     size_t end;
@@ -486,7 +486,7 @@ class DnaReader {
     return true;
   }
 
-  /// Of a stream only what was chosen: known layers, and unknown ones that are carried along.
+  /// From a stream, reads only what was chosen: known layers, and unknown ones that are carried along.
   bool fetch_layers() {
     for (IndexEntry& entry : view_.index) {
       const LayerKind* kind = find_layer_kind(entry.code, entry.layer_version);

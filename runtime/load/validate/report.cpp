@@ -46,8 +46,8 @@ bool keep_finding(void* user, const dna::Finding& finding) {
   return add(*static_cast<Report*>(user), finding);
 }
 
-// Findings that only compilation makes: correctives that depend on each other in a circle, too much work.
-// Their messages begin with the field.
+// Findings that only compilation can make: correctives that depend on each other in a cycle, or too much
+// work. Their messages begin with the field.
 void try_to_compile(const dna::DnaView& view, Report& report) {
   if (report.errors != 0 || report.out_of_memory) return;
   Rig* rig = nullptr;

@@ -362,9 +362,9 @@ class CoordinateConverter {
     return ml_joints_change() ? convert_ml_joints() : Status::kOk;
   }
 
-  // ML joints keep their axes and angles and tell which they are (keys 3 to 9); evaluation
-  // converts. What would only repeat the rig's own system goes, so that converting back leaves no
-  // trace. Scales that had signs keep them, and those that had none get none.
+  // ML joints keep their axes and angles and tell which they are (keys 3 to 9); evaluation converts. Keys
+  // that would only repeat the rig's own system are removed, so that converting back leaves no trace.
+  // Scales that had signs keep them, and those that had none get none.
   Status convert_ml_joints() {
     MlJoints& joints = view_.mlbe.joints;
     const MlJointSystem before = ml_joint_system(joints, from_);

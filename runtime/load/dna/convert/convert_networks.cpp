@@ -55,7 +55,7 @@ class NetworkConverter {
     bool scales = false;  // a unit is not 1
   };
 
-  // What moves joints is still in their own system while networks run.
+  // Controls that move joints are still in the system of the ML joints while networks run.
   Reading read(uint32_t control) const {
     if (controls_.moves_ml_joint(control)) return {static_cast<uint16_t>(control), 1};
     return controls_.read(control);
@@ -144,8 +144,8 @@ class NetworkConverter {
     }
   }
 
-  // Outputs with other units may not go on to other operations; a sum has one weight for all of
-  // what it gathers, so no sign changes there.
+  // Outputs with other units may not go on to other operations; a sum has one weight for all values that it
+  // gathers, so no sign changes there.
   void check_dependencies(const MlType& type) {
     for (const auto& set : type.operations) {
       for (const MlOperation& operation : set) {

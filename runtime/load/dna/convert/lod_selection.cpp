@@ -110,7 +110,7 @@ class LodSelector {
   uint32_t rows_left(const Array<uint16_t>& lods) const {
     return first_ < lods.count ? lods[first_] : 0;
   }
-  /// What the remaining rows write.
+  /// The elements that the remaining rows write.
   Array<uint16_t> kept_rows(const Array<uint16_t>& outputs, const Array<uint16_t>& lods) const {
     return outputs.first(rows_left(lods));
   }
@@ -140,7 +140,7 @@ class LodSelector {
     if (root_ == kGone) root_ = 0;
   }
 
-  /// Elements that kept LODs list, or that what is kept writes.
+  /// Elements that kept LODs list, or that kept rows write.
   Numbers number_listed(const LodMap& map, uint32_t count, const Array<uint16_t>& written) {
     if (is_every(map.at(first_), count)) return all_stay(count);
     Span<uint8_t> marks = marked(map, count);
@@ -442,7 +442,7 @@ class LodSelector {
     }
   }
 
-  // The weights that remain are scaled to make up for those of joints that are gone.
+  // The remaining weights are scaled to compensate for those of removed joints.
   void select_influences(VertexSkinWeights& vertex) {
     if (view_.defn.joint_names.count == 0) return void(vertex = {});  // no joints, so no root
     const uint32_t count = vertex.weights.count;
