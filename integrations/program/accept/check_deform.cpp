@@ -11,9 +11,9 @@ namespace {
 using math::Matrix;
 using math::Vec3d;
 
-constexpr char kCannot[] = "cannot check geometry";
+constexpr char kCannotDeform[] = "cannot check geometry";
 constexpr double kAllowed = 1e-5;  // of the diagonal of the mesh
-constexpr size_t kPoses = 5;
+constexpr size_t kDeformPoses = 5;
 
 Vec3d at(const float* xyz) { return {xyz[0], xyz[1], xyz[2]}; }
 
@@ -32,7 +32,7 @@ struct Model {
 
 Model model_of(const MienDeformer* deformer, uint32_t number) {
   Model model{sized<MienMesh>(), {}, 0};
-  check(mien_deformer_mesh(deformer, number, &model.mesh), nullptr, kCannot, "");
+  check(mien_deformer_mesh(deformer, number, &model.mesh), nullptr, kCannotDeform, "");
   math::Boxd box;
   for (size_t p = 0; p < model.mesh.position_count; ++p) {
     box.add(at(model.mesh.positions.data + 3 * p));
@@ -42,7 +42,7 @@ Model model_of(const MienDeformer* deformer, uint32_t number) {
     model.targets.emplace_back(size_t{3} * model.mesh.position_count);
     check(
         mien_deformer_target(deformer, number, t, model.targets[t].data(), model.targets[t].size()),
-        nullptr, kCannot, "");
+        nullptr, kCannotDeform, "");
   }
   return model;
 }
@@ -61,7 +61,8 @@ double largest_distance(const MienDeformer* deformer, uint32_t number, const Mod
     }
     MienIndex16View joints{};
     MienFloatView weights{};
-    check(mien_deformer_influences(deformer, number, p, &joints, &weights), nullptr, kCannot, "");
+    check(mien_deformer_influences(deformer, number, p, &joints, &weights), nullptr, kCannotDeform,
+          "");
     Vec3d sum = joints.count == 0 ? point : Vec3d{};
     for (size_t i = 0; i < joints.count; ++i) {
       sum += times(skin[joints.data[i]], point) * double{weights.data[i]};
@@ -76,10 +77,10 @@ double largest_distance(const MienDeformer* deformer, uint32_t number, const Mod
 
 std::vector<Matrix> joint_matrices(const MienRig* rig, const MienDeformerInstance* pose) {
   MienIndex16View parents{};
-  check(mien_rig_joint_parents(rig, &parents), nullptr, kCannot, "");
+  check(mien_rig_joint_parents(rig, &parents), nullptr, kCannotDeform, "");
   std::vector<float> values(10 * parents.count);
   check(mien_deformer_instance_local_transforms(pose, values.data(), values.size()), nullptr,
-        kCannot, "");
+        kCannotDeform, "");
   std::vector<Matrix> matrices(parents.count);
   std::vector<bool> known(parents.count);
   std::vector<size_t> path;
@@ -104,10 +105,10 @@ Check check_deform(const AcceptedRig& rig, const Session& session) {
   auto error = sized<MienError>();
   MienDeformer* made = nullptr;
   check(mien_deformer_create(rig.file.dna.get(), rig.rig.get(), nullptr, &made, &error), &error,
-        kCannot, rig.file.shown);
+        kCannotDeform, rig.file.shown);
   const Deformer deformer(made);
   MienDeformerInstance* instance = nullptr;
-  check(mien_deformer_instance_create(made, nullptr, &instance, &error), &error, kCannot,
+  check(mien_deformer_instance_create(made, nullptr, &instance, &error), &error, kCannotDeform,
         rig.file.shown);
   const DeformerInstance pose(instance);
   std::vector<Matrix> inverse_binds;
@@ -124,18 +125,19 @@ Check check_deform(const AcceptedRig& rig, const Session& session) {
     const Model model = model_of(made, m);
     for (uint32_t lod = 0; lod < rig.lod_count(); ++lod) {
       if (!(model.mesh.lods >> lod & 1)) continue;
-      for (size_t p = 0; p < std::min(kPoses, rig.poses.size()); ++p) {
+      for (size_t p = 0; p < std::min(kDeformPoses, rig.poses.size()); ++p) {
         const Results results = evaluate_fresh(rig.rig.get(), rig.poses[p], lod);
         check(mien_deformer_instance_update_from_values(
                   instance, results.joints.data(), results.joints.size(), results.channels.data(),
                   results.channels.size()),
-              nullptr, kCannot, "");
+              nullptr, kCannotDeform, "");
         std::vector<Matrix> skin = joint_matrices(rig.rig.get(), instance);
         for (size_t j = 0; j < skin.size(); ++j) skin[j] = skin[j] * inverse_binds[j];
         check(mien_deformer_instance_deform(instance, m, MIEN_NORMALS_RECOMPUTED, nullptr), nullptr,
-              kCannot, "");
+              kCannotDeform, "");
         MienFloatView positions{};
-        check(mien_deformer_instance_positions(instance, m, &positions), nullptr, kCannot, "");
+        check(mien_deformer_instance_positions(instance, m, &positions), nullptr, kCannotDeform,
+              "");
         const double off = largest_distance(made, m, model, results.channels, skin, positions) /
                            std::max(model.diagonal, 1e-30);
         if (off <= worst) continue;
@@ -147,7 +149,7 @@ Check check_deform(const AcceptedRig& rig, const Session& session) {
   }
   result.passed = worst <= kAllowed;
   result.detail = std::to_string(meshes) + " meshes in " +
-                  std::to_string(std::min(kPoses, rig.poses.size())) +
+                  std::to_string(std::min(kDeformPoses, rig.poses.size())) +
                   " poses against skinning in double precision: off by " + short_number(worst) +
                   " of the diagonal at most";
   if (!result.passed) result.detail += ", " + where;

@@ -21,13 +21,13 @@ using math::Matrix;
 using math::Quaternion;
 using math::Vec3d;
 
-constexpr char kCannot[] = "cannot use poses";
+constexpr char kCannotUsePoses[] = "cannot use poses";
 constexpr char kExample[] =
     R"(write {"unit": "cm", "poses": [{"controls": {"jawOpen": 1}, "joints": {"FACIAL_C_Jaw": )"
     R"({"translation": [0, 1, 2]}}}]})";
 
 [[noreturn]] void wrong(const std::string& where, const std::string& why) {
-  fail(kInvalid, kCannot, where, why, kExample);
+  fail(kInvalid, kCannotUsePoses, where, why, kExample);
 }
 
 void refuse_other_keys(const json& object, const std::string& where,
@@ -74,7 +74,7 @@ RigFile open_in_system(const json& document, const std::string& shown, const std
     system = sized<MienCoordinateSystem>();
     const std::string word = name.is_string() ? name.get<std::string>() : "";
     if (mien_coordinate_system_find(word.c_str(), &system) != MIEN_OK) {
-      fail(kInvalid, kCannot, shown + ", system",
+      fail(kInvalid, kCannotUsePoses, shown + ", system",
            "no coordinate system is named \"" + one_line(word) + "\"",
            "leave it out for the axes of the file; 'mien convert --help' lists the names");
     }
@@ -92,7 +92,7 @@ uint32_t find_joint(const MienRig* rig, const std::string& name, const std::stri
   for (uint32_t j = 0; j < rig_count(rig, MIEN_KIND_JOINT); ++j) {
     nearest.offer(rig_name(rig, MIEN_KIND_JOINT, j));
   }
-  fail(kInvalid, kCannot, where, "no joint is named \"" + one_line(name) + "\"",
+  fail(kInvalid, kCannotUsePoses, where, "no joint is named \"" + one_line(name) + "\"",
        nearest.question("'mien info RIG --names joints' lists the names"));
 }
 
@@ -103,7 +103,7 @@ Frame frame_of(const json& pose, const MienRig* rig, const std::string& where) {
   if (!controls.is_object()) wrong(where + ", controls", "expected an object");
   for (const auto& [name, value] : controls.items()) {
     if (!value.is_number()) wrong(where + ", controls." + one_line(name), "expected a number");
-    const Control control = find_control(rig, name, kCannot, where);
+    const Control control = find_control(rig, name, kCannotUsePoses, where);
     const bool gui = control.kind == MIEN_KIND_GUI_CONTROL;
     (gui ? frame.gui : frame.raw).push_back({control.index, value.get<float>()});
     frame.maps_gui |= gui;
@@ -171,11 +171,12 @@ class PoseChecker {
       lod = pose["lod"];
     }
     MienInstance* made = nullptr;
-    check(mien_instance_create(rig_.get(), nullptr, &made, nullptr), nullptr, kCannot, shown_);
+    check(mien_instance_create(rig_.get(), nullptr, &made, nullptr), nullptr, kCannotUsePoses,
+          shown_);
     const Instance instance(made);
     apply_frame(frame_of(pose, rig_.get(), where), rig_.get(), made);
-    check(mien_rig_evaluate(rig_.get(), made, lod), nullptr, kCannot, shown_);
-    check(mien_deformer_instance_update(pose_.get(), made), nullptr, kCannot, shown_);
+    check(mien_rig_evaluate(rig_.get(), made, lod), nullptr, kCannotUsePoses, shown_);
+    check(mien_deformer_instance_update(pose_.get(), made), nullptr, kCannotUsePoses, shown_);
     const std::vector<Matrix> matrices = joint_matrices(rig_.get(), pose_.get());
 
     if (!pose.contains("joints") || !pose["joints"].is_object() || pose["joints"].empty()) {
@@ -231,7 +232,7 @@ class PoseChecker {
 std::vector<Check> check_poses(const PoseOptions& options, const Session& session) {
   const std::string shown = shown_name(options.poses);
   const json document =
-      parse_json<json>(read_json(options.poses, kCannot), kCannot, shown, kExample);
+      parse_json<json>(read_json(options.poses, kCannotUsePoses), kCannotUsePoses, shown, kExample);
   refuse_other_keys(document, shown, {"unit", "system", "poses"});
   if (!document.contains("poses") || !document["poses"].is_array() || document["poses"].empty()) {
     wrong(shown + ", poses", "expected an array of poses");

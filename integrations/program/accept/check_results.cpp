@@ -12,7 +12,7 @@ namespace mien::cli {
 
 namespace {
 
-constexpr char kCannot[] = "cannot check rig";
+constexpr char kCannotCheck[] = "cannot check rig";
 // Columns of joints represented by quaternions may change their order (docs/numbers.md).
 constexpr double kSubset = 1e-4;
 
@@ -21,7 +21,8 @@ std::vector<uint32_t> places_in(const MienRig* whole, const MienRig* subset, uin
   std::vector<uint32_t> places(rig_count(subset, kind));
   for (uint32_t i = 0; i < places.size(); ++i) {
     const std::string name = rig_name(subset, kind, i);
-    check(mien_rig_find_n(whole, kind, name.data(), name.size(), &places[i]), nullptr, kCannot, "");
+    check(mien_rig_find_n(whole, kind, name.data(), name.size(), &places[i]), nullptr, kCannotCheck,
+          "");
   }
   return places;
 }
@@ -88,20 +89,21 @@ Check check_subsets(const AcceptedRig& rig, const std::string& path, const Sessi
 Check check_bake(const AcceptedRig& rig) {
   size_t size = 0;
   auto error = sized<MienError>();
-  check(mien_bake_memory(rig.rig.get(), nullptr, nullptr, 0, &size, &error), &error, kCannot, "");
+  check(mien_bake_memory(rig.rig.get(), nullptr, nullptr, 0, &size, &error), &error, kCannotCheck,
+        "");
   std::string bytes(size, '\0');
   check(mien_bake_memory(rig.rig.get(), nullptr, bytes.data(), size, &size, &error), &error,
-        kCannot, "");
+        kCannotCheck, "");
   auto desc = sized<MienBakedDesc>();
   desc.file_access = MIEN_FILE_READ;  // aligned, as the string need not be
   desc.check = MIEN_BAKED_CHECK_FULL;
   MienBaked* opened = nullptr;
-  check(mien_baked_open_memory(bytes.data(), bytes.size(), &desc, &opened, &error), &error, kCannot,
-        "");
+  check(mien_baked_open_memory(bytes.data(), bytes.size(), &desc, &opened, &error), &error,
+        kCannotCheck, "");
   const Baked baked(opened);
   MienRig* made = nullptr;
   const auto rig_desc = sized<MienBakedRigDesc>();
-  check(mien_rig_from_baked(opened, &rig_desc, &made, &error), &error, kCannot, "");
+  check(mien_rig_from_baked(opened, &rig_desc, &made, &error), &error, kCannotCheck, "");
   const Rig again(made);
   Check check{"bake", true, false, ""};
   check.detail = "baked to " + size_text(bytes.size()) + " and opened: the same bits";
@@ -123,10 +125,10 @@ Check check_round_trip(const AcceptedRig& rig, const std::string& path) {
   size_t size = 0;
   auto error = sized<MienError>();
   check(mien_dna_write_memory(rig.file.dna.get(), nullptr, nullptr, 0, &size, &error), &error,
-        kCannot, rig.file.shown);
+        kCannotCheck, rig.file.shown);
   std::string written(size, '\0');
   check(mien_dna_write_memory(rig.file.dna.get(), nullptr, written.data(), size, &size, &error),
-        &error, kCannot, rig.file.shown);
+        &error, kCannotCheck, rig.file.shown);
   // What is inside of another file was read to memory.
   std::string original = rig.file.bytes;
   if (original.empty()) {

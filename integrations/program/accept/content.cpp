@@ -11,7 +11,7 @@ namespace mien::cli {
 
 namespace {
 
-constexpr char kCannot[] = "cannot read rig";
+constexpr char kCannotRead[] = "cannot read rig";
 constexpr int kSamples = 25;
 
 void add_counts(const AcceptedRig& rig, Content& content) {
@@ -45,7 +45,7 @@ Histogram per_lod(const AcceptedRig& rig, const char* name, const char* unit, ui
   Histogram result{name, unit, {}};
   for (uint32_t lod = 0; lod < rig.lod_count(); ++lod) {
     MienIndex16View indices{};
-    check(mien_rig_lod_indices(rig.rig.get(), kind, lod, &indices), nullptr, kCannot, "");
+    check(mien_rig_lod_indices(rig.rig.get(), kind, lod, &indices), nullptr, kCannotRead, "");
     result.bars.push_back({"LOD " + std::to_string(lod), indices.count});
   }
   return result;
@@ -93,7 +93,7 @@ void add_geometry(const AcceptedRig& rig, Content& content) {
   auto error = sized<MienError>();
   MienDeformer* made = nullptr;
   check(mien_deformer_create(rig.file.dna.get(), rig.rig.get(), nullptr, &made, &error), &error,
-        kCannot, rig.file.shown);
+        kCannotRead, rig.file.shown);
   const Deformer deformer(made);
   std::map<size_t, uint64_t> influences;
   Histogram vertices{"vertices_per_lod", "vertices", {}};
@@ -103,7 +103,7 @@ void add_geometry(const AcceptedRig& rig, Content& content) {
   uint64_t positions = 0, triangles = 0, targets = 0, deltas = 0;
   for (uint32_t m = 0; m < rig_count(rig.rig.get(), MIEN_KIND_MESH); ++m) {
     auto mesh = sized<MienMesh>();
-    check(mien_deformer_mesh(made, m, &mesh), nullptr, kCannot, "");
+    check(mien_deformer_mesh(made, m, &mesh), nullptr, kCannotRead, "");
     positions += mesh.position_count;
     triangles += mesh.triangle_count;
     targets += mesh.target_count;
@@ -114,7 +114,7 @@ void add_geometry(const AcceptedRig& rig, Content& content) {
     for (uint32_t p = 0; p < mesh.position_count; ++p) {
       MienIndex16View joints{};
       MienFloatView weights{};
-      check(mien_deformer_influences(made, m, p, &joints, &weights), nullptr, kCannot, "");
+      check(mien_deformer_influences(made, m, p, &joints, &weights), nullptr, kCannotRead, "");
       ++influences[joints.count];
     }
   }
@@ -132,10 +132,10 @@ void add_timings(const AcceptedRig& rig, Content& content) {
     const Rig made = create_rig(rig, isa, MIEN_ROTATION_OUTPUT_EULER);
     MienInstance* instance = nullptr;
     auto error = sized<MienError>();
-    check(mien_instance_create(made.get(), nullptr, &instance, &error), &error, kCannot, "");
+    check(mien_instance_create(made.get(), nullptr, &instance, &error), &error, kCannotRead, "");
     const Instance owner(instance);
     MienMutableFloatView raw{};
-    check(mien_instance_raw_controls(instance, &raw), nullptr, kCannot, "");
+    check(mien_instance_raw_controls(instance, &raw), nullptr, kCannotRead, "");
     for (uint32_t lod = 0; lod < rig.lod_count(); ++lod) {
       std::vector<double> samples;
       for (int sample = 0; sample < kSamples; ++sample) {
@@ -143,7 +143,7 @@ void add_timings(const AcceptedRig& rig, Content& content) {
             rig.poses[1 + static_cast<size_t>(sample) % (rig.poses.size() - 1)];
         std::copy(pose.begin(), pose.end(), raw.data);
         const auto start = Clock::now();
-        check(mien_rig_evaluate(made.get(), instance, lod), nullptr, kCannot, "");
+        check(mien_rig_evaluate(made.get(), instance, lod), nullptr, kCannotRead, "");
         samples.push_back(std::chrono::duration<double, std::micro>(Clock::now() - start).count());
       }
       std::nth_element(samples.begin(), samples.begin() + kSamples / 2, samples.end());

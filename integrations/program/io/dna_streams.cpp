@@ -17,7 +17,7 @@ namespace mien::cli {
 
 namespace {
 
-constexpr char kCannot[] = "cannot search for DNA streams";
+constexpr char kCannotSearch[] = "cannot search for DNA streams";
 constexpr char kSignature[] = {'D', 'N', 'A', 0, 2, 0};  // and a byte: the version
 constexpr size_t kBlock = size_t{1} << 20;
 constexpr size_t kHeader = 7, kIndex = 11, kIndexEntry = 16, kSections = 8;
@@ -108,14 +108,14 @@ void open_stream(FileBytes& file, DnaStream& stream) {
 
 FileBytes::FileBytes(const std::string& path) : shown_(shown_name(path)) {
   if (is_stream(path)) {
-    bytes_ = read_any_bytes(path, kCannot);
+    bytes_ = read_any_bytes(path, kCannotSearch);
     size_ = bytes_.size();
     return;
   }
   file_.open(path, std::ios::binary);
   if (file_) file_.seekg(0, std::ios::end);
   if (!file_) {
-    fail(kFile, kCannot, shown_, std::strerror(errno), "check the path and its permissions");
+    fail(kFile, kCannotSearch, shown_, std::strerror(errno), "check the path and its permissions");
   }
   size_ = static_cast<uint64_t>(file_.tellg());
 }
@@ -130,7 +130,7 @@ std::string FileBytes::read(uint64_t offset, uint64_t count) {
   std::string bytes(count, '\0');
   file_.seekg(static_cast<std::streamoff>(offset));
   file_.read(bytes.data(), static_cast<std::streamsize>(count));
-  if (!file_) fail(kFile, kCannot, shown_, "the file cannot be read", "check the disk");
+  if (!file_) fail(kFile, kCannotSearch, shown_, "the file cannot be read", "check the disk");
   return bytes;
 }
 

@@ -13,6 +13,7 @@
 #include "integrations/program/io/json_check.h"
 #include "integrations/program/io/nearest_name.h"
 #include "integrations/program/io/rig_file.h"
+#include "integrations/program/io/text.h"
 
 namespace mien::cli {
 
@@ -20,7 +21,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* kCannot = "cannot use frames";
+constexpr const char* kCannotUseFrames = "cannot use frames";
 
 /// A member of a frame that takes numbers.
 struct Target {
@@ -45,12 +46,12 @@ std::string at_index(const std::string& where, size_t index) {
 
 float parse_value(const json& value, const std::string& where) {
   if (!value.is_number()) {
-    fail(kInvalid, kCannot, where, std::string("expected a number, not ") + value.type_name(),
-         "write a number");
+    fail(kInvalid, kCannotUseFrames, where,
+         std::string("expected a number, not ") + value.type_name(), "write a number");
   }
   const auto number = static_cast<float>(value.get<double>());
   if (!std::isfinite(number)) {
-    fail(kInvalid, kCannot, where, value.dump() + " is too large for a 32-bit float",
+    fail(kInvalid, kCannotUseFrames, where, value.dump() + " is too large for a 32-bit float",
          "controls are usually in 0..1");
   }
   return number;
@@ -89,7 +90,7 @@ uint32_t ControlNames::search(const Target& target, const std::string& name,
   const bool is_number = stop == end && !name.empty() && error != std::errc::invalid_argument;
   if (target.takes_indices && is_number) {
     if (error == std::errc() && index < count) return index;
-    fail(kInvalid, kCannot, where,
+    fail(kInvalid, kCannotUseFrames, where,
          "index " + name + " is out of range: the rig has " + std::to_string(count) + " " +
              target.noun + "s",
          "count from 0");
@@ -100,14 +101,15 @@ uint32_t ControlNames::search(const Target& target, const std::string& name,
   const std::vector<uint32_t>& short_named = short_names.find(name);
   if (short_named.size() == 1) return short_named[0];
   if (short_named.size() > 1) {
-    fail(kInvalid, kCannot, where,
+    fail(kInvalid, kCannotUseFrames, where,
          "\"" + name + "\" is ambiguous: " + rig_name(rig_, target.kind, short_named[0]) + " or " +
              rig_name(rig_, target.kind, short_named[1]),
          "give the full name");
   }
   NearestName nearest(name);
   for (uint32_t i = 0; i < count; ++i) nearest.offer(rig_name(rig_, target.kind, i));
-  fail(kInvalid, kCannot, where, std::string("no ") + target.noun + " is named \"" + name + "\"",
+  fail(kInvalid, kCannotUseFrames, where,
+       std::string("no ") + target.noun + " is named \"" + name + "\"",
        nearest.question(std::string("'mien info RIG ") + target.names + "' lists the names"));
 }
 
@@ -119,14 +121,10 @@ void refuse_doubles(const std::vector<Assignment>& assignments, const ControlNam
   std::sort(indices.begin(), indices.end());
   const auto twice = std::adjacent_find(indices.begin(), indices.end());
   if (twice == indices.end()) return;
-  fail(kInvalid, kCannot, where,
+  fail(kInvalid, kCannotUseFrames, where,
        std::string(target.noun) + " \"" + rig_name(names.rig(), target.kind, *twice) +
            "\" is set twice",
        "leave one of them out");
-}
-
-bool is_one_of(const std::string& key, const std::vector<std::string>& keys) {
-  return std::find(keys.begin(), keys.end(), key) != keys.end();
 }
 
 /// An array with all numbers in order, or an object with some by name.
@@ -136,7 +134,7 @@ std::vector<Assignment> parse_assignments(const json& values, ControlNames& name
   if (values.is_array() && !target.takes_indices) {
     const uint32_t count = rig_count(names.rig(), target.kind);
     if (values.size() != count) {
-      fail(kInvalid, kCannot, where,
+      fail(kInvalid, kCannotUseFrames, where,
            std::to_string(values.size()) + " numbers given, " + std::to_string(count) + " expected",
            std::string("give one for each ") + target.noun + ", or an object with some by name");
     }
@@ -150,7 +148,7 @@ std::vector<Assignment> parse_assignments(const json& values, ControlNames& name
     }
     refuse_doubles(assignments, names, target, where);
   } else {
-    fail(kInvalid, kCannot, where,
+    fail(kInvalid, kCannotUseFrames, where,
          std::string("expected ") + (target.takes_indices ? "" : "an array or ") +
              "an object of numbers, not " + values.type_name(),
          "see 'mien eval --help' for an example");
@@ -160,7 +158,8 @@ std::vector<Assignment> parse_assignments(const json& values, ControlNames& name
 
 Frame parse_frame(const json& value, ControlNames& names, const std::string& where) {
   if (!value.is_object()) {
-    fail(kInvalid, kCannot, where, std::string("expected an object, not ") + value.type_name(),
+    fail(kInvalid, kCannotUseFrames, where,
+         std::string("expected an object, not ") + value.type_name(),
          "see 'mien eval --help' for an example");
   }
   Frame frame;
@@ -174,19 +173,20 @@ Frame parse_frame(const json& value, ControlNames& names, const std::string& whe
     } else if (key == "ml_mask") {
       frame.masks = parse_assignments(values, names, kMask, member);
     } else if (key != "raw_after_gui" && !is_one_of(key, kIgnoredInFrames)) {
-      fail(kInvalid, kCannot, where, "a frame has no member \"" + key + "\"",
+      fail(kInvalid, kCannotUseFrames, where, "a frame has no member \"" + key + "\"",
            nearest_question(key, {"raw", "gui", "raw_after_gui", "ml_mask"},
                             "its members are raw, or gui and raw_after_gui, and ml_mask"));
     }
   }
   if (value.contains("raw") && frame.maps_gui) {
-    fail(kInvalid, kCannot, where, "both raw and gui are given, but mapping gui overwrites raw",
+    fail(kInvalid, kCannotUseFrames, where,
+         "both raw and gui are given, but mapping gui overwrites raw",
          "leave one out, or write raw_after_gui to set raw controls after the mapping");
   }
   const auto after = value.find("raw_after_gui");
   if (after != value.end()) {
     if (!frame.maps_gui) {
-      fail(kInvalid, kCannot, where, "raw_after_gui is given without gui",
+      fail(kInvalid, kCannotUseFrames, where, "raw_after_gui is given without gui",
            "rename it to raw, or add gui");
     }
     frame.raw = parse_assignments(*after, names, kRawAfterGui, where + ".raw_after_gui");
@@ -203,14 +203,14 @@ void assign(const std::vector<Assignment>& assignments, const MienMutableFloatVi
 std::vector<Frame> parse_frames(const std::string& text, const MienRig* rig,
                                 const std::string& shown) {
   const json document =
-      parse_json<json>(text, kCannot, shown, "give one JSON object: {\"frames\": [...]}");
+      parse_json<json>(text, kCannotUseFrames, shown, "give one JSON object: {\"frames\": [...]}");
   if (!document.is_object() || !document.contains("frames") || !document["frames"].is_array()) {
-    fail(kInvalid, kCannot, shown, "there is no list \"frames\"",
+    fail(kInvalid, kCannotUseFrames, shown, "there is no list \"frames\"",
          "give one JSON object: {\"frames\": [...]}");
   }
   for (const auto& [key, value] : document.items()) {
     if (key == "frames" || is_one_of(key, kIgnored)) continue;
-    fail(kInvalid, kCannot, shown, "the key \"" + key + "\" is unknown",
+    fail(kInvalid, kCannotUseFrames, shown, "the key \"" + key + "\" is unknown",
          nearest_question(key, {"frames"}, "give one JSON object: {\"frames\": [...]}"));
   }
   std::vector<Frame> frames;

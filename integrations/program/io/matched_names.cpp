@@ -20,12 +20,12 @@ namespace {
 
 using Json = nlohmann::basic_json<MemberList>;
 
-constexpr char kCannot[] = "cannot use names";
+constexpr char kCannotUseNames[] = "cannot use names";
 constexpr char kExample[] =
     R"(write {"smileL": "mouthSmile_L", "browUp": {"browInnerUp": 1, "browOuterUp_L": 0.5}})";
 
 [[noreturn]] void wrong(const std::string& where, const std::string& why) {
-  fail(kInvalid, kCannot, where, why, kExample);
+  fail(kInvalid, kCannotUseNames, where, why, kExample);
 }
 
 std::string share_text(const MienRig* rig, const MienControlShare& share) {
@@ -45,7 +45,7 @@ MatchedName match_name(const MienRig* rig, const std::string& name) {
   const MienStatus status =
       mien_rig_match(rig, name.data(), name.size(), shares, MIEN_MOST_SHARES, &count, &match.how);
   if (status == MIEN_ERROR_NAME) return {};
-  check(status, nullptr, kCannot, name);
+  check(status, nullptr, kCannotUseNames, name);
   match.shares.assign(shares, shares + count);
   return match;
 }
@@ -87,7 +87,8 @@ std::string metahuman_name(const std::string& name) {
 NamesFile::NamesFile(const std::string& path) {
   if (path.empty()) return;
   shown_ = shown_name(path);
-  const Json document = parse_json<Json>(read_json(path, kCannot), kCannot, shown_, kExample);
+  const Json document =
+      parse_json<Json>(read_json(path, kCannotUseNames), kCannotUseNames, shown_, kExample);
   if (!document.is_object()) wrong(shown_, "expected an object of names");
   for (const auto& [name, meaning] : document.items()) {
     const std::string where = shown_ + ", " + one_line(name);

@@ -11,8 +11,8 @@ namespace mien::cli {
 
 namespace {
 
-constexpr char kMagic[] = "\x93NUMPY";
-constexpr size_t kMagicSize = 6;
+constexpr char kNpyMagic[] = "\x93NUMPY";
+constexpr size_t kNpyMagicSize = 6;
 
 [[noreturn]] void fail_npy(const std::string& path, const std::string& why,
                            const std::string& what_to_do) {
@@ -62,7 +62,7 @@ void append(const char* bytes, size_t count, std::vector<float>& numbers) {
 }  // namespace
 
 NpyArray read_npy(const std::string& bytes, const std::string& path) {
-  if (bytes.compare(0, kMagicSize, kMagic) != 0 || bytes.size() < 12) {
+  if (bytes.compare(0, kNpyMagicSize, kNpyMagic) != 0 || bytes.size() < 12) {
     fail_npy(path, "it does not begin as one", "save it with numpy.save()");
   }
   // Version 1 has a length of 2 bytes, later ones of 4.

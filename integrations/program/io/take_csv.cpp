@@ -13,7 +13,7 @@ namespace mien::cli {
 
 namespace {
 
-constexpr const char* kCannot = "cannot build clip";
+constexpr const char* kCannotReadTable = "cannot build clip";
 constexpr double kTimecodeRate = 60;
 constexpr double kDay = 24 * 3600;
 
@@ -104,7 +104,7 @@ struct Table {
 
   [[noreturn]] void fail_cell(size_t line, size_t column, const std::string& why,
                               const std::string& what_to_do) const {
-    fail(kInvalid, kCannot,
+    fail(kInvalid, kCannotReadTable,
          take.shown + ", row " + std::to_string(line) + ", column " + std::to_string(column + 1) +
              " (" + one_line(header[column]) + ")",
          why, what_to_do);
@@ -194,17 +194,18 @@ void read_header(Table& table) {
   if (!live_link && !is_word(header[0], "time")) {
     const std::string first = "\"" + one_line(header[0].substr(0, 40)) + "\"";
     if (header.size() == 1 && header[0].find_first_of(";\t") != std::string::npos) {
-      fail(kInvalid, kCannot, where, first + " is one column", "put commas between the columns");
+      fail(kInvalid, kCannotReadTable, where, first + " is one column",
+           "put commas between the columns");
     }
     const std::string& start = header[0];
     if (start.compare(0, 2, "\xff\xfe") == 0 || start.compare(0, 2, "\xfe\xff") == 0) {
-      fail(kInvalid, kCannot, table.take.shown, "it is UTF-16 text", "save it as UTF-8");
+      fail(kInvalid, kCannotReadTable, table.take.shown, "it is UTF-16 text", "save it as UTF-8");
     }
     if (header.size() > 1) {
-      fail(kInvalid, kCannot, where, "the first column is " + first + ", not \"time\"",
+      fail(kInvalid, kCannotReadTable, where, "the first column is " + first + ", not \"time\"",
            "put the time of each row there, in seconds, and name it time");
     }
-    fail(kInvalid, kCannot, where,
+    fail(kInvalid, kCannotReadTable, where,
          "it begins with " + first + ": this is neither JSON nor a table of controls",
          "give a CSV with the header time,NAME,NAME,... or see 'mien help clip build'");
   }
@@ -213,12 +214,12 @@ void read_header(Table& table) {
   std::unordered_map<std::string, size_t> columns;
   for (size_t c = table.first_value; c < header.size(); ++c) {
     if (header[c].empty()) {
-      fail(kInvalid, kCannot, where + ", column " + std::to_string(c + 1), "it has no name",
-           "name it, or remove a comma at the end of the row");
+      fail(kInvalid, kCannotReadTable, where + ", column " + std::to_string(c + 1),
+           "it has no name", "name it, or remove a comma at the end of the row");
     }
     const auto [first, is_new] = columns.try_emplace(header[c], c);
     if (!is_new) {
-      fail(kInvalid, kCannot, where + ", column " + std::to_string(c + 1),
+      fail(kInvalid, kCannotReadTable, where + ", column " + std::to_string(c + 1),
            "\"" + one_line(header[c]) + "\" is also column " + std::to_string(first->second + 1),
            "leave one of them out");
     }
@@ -234,7 +235,7 @@ Take parse_csv_take(std::string_view text, const std::string& shown) {
   take.shown = shown;
   CsvReader reader(text);
   if (!reader.next(table.header)) {
-    fail(kInvalid, kCannot, shown, "it is empty",
+    fail(kInvalid, kCannotReadTable, shown, "it is empty",
          "give a CSV with the header time,NAME,NAME,... or frames as JSON");
   }
   read_header(table);
@@ -243,7 +244,7 @@ Take parse_csv_take(std::string_view text, const std::string& shown) {
     const size_t line = reader.line();
     if (reader.open_quote() != 0) break;
     if (fields.size() != table.header.size()) {
-      fail(kInvalid, kCannot, shown + ", row " + std::to_string(line),
+      fail(kInvalid, kCannotReadTable, shown + ", row " + std::to_string(line),
            "it has " + std::to_string(fields.size()) +
                (fields.size() == 1 ? " column" : " columns") + ", the header has " +
                std::to_string(table.header.size()),
@@ -257,11 +258,12 @@ Take parse_csv_take(std::string_view text, const std::string& shown) {
     ++take.row_count;
   }
   if (reader.open_quote() != 0) {
-    fail(kInvalid, kCannot, shown + ", row " + std::to_string(reader.open_quote()),
+    fail(kInvalid, kCannotReadTable, shown + ", row " + std::to_string(reader.open_quote()),
          "a quotation mark opens there and none closes it", "close it, or leave it out");
   }
   if (take.row_count == 0) {
-    fail(kInvalid, kCannot, shown, "there are no rows below the header", "add a row per frame");
+    fail(kInvalid, kCannotReadTable, shown, "there are no rows below the header",
+         "add a row per frame");
   }
   return std::move(table.take);
 }

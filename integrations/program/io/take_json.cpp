@@ -21,15 +21,12 @@ namespace {
 using json =
     nlohmann::basic_json<MemberList, std::vector, std::string, bool, int64_t, uint64_t, float>;
 
-constexpr const char* kCannot = "cannot build clip";
-constexpr const char* kExample = "give one JSON object: {\"frames\": [{\"raw\": {NAME: number}}]}";
+constexpr const char* kCannotReadTake = "cannot build clip";
+constexpr const char* kTakeExample =
+    "give one JSON object: {\"frames\": [{\"raw\": {NAME: number}}]}";
 
-const std::vector<std::string> kIgnored = {"rig", "variables"};
-const std::vector<std::string> kIgnoredInFrames = {"variables", "stages", "guards"};
-
-bool is_one_of(const std::string& key, const std::vector<std::string>& keys) {
-  return std::find(keys.begin(), keys.end(), key) != keys.end();
-}
+const std::vector<std::string> kIgnoredInTake = {"rig", "variables"};
+const std::vector<std::string> kIgnoredInTakeFrames = {"variables", "stages", "guards"};
 
 struct Reader {
   Take take;
@@ -43,7 +40,7 @@ struct Reader {
     take.names.push_back(name);
     // Frames need not list all names, but each has a value for all.
     if (take.names.size() > most_values / frames) {
-      fail(kInvalid, kCannot, take.shown,
+      fail(kInvalid, kCannotReadTake, take.shown,
            "over " + std::to_string(most_values) + " values: " + std::to_string(frames) +
                " frames of " + std::to_string(take.names.size()) + " names or more",
            "make several clips, of fewer names or frames");
@@ -54,12 +51,12 @@ struct Reader {
 
 float number(const json& value, const std::string& where) {
   if (!value.is_number()) {
-    fail(kInvalid, kCannot, where, std::string("expected a number, not ") + value.type_name(),
-         "write a number");
+    fail(kInvalid, kCannotReadTake, where,
+         std::string("expected a number, not ") + value.type_name(), "write a number");
   }
   const auto result = value.get<float>();
   if (!std::isfinite(result)) {
-    fail(kInvalid, kCannot, where, "it is too large for a 32-bit float",
+    fail(kInvalid, kCannotReadTake, where, "it is too large for a 32-bit float",
          "controls are usually in 0..1");
   }
   return result;
@@ -74,7 +71,7 @@ Rate read_rate(const json& value, const std::string& where) {
     rate = parse_rate(value.dump());
   }
   if (rate.known()) return rate;
-  fail(kInvalid, kCannot, where, "the rate is " + value.dump(),
+  fail(kInvalid, kCannotReadTake, where, "the rate is " + value.dump(),
        "give frames per second, or [numerator, denominator]");
 }
 
@@ -83,11 +80,11 @@ void read_values(Reader& reader, const json& values, const std::string& where,
                  std::vector<float>& row) {
   if (values.is_array()) {
     if (reader.listed == 0) {
-      fail(kInvalid, kCannot, where, "its values have no names",
+      fail(kInvalid, kCannotReadTake, where, "its values have no names",
            "write an object, or a list \"controls\" beside \"frames\"");
     }
     if (values.size() != reader.listed) {
-      fail(kInvalid, kCannot, where,
+      fail(kInvalid, kCannotReadTake, where,
            std::to_string(values.size()) + " numbers given, \"controls\" names " +
                std::to_string(reader.listed),
            "give one for each name");
@@ -98,9 +95,9 @@ void read_values(Reader& reader, const json& values, const std::string& where,
     return;
   }
   if (!values.is_object()) {
-    fail(kInvalid, kCannot, where,
+    fail(kInvalid, kCannotReadTake, where,
          std::string("expected an array or an object of numbers, not ") + values.type_name(),
-         kExample);
+         kTakeExample);
   }
   for (const auto& [name, value] : values.items()) {
     const size_t c = reader.channel(name);
@@ -111,8 +108,8 @@ void read_values(Reader& reader, const json& values, const std::string& where,
 
 std::vector<float> read_frame(Reader& reader, const json& frame, const std::string& where) {
   if (!frame.is_object()) {
-    fail(kInvalid, kCannot, where, std::string("expected an object, not ") + frame.type_name(),
-         kExample);
+    fail(kInvalid, kCannotReadTake, where,
+         std::string("expected an object, not ") + frame.type_name(), kTakeExample);
   }
   std::vector<float> row(reader.take.names.size());
   for (const auto& [key, value] : frame.items()) {
@@ -122,10 +119,10 @@ std::vector<float> read_frame(Reader& reader, const json& frame, const std::stri
     } else if (key == "time") {
       reader.take.times.seconds.push_back(static_cast<double>(number(value, member)));
     } else if (key == "raw_after_gui" || key == "ml_mask") {
-      fail(kInvalid, kCannot, where, "a clip has no " + key,
+      fail(kInvalid, kCannotReadTake, where, "a clip has no " + key,
            "leave it out, or name controls in raw");
-    } else if (!is_one_of(key, kIgnoredInFrames)) {
-      fail(kInvalid, kCannot, where, "a frame has no member \"" + one_line(key) + "\"",
+    } else if (!is_one_of(key, kIgnoredInTakeFrames)) {
+      fail(kInvalid, kCannotReadTake, where, "a frame has no member \"" + one_line(key) + "\"",
            nearest_question(key, {"raw", "gui", "time"}, "its members are raw or gui, and time"));
     }
   }
@@ -134,14 +131,15 @@ std::vector<float> read_frame(Reader& reader, const json& frame, const std::stri
 
 void read_controls(Reader& reader, const json& controls) {
   const std::string where = reader.take.shown + ", controls";
-  if (!controls.is_array()) fail(kInvalid, kCannot, where, "it is not a list", "list the names");
+  if (!controls.is_array())
+    fail(kInvalid, kCannotReadTake, where, "it is not a list", "list the names");
   for (const json& name : controls) {
     if (!name.is_string() || name.get<std::string>().empty()) {
-      fail(kInvalid, kCannot, where, "it is not a list of names", "list the names");
+      fail(kInvalid, kCannotReadTake, where, "it is not a list of names", "list the names");
     }
     if (reader.channel(name.get<std::string>()) != reader.listed++) {
-      fail(kInvalid, kCannot, where, "\"" + one_line(name.get<std::string>()) + "\" is there twice",
-           "leave one of them out");
+      fail(kInvalid, kCannotReadTake, where,
+           "\"" + one_line(name.get<std::string>()) + "\" is there twice", "leave one of them out");
     }
   }
 }
@@ -149,7 +147,8 @@ void read_controls(Reader& reader, const json& controls) {
 /// Where the time is a tick, that counts: a time in seconds was read as a 32-bit float.
 int64_t read_tick(const json& event, const std::string& where) {
   const auto bad = [&](const std::string& what) {
-    fail(kInvalid, kCannot, where, what, "an event has a time in seconds, from 0 on, or a tick");
+    fail(kInvalid, kCannotReadTake, where, what,
+         "an event has a time in seconds, from 0 on, or a tick");
   };
   if (event.contains("tick")) {
     const json& tick = event["tick"];
@@ -167,17 +166,17 @@ TakeEvent read_event(const json& event, const std::string& where) {
   constexpr const char* kEvent =
       "an event is {\"time\": seconds, \"name\": NAME, \"value\": number}";
   if (!event.is_object()) {
-    fail(kInvalid, kCannot, where, std::string("expected an object, not ") + event.type_name(),
-         kEvent);
+    fail(kInvalid, kCannotReadTake, where,
+         std::string("expected an object, not ") + event.type_name(), kEvent);
   }
   for (const auto& [key, value] : event.items()) {
     if (is_one_of(key, {"time", "tick", "name", "value", "layer"})) continue;
-    fail(kInvalid, kCannot, where, "an event has no member \"" + one_line(key) + "\"",
+    fail(kInvalid, kCannotReadTake, where, "an event has no member \"" + one_line(key) + "\"",
          nearest_question(key, {"time", "tick", "name", "value"}, kEvent));
   }
   if (!event.contains("name") || !event["name"].is_string() ||
       event["name"].get<std::string>().empty()) {
-    fail(kInvalid, kCannot, where, "it has no name", kEvent);
+    fail(kInvalid, kCannotReadTake, where, "it has no name", kEvent);
   }
   const float value = event.contains("value") ? number(event["value"], where + ".value") : 0.0f;
   return {read_tick(event, where), event["name"].get<std::string>(), value};
@@ -185,7 +184,8 @@ TakeEvent read_event(const json& event, const std::string& where) {
 
 void read_events(Reader& reader, const json& events) {
   const std::string where = reader.take.shown + ", events";
-  if (!events.is_array()) fail(kInvalid, kCannot, where, "it is not a list", "list the events");
+  if (!events.is_array())
+    fail(kInvalid, kCannotReadTake, where, "it is not a list", "list the events");
   for (const json& event : events) {
     const std::string place = where + "[" + std::to_string(reader.take.events.size()) + "]";
     reader.take.events.push_back(read_event(event, place));
@@ -198,10 +198,11 @@ Take parse_json_take(std::string_view text, const std::string& shown) {
   Reader reader;
   Take& take = reader.take;
   take.shown = shown;
-  const json document = parse_json<json>(text, kCannot, shown, kExample);
+  const json document = parse_json<json>(text, kCannotReadTake, shown, kTakeExample);
   if (!document.contains("frames") || !document["frames"].is_array() ||
       document["frames"].empty()) {
-    fail(kInvalid, kCannot, shown, "there is no list \"frames\" with a frame", kExample);
+    fail(kInvalid, kCannotReadTake, shown, "there is no list \"frames\" with a frame",
+         kTakeExample);
   }
   reader.frames = document["frames"].size();
   reader.most_values = most_values(text.size());
@@ -212,9 +213,9 @@ Take parse_json_take(std::string_view text, const std::string& shown) {
       read_controls(reader, value);
     } else if (key == "events") {
       read_events(reader, value);
-    } else if (key != "frames" && !is_one_of(key, kIgnored)) {
-      fail(kInvalid, kCannot, shown, "the key \"" + one_line(key) + "\" is unknown",
-           nearest_question(key, {"frames", "rate", "controls", "events"}, kExample));
+    } else if (key != "frames" && !is_one_of(key, kIgnoredInTake)) {
+      fail(kInvalid, kCannotReadTake, shown, "the key \"" + one_line(key) + "\" is unknown",
+           nearest_question(key, {"frames", "rate", "controls", "events"}, kTakeExample));
     }
   }
   std::vector<std::vector<float>> rows;
@@ -234,7 +235,7 @@ Take parse_json_take(std::string_view text, const std::string& shown) {
                         return b <= a;
                       }) == seconds.end();
   if (!seconds.empty() && (seconds.size() != rows.size() || !ascend)) {
-    fail(kInvalid, kCannot, shown, "not all frames have a time, or the times do not ascend",
+    fail(kInvalid, kCannotReadTake, shown, "not all frames have a time, or the times do not ascend",
          "give all of them, or none and \"rate\"");
   }
   // 32-bit floats are what times were read as.

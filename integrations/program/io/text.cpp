@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "integrations/program/io/text.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <iterator>
 
@@ -55,6 +56,10 @@ std::string csv_field(const std::string& text) {
 
 bool ends_with(std::string_view text, std::string_view end) {
   return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
+}
+
+bool is_one_of(const std::string& text, const std::vector<std::string>& texts) {
+  return std::find(texts.begin(), texts.end(), text) != texts.end();
 }
 
 std::vector<std::string> split_at_commas(const std::string& list) {

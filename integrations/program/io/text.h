@@ -20,6 +20,7 @@ std::string one_line(std::string_view text);
 std::string csv_field(const std::string& text);
 
 bool ends_with(std::string_view text, std::string_view end);
+bool is_one_of(const std::string& text, const std::vector<std::string>& texts);
 
 /// "a,b" -> "a", "b"; an empty list is one empty word.
 std::vector<std::string> split_at_commas(const std::string& list);

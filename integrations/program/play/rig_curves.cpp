@@ -14,7 +14,7 @@ namespace mien::cli {
 
 namespace {
 
-constexpr const char* kCannot = "cannot play scene";
+constexpr const char* kCannotPlayCurves = "cannot play scene";
 constexpr const char* kHowToList = "'mien info RIG --names raw' lists the names";
 
 std::string in_small_letters(std::string_view word) {
@@ -31,7 +31,7 @@ bool is_variable_name(const std::string& name) {
 }  // namespace
 
 RigCurves::RigCurves(const MienRig* rig, const NamesFile& names)
-    : rig_(rig), matched_(rig, names, kCannot) {
+    : rig_(rig), matched_(rig, names, kCannotPlayCurves) {
   for (uint32_t i = 0; i < rig_count(rig, MIEN_KIND_RAW_CONTROL); ++i) {
     controls_.push_back(rig_name(rig, MIEN_KIND_RAW_CONTROL, i));
     by_name_.emplace(controls_.back(), i);
@@ -59,7 +59,7 @@ uint16_t RigCurves::variable(const std::string& name) {
 }
 
 void RigCurves::fail_unknown(const std::string& name, const std::string& where) const {
-  fail(kInvalid, kCannot, where, "no raw control is named \"" + one_line(name) + "\"",
+  fail(kInvalid, kCannotPlayCurves, where, "no raw control is named \"" + one_line(name) + "\"",
        nearest_question(name, controls_, kHowToList));
 }
 
@@ -68,7 +68,7 @@ std::vector<MienControlShare> RigCurves::find_shares(const std::string& name,
   if (!matched_.is_given(name)) {
     const std::vector<size_t> found = find_controls(name);
     if (found.size() > 1) {
-      fail(kInvalid, kCannot, where,
+      fail(kInvalid, kCannotPlayCurves, where,
            "\"" + one_line(name) + "\" is ambiguous: " + controls_[found[0]] + " or " +
                controls_[found[1]],
            "give the full name");
@@ -82,7 +82,7 @@ std::vector<MienControlShare> RigCurves::find_shares(const std::string& name,
 uint16_t RigCurves::curve(const std::string& name, const std::string& where) {
   const std::vector<MienControlShare> found = find_shares(name, where);
   if (found.size() > 1) {
-    fail(kInvalid, kCannot, where,
+    fail(kInvalid, kCannotPlayCurves, where,
          "\"" + one_line(name) + "\" is " + std::to_string(found.size()) +
              " controls of this rig: " + controls_[found[0].control] + ", " +
              controls_[found[1].control] + (found.size() > 2 ? ", ..." : ""),
@@ -110,7 +110,7 @@ CurveValues RigCurves::curves(const NamedValues& values, const std::string& wher
       if (is_alone && sum.is_alone) {
         const std::string& twice =
             curve < controls_.size() ? controls_[curve] : variables_[curve - controls_.size()];
-        fail(kInvalid, kCannot, where, "\"" + twice + "\" is listed twice",
+        fail(kInvalid, kCannotPlayCurves, where, "\"" + twice + "\" is listed twice",
              "leave one of them out");
       }
       sum.value += share.weight * value;
@@ -175,7 +175,7 @@ std::vector<float> RigCurves::mask(const std::vector<std::string>& patterns, boo
       mask[share.control] = invert ? 0.0f : 1.0f;
     }
     if (matches) continue;
-    fail(kInvalid, kCannot, where, "no raw control matches \"" + one_line(pattern) + "\"",
+    fail(kInvalid, kCannotPlayCurves, where, "no raw control matches \"" + one_line(pattern) + "\"",
          nearest_question(pattern, as_patterns(pattern), kHowToList));
   }
   return mask;

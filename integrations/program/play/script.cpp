@@ -18,7 +18,7 @@ namespace {
 using json = nlohmann::basic_json<MemberList>;
 using Words = std::vector<std::string>;
 
-constexpr const char* kCannot = "cannot play scene";
+constexpr const char* kCannotPlayScript = "cannot play scene";
 constexpr double kLongestSeconds = 24 * 3600;
 constexpr size_t kLongestName = 255;  // of layers and reactions: each event repeats one
 
@@ -35,7 +35,7 @@ struct Node {
   const char* separator = ".";  // between `where` and a key
 
   [[noreturn]] void wrong(const std::string& why, const std::string& what_to_do) const {
-    fail(kInvalid, kCannot, where, why, what_to_do);
+    fail(kInvalid, kCannotPlayScript, where, why, what_to_do);
   }
   [[noreturn]] void not_a(const std::string& what) const {
     wrong("expected " + what + ", not " + value.type_name(), "see 'mien help play'");
@@ -276,8 +276,8 @@ void refuse_same_names(const Node& root, const char* key, Words names) {
 }  // namespace
 
 Script parse_script(const std::string& text, const std::string& shown, bool live) {
-  const json document =
-      parse_json<json>(text, kCannot, shown, "give one JSON object; see 'mien help play'");
+  const json document = parse_json<json>(text, kCannotPlayScript, shown,
+                                         "give one JSON object; see 'mien help play'");
   const Node root = {document, shown, ", "};
   root.require_object({"rate", "seconds", "seed", "layers", "guards", "antagonists", "limits",
                        "reactions", "events"});
