@@ -200,6 +200,82 @@ MienStatus mien_document_resize(MienDocument* document, const char* path, uint64
   });
 }
 
+// Layers --------------------------------------------------------------------------------------------
+
+MienStatus mien_document_layer_count(const MienDocument* document, uint32_t* out_version,
+                                     uint32_t* out_count, MienError* error) {
+  const MienStatus cleared = clear_output(out_version, error);
+  if (MienStatus status = clear_output(out_count, error)) return status;
+  if (cleared != MIEN_OK) return clear_output(out_version, error);
+  return read_of(document, error, [&](const dna::DnaView& view) {
+    *out_version = view.version;
+    *out_count = view.index.count;
+    return succeed(error);
+  });
+}
+
+MienStatus mien_document_layer(const MienDocument* document, uint32_t index,
+                               MienDnaLayer* out_layer, MienStringView* out_bytes,
+                               MienError* error) {
+  const MienStatus cleared = clear_struct(out_layer);
+  if (MienStatus status = clear_output(out_bytes, error)) return status;
+  if (cleared != MIEN_OK)
+    return give_error(error, cleared, "out_layer is NULL, or its struct_size is wrong");
+  return read_of(document, error, [&](const dna::DnaView& view) {
+    if (index >= view.index.count) {
+      return give_error(error, MIEN_ERROR_INDEX, "there is no layer %u: the list has %u", index,
+                        view.index.count);
+    }
+    const dna::IndexEntry& entry = view.index[index];
+    const dna::LayerKind* kind = dna::find_layer_kind(entry.code, entry.layer_version);
+    MienDnaLayer layer = {};
+    store_big_endian(reinterpret_cast<uint8_t*>(layer.code), entry.code);
+    layer.layer = kind ? kind->loaded_by : uint32_t{MIEN_LAYER_UNKNOWN};
+    layer.version_major = entry.layer_version >> 16;
+    layer.version_minor = entry.layer_version & 0xFFFF;
+    layer.byte_offset = MIEN_NO_OFFSET;
+    layer.is_loaded = kind != nullptr;
+    if (!kind) {
+      layer.byte_count = entry.size;
+      *out_bytes = {reinterpret_cast<const char*>(entry.data), entry.size};
+    }
+    write_struct(out_layer, layer);
+    return succeed(error);
+  });
+}
+
+MienStatus mien_document_clear_layers(MienDocument* document, uint32_t version, MienError* error) {
+  if (MienStatus status = check_document(document, error)) return status;
+  if (version < 1 || version > UINT16_MAX) {
+    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT, "version is %u, not 1 to 65535", version);
+  }
+  Error detail;
+  return finish(author::clear_layers(document->document, static_cast<uint16_t>(version), detail),
+                detail, error);
+}
+
+MienStatus mien_document_add_layer(MienDocument* document, const char* code, uint32_t version_major,
+                                   uint32_t version_minor, const void* bytes, size_t size,
+                                   MienError* error) {
+  if (MienStatus status = check_values(bytes, size, "bytes", error)) return status;
+  if (MienStatus status = check_document(document, error)) return status;
+  if (!code) return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "code is NULL");
+  if (strlen(code) != 4) {
+    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
+                      "code is \"%.20s\"; codes of layers have four characters", code);
+  }
+  if (version_major > UINT16_MAX || version_minor > UINT16_MAX || size > UINT32_MAX) {
+    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
+                      "layer %s: a version is above 65535, or there are more than 4 GiB", code);
+  }
+  Error detail;
+  return finish(author::add_layer(document->document,
+                                  load_big_endian<uint32_t>(reinterpret_cast<const uint8_t*>(code)),
+                                  version_major << 16 | version_minor,
+                                  {static_cast<const uint8_t*>(bytes), size}, detail),
+                detail, error);
+}
+
 // Undoing -------------------------------------------------------------------------------------------
 
 MienStatus mien_document_mark(MienDocument* document, uint64_t* out_mark, MienError* error) {

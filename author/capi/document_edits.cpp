@@ -40,6 +40,7 @@ MienStatus read_kind(uint32_t kind, Kind& out, MienError* error) {
   switch (kind) {
     case MIEN_KIND_GUI_CONTROL: out = Kind::kGuiControl; return MIEN_OK;
     case MIEN_KIND_RAW_CONTROL: out = Kind::kRawControl; return MIEN_OK;
+    case MIEN_KIND_PSD_CONTROL: out = Kind::kPsdControl; return MIEN_OK;
     case MIEN_KIND_ML_CONTROL: out = Kind::kMlControl; return MIEN_OK;
     case MIEN_KIND_RBF_CONTROL: out = Kind::kRbfControl; return MIEN_OK;
     case MIEN_KIND_JOINT: out = Kind::kJoint; return MIEN_OK;
@@ -49,8 +50,7 @@ MienStatus read_kind(uint32_t kind, Kind& out, MienError* error) {
     default: break;
   }
   return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
-                    "kind is %u; elements with names are controls (not correctives), joints, blend "
-                    "shape channels, "
+                    "kind is %u; elements of documents are controls, joints, blend shape channels, "
                     "animated maps and meshes",
                     kind);
 }

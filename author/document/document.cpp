@@ -169,4 +169,55 @@ void Edit::commit() {
   memory_ = nullptr;
 }
 
+// Layers --------------------------------------------------------------------------------------------
+
+Status clear_layers(Document& document, uint16_t version, Error& error) {
+  Edit edit(document);
+  if (!edit.begin(error)) return error.status;
+  edit.view.version = version;
+  edit.view.index = {};
+  edit.commit();
+  return Status::kOk;
+}
+
+Status add_layer(Document& document, uint32_t code, uint32_t layer_version,
+                 Span<const uint8_t> bytes, Error& error) {
+  const dna::DnaView& view = document.view();
+  char name[5] = {};
+  store_big_endian(reinterpret_cast<uint8_t*>(name), code);
+  const dna::LayerKind* kind = dna::find_layer_kind(code, layer_version);
+  if (kind && bytes.count != 0) {
+    return fail(error, Status::kInvalidArgument, kNoOffset,
+                "layer %s is of a known kind: its fields are written, not bytes", name);
+  }
+  if (view.version == 1 && (!kind || kind->since > 1)) {
+    return fail(error, Status::kInvalidArgument, kNoOffset,
+                "a file of version 2.1 has the layers desc, defn, bhvr and geom, not %s", name);
+  }
+  for (const dna::IndexEntry& entry : view.index) {
+    if (entry.code == code && entry.layer_version == layer_version) {
+      return fail(error, Status::kInvalidArgument, kNoOffset, "layer %s is in the list already",
+                  name);
+    }
+  }
+  Edit edit(document);
+  if (!edit.begin(error)) return error.status;
+  const uint32_t count = view.index.count;
+  dna::List<dna::IndexEntry> index;
+  uint8_t* copy = nullptr;
+  if (bytes.count != 0) copy = static_cast<uint8_t*>(edit.arena().allocate(bytes.count, 1));
+  if (!make(edit.arena(), size_t{count} + 1, index) || (bytes.count != 0 && !copy)) {
+    return no_memory(error, "a layer");
+  }
+  if (copy) memcpy(copy, bytes.data, bytes.count);
+  for (uint32_t i = 0; i < count; ++i) index[i] = view.index[i];
+  index[count].code = code;
+  index[count].layer_version = layer_version;
+  index[count].data = copy;
+  index[count].size = static_cast<uint32_t>(bytes.count);
+  edit.view.index = index;
+  edit.commit();
+  return Status::kOk;
+}
+
 }  // namespace mien::author

@@ -117,6 +117,13 @@ class Edit {
   EditMemory* memory_ = nullptr;
 };
 
+/// Makes the document a file of version 2.version with an empty list of layers; fields stay.
+Status clear_layers(Document& document, uint16_t version, Error& error);
+/// Appends a layer to the list. kInvalidArgument if it is there already, is of a known kind and has bytes, or
+/// version 2.1 cannot have it.
+Status add_layer(Document& document, uint32_t code, uint32_t layer_version,
+                 Span<const uint8_t> bytes, Error& error);
+
 /// kMemory, with a message that names `what` was wanted.
 Status no_memory(Error& error, const char* what);
 

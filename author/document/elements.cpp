@@ -7,6 +7,7 @@
 #include "author/document/check_view.h"
 #include "author/document/field_edit.h"
 #include "author/document/pose.h"
+#include "author/document/remove_controls.h"
 #include "author/document/renumber.h"
 
 namespace mien::author {
@@ -22,6 +23,7 @@ struct KindInfo {
 constexpr KindInfo kKinds[] = {
     {"GUI control", "defn.guiControlNames"},
     {"raw control", "defn.rawControlNames"},
+    {"PSD control", "bhvr.controls.psdCount"},
     {"ML control", "mlbh.mlControlNames"},
     {"RBF control", "rbfe.poseControlNames"},
     {"joint", "defn.jointNames"},
@@ -181,9 +183,14 @@ const dna::List<dna::String>& names_of(const dna::DnaView& view, Kind kind) {
     case Kind::kJoint: return view.defn.joint_names;
     case Kind::kChannel: return view.defn.channel_names;
     case Kind::kMap: return view.defn.map_names;
+    case Kind::kPsdControl:
     case Kind::kMesh: break;
   }
   return view.defn.mesh_names;
+}
+
+uint32_t count_of(const dna::DnaView& view, Kind kind) {
+  return kind == Kind::kPsdControl ? view.bhvr.controls.psd_count : names_of(view, kind).count;
 }
 
 const char* path_of(Kind kind) { return kKinds[static_cast<size_t>(kind)].path; }
@@ -191,20 +198,31 @@ const char* word_of(Kind kind) { return kKinds[static_cast<size_t>(kind)].word; 
 
 Status find_element(const Document& document, Kind kind, const char* name, size_t count,
                     uint32_t& out_index, Error& error) {
+  const uint32_t elements = count_of(document.view(), kind);
+  for (uint32_t i = 0; kind == Kind::kPsdControl && i < elements; ++i) {
+    char psd[16];
+    snprintf(psd, sizeof(psd), "psd%u", i);
+    if (strlen(psd) != count || memcmp(psd, name, count) != 0) continue;
+    out_index = i;
+    return Status::kOk;
+  }
   const dna::List<dna::String>& names = names_of(document.view(), kind);
-  for (uint32_t i = 0; i < names.count; ++i) {
+  for (uint32_t i = 0; kind != Kind::kPsdControl && i < names.count; ++i) {
     if (names[i].count != count || (count != 0 && memcmp(names[i].data, name, count) != 0))
       continue;
     out_index = i;
     return Status::kOk;
   }
   return fail(error, Status::kName, kNoOffset, "there is no %s \"%.*s\" among %u", word_of(kind),
-              static_cast<int>(std::min<size_t>(count, 80)), name, names.count);
+              static_cast<int>(std::min<size_t>(count, 80)), name, elements);
 }
 
 Status rename_element(Document& document, Kind kind, uint32_t index, const char* name, size_t count,
                       Error& error) {
-  const uint32_t elements = names_of(document.view(), kind).count;
+  if (kind == Kind::kPsdControl) {
+    return fail(error, Status::kInvalidArgument, kNoOffset, "PSD controls have no names to change");
+  }
+  const uint32_t elements = count_of(document.view(), kind);
   if (Status s = check_indices({&index, 1}, elements, word_of(kind), error); s != Status::kOk)
     return s;
   char path[80];
@@ -215,15 +233,14 @@ Status rename_element(Document& document, Kind kind, uint32_t index, const char*
 // Removing ------------------------------------------------------------------------------------------
 
 Status remove_elements(Document& document, Kind kind, Span<const uint32_t> indices, Error& error) {
-  const uint32_t count = names_of(document.view(), kind).count;
-  if (kind < Kind::kJoint) {
-    return fail(
-        error, Status::kInvalidArgument, kNoOffset,
-        "a %s cannot be removed: joints, blend shape channels, animated maps and meshes can",
-        word_of(kind));
+  const uint32_t count = count_of(document.view(), kind);
+  if (kind == Kind::kMlControl || kind == Kind::kRbfControl) {
+    return fail(error, Status::kInvalidArgument, kNoOffset,
+                "a %s cannot be removed: it belongs to a network or solver", word_of(kind));
   }
   if (Status s = check_indices(indices, count, word_of(kind), error); s != Status::kOk) return s;
   if (Status s = check_view(document.view(), error); s != Status::kOk) return s;
+  if (kind < Kind::kJoint) return remove_controls(document, kind, indices, error);
   Edit edit(document);
   if (!edit.begin(error)) return error.status;
   Span<uint8_t> keep;

@@ -20,6 +20,7 @@ class Renumberer {
   Renumberer(const Renumbering& numbers, Arena& arena) : numbers_(numbers), arena_(arena) {}
 
   bool ok() const { return ok_; }
+  void fail() { ok_ = false; }
   uint32_t new_of(uint32_t old) const {
     return old < numbers_.new_of.count ? numbers_.new_of[old] : kGone;
   }
@@ -117,6 +118,34 @@ class Renumberer {
       new_lods.set(l, static_cast<uint16_t>(end - kept.data));
     }
     *lods = new_lods;
+  }
+
+  /// Columns of a matrix of `rows` rows: those whose number is gone drop out.
+  void columns(Array<uint16_t>& key, Array<float>& values, uint32_t rows) {
+    const Array<uint16_t> old = key;
+    const Array<float> matrix = values;
+    if (!ok_ || same(old)) return;
+    const NewArray<uint16_t> out = make<uint16_t>(old.count);
+    const NewArray<float> kept = make<float>(matrix.count);
+    uint32_t count = 0;
+    for (uint32_t i = 0; ok_ && i < old.count; ++i) {
+      if (new_of(old[i]) != kGone) out.set(count++, static_cast<uint16_t>(new_of(old[i])));
+    }
+    for (uint32_t r = 0, k = 0; ok_ && r < rows; ++r) {
+      for (uint32_t c = 0; c < old.count; ++c) {
+        if (new_of(old[c]) != kGone) kept.set(k++, matrix[r * old.count + c]);
+      }
+    }
+    if (!ok_) return;
+    key = Array<uint16_t>(out).first(count);
+    values = Array<float>(kept).first(size_t{rows} * count);
+  }
+
+  bool any_gone(const Array<uint16_t>& numbers) const {
+    for (uint32_t i = 0; i < numbers.count; ++i) {
+      if (new_of(numbers[i]) == kGone) return true;
+    }
+    return false;
   }
 
   template <class T>
@@ -331,6 +360,146 @@ bool renumber_maps(dna::DnaView& view, const Renumbering& numbers, Arena& arena)
   r.rows_of_lods(&maps.lods, 1, table.output_indices, table.input_indices, table.from_values,
                  table.to_values, table.slope_values, table.cut_values);
   return r.ok();
+}
+
+bool renumber_gui_controls(dna::DnaView& view, const Renumbering& numbers, Arena& arena) {
+  Renumberer r(numbers, arena);
+  r.owned(view.defn.gui_control_names);
+  dna::ConditionalTable& table = view.bhvr.controls.conditionals;
+  r.rows(1, table.input_indices, table.output_indices, table.from_values, table.to_values,
+         table.slope_values, table.cut_values);
+  return r.ok();
+}
+
+namespace {
+
+/// Columns of controls that are gone become 0, so that the others go on rotating joints in their order.
+bool clear_columns(dna::DnaView& view, const Renumberer& r, Arena& arena) {
+  const dna::DnaView before = view;
+  if (!copy_list(arena, view.bhvr.joints.groups)) return false;
+  for (dna::JointGroup& group : view.bhvr.joints.groups) {
+    if (!r.any_gone(group.input_indices)) continue;
+    NewArray<float> values;
+    if (!copy_array(arena, group.values, values)) return false;
+    const uint32_t columns = group.input_indices.count;
+    for (uint32_t k = 0; k < values.count; ++k) {
+      if (r.new_of(group.input_indices[k % columns]) == kGone) values.set(k, 0);
+    }
+    group.values = values;
+  }
+  return keep_turn_order(before, view, arena);
+}
+
+void renumber_controls_of_behavior(dna::Behavior& bhvr, Renumberer& r) {
+  dna::ConditionalTable& sliders = bhvr.controls.conditionals;
+  r.rows(1, sliders.output_indices, sliders.input_indices, sliders.from_values, sliders.to_values,
+         sliders.slope_values, sliders.cut_values);
+  dna::PsdTable& psds = bhvr.controls.psds;
+  r.rows(1, psds.rows, psds.columns, psds.values);
+  r.renamed(psds.columns);
+  if (r.copy(bhvr.joints.groups)) {
+    for (dna::JointGroup& group : bhvr.joints.groups)
+      r.columns(group.input_indices, group.values, group.output_indices.count);
+  }
+  r.rows_of_lods(&bhvr.channels.lods, 1, bhvr.channels.input_indices, bhvr.channels.output_indices);
+  dna::ConditionalTable& maps = bhvr.maps.conditionals;
+  r.rows_of_lods(&bhvr.maps.lods, 1, maps.input_indices, maps.output_indices, maps.from_values,
+                 maps.to_values, maps.slope_values, maps.cut_values);
+}
+
+void renumber_controls_of_networks(dna::DnaView& view, Renumberer& r) {
+  if (!r.copy(view.mlbh.networks)) return;
+  for (dna::NeuralNetwork& network : view.mlbh.networks) {
+    r.renamed(network.output_indices);
+    if (network.layers.count == 0) {
+      r.listed(network.input_indices);
+    } else if (r.copy(network.layers)) {
+      r.columns(network.input_indices, network.layers[0].weights, network.layers[0].biases.count);
+    }
+  }
+  r.rows(1, view.mlbe.joints.input_indices, view.mlbe.joints.output_indices);
+}
+
+/// Lists of ML operations are copied.
+bool renumber_controls_of_operations(dna::MachineLearnedBehaviorExtension& mlbe,
+                                     const Renumberer& r, Arena& arena) {
+  if (!copy_list(arena, mlbe.types)) return false;
+  for (dna::MlType& type : mlbe.types) {
+    if (!copy_list(arena, type.operations)) return false;
+    for (List<dna::MlOperation>& set : type.operations) {
+      if (!copy_list(arena, set)) return false;
+      for (dna::MlOperation& operation : set) {
+        if (!lists_controls(operation)) continue;
+        NewArray<uint32_t> numbers;
+        if (!copy_array(arena, operation.parameters, numbers)) return false;
+        for (uint32_t i = 0; i < numbers.count; ++i)
+          numbers.set(i, r.new_of(operation.parameters[i]));
+        operation.parameters = numbers;
+      }
+    }
+  }
+  return true;
+}
+
+void renumber_controls_of_rbf(dna::DnaView& view, Renumberer& r, Arena& arena) {
+  if (!r.copy(view.rbfb.solvers) || !r.copy(view.rbfe.poses)) return;
+  const Span<uint8_t> keep = arena.array<uint8_t>(view.rbfb.solvers.count);
+  Renumbering solvers;
+  for (size_t i = 0; i < keep.count; ++i)
+    keep[i] = !r.any_gone(view.rbfb.solvers[i].raw_control_indices);
+  if (keep.count != view.rbfb.solvers.count || !number_kept(keep, arena, solvers)) return r.fail();
+  Renumberer of_solvers(solvers, arena);
+  of_solvers.listed(view.rbfb.lod_solvers);
+  of_solvers.owned(view.rbfb.solvers);
+  if (!of_solvers.ok()) return r.fail();
+  for (dna::RbfSolver& solver : view.rbfb.solvers) r.renamed(solver.raw_control_indices);
+  for (dna::RbfPoseControls& pose : view.rbfe.poses) {
+    if (r.any_gone(pose.input_control_indices)) pose = {};  // a product with 0
+    r.renamed(pose.input_control_indices);
+    r.rows(1, pose.output_control_indices, pose.output_control_weights);
+  }
+}
+
+}  // namespace
+
+bool renumber_controls(dna::DnaView& view, Span<const uint8_t> gone, Arena& arena) {
+  // Also of numbers past the last control, which those of layers that are not here may be.
+  constexpr uint32_t kNumbers = 65536;
+  const uint32_t raw_count = view.first_psd();
+  const Renumbering numbers{arena.array<uint32_t>(kNumbers), {}};
+  const Span<uint8_t> keep_raw = arena.array<uint8_t>(raw_count);
+  Renumbering raw;
+  if (numbers.new_of.count != kNumbers || keep_raw.count != raw_count) return false;
+  uint32_t next = 0, kept_columns = 0, kept_psds = 0;
+  for (uint32_t c = 0; c < kNumbers; ++c) {
+    const bool kept = c >= gone.count || !gone[c];
+    if (c < raw_count) keep_raw[c] = kept;
+    if (c >= raw_count && c < gone.count) kept_psds += kept;
+    if (c < view.bhvr.joints.col_count) kept_columns += kept;
+    numbers.new_of[c] = kept ? next++ : kGone;
+  }
+  if (!number_kept(keep_raw, arena, raw)) return false;
+  Renumberer of_raw(raw, arena), r(numbers, arena);
+  if (!clear_columns(view, r, arena)) return false;
+  of_raw.owned(view.defn.raw_control_names);
+  renumber_controls_of_behavior(view.bhvr, r);
+  view.bhvr.controls.psd_count = static_cast<uint16_t>(kept_psds);
+  view.bhvr.joints.col_count = static_cast<uint16_t>(kept_columns);
+  renumber_controls_of_networks(view, r);
+  renumber_controls_of_rbf(view, r, arena);
+  const auto of_setups = [&r](auto& setups) {
+    if (!r.copy(setups)) return;
+    uint32_t kept = 0;
+    for (auto& setup : setups) {
+      if (r.any_gone(setup.input_control_indices)) continue;
+      r.renamed(setup.input_control_indices);
+      setups[kept++] = setup;
+    }
+    setups.count = kept;
+  };
+  of_setups(view.twsw.twists);
+  of_setups(view.twsw.swings);
+  return of_raw.ok() && r.ok() && renumber_controls_of_operations(view.mlbe, r, arena);
 }
 
 bool pair_channels(dna::DnaView& view, uint32_t mesh, Arena& arena) {

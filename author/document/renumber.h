@@ -30,6 +30,18 @@ bool renumber_meshes(dna::DnaView& view, const Renumbering& numbers, Arena& aren
 bool renumber_channels(dna::DnaView& view, const Renumbering& numbers, Arena& arena);
 bool renumber_maps(dna::DnaView& view, const Renumbering& numbers, Arena& arena);
 
+/// Whether its parameters are numbers of controls.
+inline bool lists_controls(const dna::MlOperation& operation) {
+  const auto type = static_cast<dna::MlOperationType>(operation.type);
+  return type == dna::MlOperationType::kGather || type == dna::MlOperationType::kScatter;
+}
+
+/// Renumbers raw and PSD controls, and with them ML and RBF controls, which are numbered behind them: `gone` has
+/// an element for each raw and each PSD control. What reads a control that is gone goes, or reads one less.
+/// Expects that a PSD control of which an input is gone is gone, and that no ML operation refers to one.
+bool renumber_controls(dna::DnaView& view, Span<const uint8_t> gone, Arena& arena);
+bool renumber_gui_controls(dna::DnaView& view, const Renumbering& numbers, Arena& arena);
+
 /// Drops the rows of all tables that write joints with keep[joint] == 0; all joints stay.
 bool drop_joint_rows(dna::DnaView& view, Span<const uint8_t> keep, Arena& arena);
 

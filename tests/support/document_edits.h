@@ -76,6 +76,34 @@ inline std::vector<DocumentEdit> document_edits() {
          const uint32_t mesh = count_at(d, meshes) > 1 ? pick(d, meshes, random) : 99;
          return mien_document_remove(d, MIEN_KIND_MESH, &mesh, 1, error);
        }},
+      {"mien_document_remove",
+       [=](D d, O, Random& random, E error) {
+         const uint32_t control = pick(d, "defn.rawControlNames", random);
+         return mien_document_remove(d, MIEN_KIND_RAW_CONTROL, &control, 1, error);
+       }},
+      {"mien_document_remove",
+       [=](D d, O, Random& random, E error) {
+         int64_t count = 0;
+         EXPECT_EQ(mien_document_read_integers(d, "bhvr.controls.psdCount", 0, 1, &count, nullptr),
+                   MIEN_OK);
+         const uint32_t psd = random.below(static_cast<uint32_t>(count) + 1);
+         return mien_document_remove(d, MIEN_KIND_PSD_CONTROL, &psd, 1, error);
+       }},
+      {"mien_document_remove",
+       [=](D d, O, Random& random, E error) {
+         const uint32_t control = pick(d, "defn.guiControlNames", random);
+         return mien_document_remove(d, MIEN_KIND_GUI_CONTROL, &control, 1, error);
+       }},
+      {"mien_document_add_layer",
+       [=](D d, O, Random&, E error) {
+         return mien_document_add_layer(d, "note", 1, 2, "bytes", 5, error);
+       }},
+      {"mien_document_clear_layers",
+       [=](D d, O, Random&, E error) {
+         uint32_t version = 0, count = 0;
+         EXPECT_EQ(mien_document_layer_count(d, &version, &count, nullptr), MIEN_OK);
+         return mien_document_clear_layers(d, version, error);
+       }},
       {"mien_document_clear",
        [=](D d, O, Random& random, E error) {
          return mien_document_clear(
