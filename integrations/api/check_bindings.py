@@ -44,16 +44,6 @@ WITHOUT = {
         "mien_mix_open_file", "mien_mix_write_file")},
     **{name: {"JavaScript": "a stream reads the caller's bytes, without a copy that has to be kept"}
        for name in ("mien_dna_open_memory", "mien_baked_open_memory", "mien_clip_open_memory")},
-    # In preparation: C++, Rust and JavaScript have no documents yet.
-    **{name: dict.fromkeys(("C++", "Rust", "JavaScript"), "documents: not yet") for name in (
-        *re.findall(r"\bmien_document_\w+", (INTEGRATIONS.parent / "author/mien_author.map").read_text()),
-        "MienPlacement.scale", "MienPlacement.translation", "MienPruneJointsDesc.translation",
-        "MienPruneJointsDesc.scale", "MienProjectDesc.match", "MienProjectDesc.keep_weights",
-        "MienProjectDesc.keep_targets", "MienTransplantDesc.match")},
-    **{name: dict.fromkeys(("C++", "JavaScript"), "documents: not yet") for name in (
-        "MienPlacement.rotation", "MienPruneJointsDesc.rotation", "MienProjectDesc.influences",
-        "MienTransplantDesc.influences")},
-    "MienDocumentDesc.allocator": {"C++": "documents: not yet"},
     # Written for programs in C and C++ that solve; the other languages follow.
     **{name: {language: "not written yet" for language in ("C++", "Python", "Rust", "JavaScript")} for name in (
         "mien_derivatives_create", "mien_derivatives_destroy", "mien_derivatives_bytes", "mien_derivatives_size",
@@ -117,7 +107,7 @@ class Binding:
             if "**" in inside:
                 return None
             # Python: field=value; Rust: field: value, or the field alone.
-            found |= set(re.findall(r"(?:^|[,\s(])(\w+)(?==[^=]|:[^:]|\s*(?:,|$))", inside))
+            found |= set(re.findall(r"(?:^|[,\s(])(?:r#)?(\w+)(?==[^=]|:[^:]|\s*(?:,|$))", inside))
         return found
 
     def javascript_fields(self, struct):

@@ -17,7 +17,7 @@
 //   Linking     Files of one program may differ in MIEN_EXCEPTIONS and in the C++ standard: each
 //               combination has an inline namespace of its own. Types of one do not convert to another.
 //
-// Units, threads and shapes: see mien.h. What makes files is in mien_author.hpp.
+// Units, threads and shapes: see mien.h. What makes and changes files is in mien_author.hpp.
 #pragma once
 
 #include <mien.h>

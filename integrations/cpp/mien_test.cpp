@@ -628,6 +628,92 @@ void test_exceptions() {}
 
 }  // namespace
 
+std::vector<unsigned char> bytes_of(const mien::Dna& dna) {
+  std::vector<unsigned char> bytes(dna.write(mien::Span<unsigned char>()).value());
+  dna.write(bytes).value();
+  return bytes;
+}
+
+void test_document_fields() {
+  const mien::Dna dna = generated();
+  const auto before = bytes_of(dna);
+  mien::Document head = mien::Document::of(dna).value();
+  CHECK(bytes_of(head.to_dna().value()) == before);
+  const uint64_t mark = head.mark().value();
+  CHECK(head.write("desc.name", std::string_view("Ada")) && *head.string("desc.name") == "Ada");
+  const char* const xs = "defn.neutralJointTranslations.xs";
+  const float two[] = {1.5f, 2.5f};
+  float read[2] = {};
+  CHECK(head.write(xs, 1, two) && head.read(xs, 1, read) && read[1] == 2.5f);
+  const int64_t gender[] = {2};
+  int64_t found[] = {0};
+  CHECK(head.write("desc.gender", 0, gender) && head.read("desc.gender", 0, found));
+  CHECK(found[0] == 2 && head.bytes("desc.name")->size() == 3);
+  CHECK(*head.field_name("desc", 0) == "name" && head.field("desc.metadata")->is_array == 0);
+  CHECK(head.resize("desc.metadata", 2) && head.splice("desc.metadata", 0, 1, 3));
+  CHECK(head.field("desc.metadata")->count == 4);
+  CHECK(head.add_layer("note", 1, 0, "hi"));
+  const auto layers = head.layer_count().value();
+  CHECK(layers.version == 8 && layers.count == 12 && head.layer(11)->second == "hi");
+  CHECK(std::string(head.layer(0)->first.code) == "desc");
+  CHECK(head.clear_layers(8) && head.layer_count()->count == 0);
+  CHECK(head.undo(mark) && bytes_of(head.to_dna().value()) == before);
+  CHECK(head.validate()->error_count() == 0);
+
+  CHECK(head.write("desc.name", 0, two).status() == MIEN_ERROR_INVALID_ARGUMENT);
+  CHECK(head.field("no.such").status() == MIEN_ERROR_NAME && head.undo(77).status() != MIEN_OK);
+  mien::Document none;
+  CHECK(none.mark().status() == MIEN_ERROR_NULL_ARGUMENT && !none.to_dna());
+  CHECK(mien::Document::empty()->field("defn.jointNames")->count == 0);
+}
+
+void test_document_operations() {
+  const mien::Dna dna = generated();
+  mien::Document head = mien::Document::of(dna).value();
+  const mien::Document other = mien::Document::of(dna).value();
+  const uint32_t joint = 2, mesh = 0;
+  CHECK(head.rename(MIEN_KIND_JOINT, joint, "jaw"));
+  CHECK(*head.find(MIEN_KIND_JOINT, "jaw") == joint);
+  CHECK(head.find(MIEN_KIND_JOINT, "no such").status() == MIEN_ERROR_NAME);
+  const float place[] = {1, 2, 3};
+  CHECK(head.set_neutral(joint, place) && head.set_neutral(joint, {}, place));
+  CHECK(head.set_neutral(joint, place, mien::Span<const float>(place, 1)).status() ==
+        MIEN_ERROR_MISMATCH);
+  float x = 0;
+  CHECK(head.read("defn.neutralJointRotations.zs", joint, mien::Span<float>(&x, 1)) && x == 3);
+
+  const size_t count = head.field("geom.meshes[0].positions.xs")->count;
+  std::vector<float> positions(3 * count, 0.5f), weights(count, 0.5f);
+  const std::vector<uint16_t> joints(count, 1);
+  CHECK(head.set_weights(mesh, 1, joints, weights) && head.normalize_weights(mesh));
+  CHECK(head.read("geom.meshes[0].skinWeights[0].weights", 0, mien::Span<float>(&x, 1)) && x == 1);
+  CHECK(head.limit_influences(mesh, 1) && head.smooth_weights(mesh));
+  const uint32_t vertex[] = {7};
+  CHECK(head.set_target(mesh, 0, place, vertex) && head.prune_targets(100)->deltas > 0);
+  mien::PruneJointsDesc prune;
+  prune.translation = 1;
+  CHECK(head.prune_joints(prune)->removed_count > 0);
+  mien::Placement doubled;
+  doubled.scale = 2;
+  CHECK(head.place(doubled) && head.conform(mesh, positions));
+  CHECK(head.set_positions(mesh, positions));
+  CHECK(head.undo());
+  CHECK(head.make_lod(1, 0) && head.copy_layers(other, MIEN_LAYER_DESCRIPTOR));
+  CHECK(*head.copy_mesh(other, mesh) == mesh);
+  CHECK(head.copy_mesh(head, mesh).status() == MIEN_ERROR_INVALID_ARGUMENT);
+  CHECK(head.clear_joints(vertex) && head.remove(MIEN_KIND_JOINT, vertex));
+  CHECK(head.merge_joints(other, 10) && head.split_joints(other));
+  CHECK(head.convert(*mien::coordinate_system("unreal")) && head.clear(MIEN_KIND_ANIMATED_MAP));
+  CHECK(head.keep_lods(1) && head.to_dna()->info()->lod_count == 1);
+  CHECK(head.undo());
+  std::vector<MienControlError> errors(4);
+  CHECK(*head.transplant(other, errors) == 4);
+  const uint64_t meshes = head.field("defn.meshNames")->count;
+  mien::ProjectDesc by_uv;
+  by_uv.match = MIEN_MATCH_UV;
+  CHECK(meshes < 2 || head.project(1, 0, by_uv));
+}
+
 int main() {
   CHECK(mien::version() == MIEN_VERSION && mien::is_available(MIEN_ISA_SCALAR));
   CHECK(std::string(mien::name_of(MIEN_ISA_SCALAR)) == "scalar");
@@ -643,6 +729,8 @@ int main() {
   test_batch();
   test_deformer();
   test_allocators();
+  test_document_fields();
+  test_document_operations();
   test_exceptions();
   std::puts("mien.hpp: all well");
 }

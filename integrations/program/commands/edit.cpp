@@ -3,8 +3,8 @@
 #include "integrations/program/commands/edit_options.h"
 #include "integrations/program/commands/options.h"
 #include "integrations/program/diff/dna_diff.h"
+#include "integrations/program/edit/json_document.h"
 #include "integrations/program/io/output.h"
-#include "integrations/program/io/rig_file.h"
 #include "integrations/program/io/write_dna.h"
 
 namespace mien::cli {
@@ -16,6 +16,8 @@ struct EditCommand {
   OutputFile output;
   std::vector<Edit> edits;
   bool dry_run = false;
+  bool from_json = false;
+  bool to_json = false;
 };
 
 Dna finished(const Document& document) {
@@ -40,11 +42,11 @@ std::vector<Edit> with_scripts(const std::vector<Edit>& edits) {
   return all;
 }
 
-void print_dry_run(const RigFile& before, const MienDna* after,
+void print_dry_run(const MienDna* before, const MienDna* after,
                    const std::vector<std::string>& done) {
   Output output("-");
   for (const std::string& sentence : done) output.write(sentence + "\n");
-  output.write(diff_text(diff_dna(before.dna.get(), after)));
+  output.write(diff_text(diff_dna(before, after)));
   output.commit();
 }
 
@@ -53,24 +55,32 @@ void run(const EditCommand& command, const Session& session) {
     fail_usage("mien edit", "there is no file to write", "give -o OUT.dna, or --dry-run");
   }
   if (!command.dry_run) {
-    refuse_terminal(command.output.path, session, "a DNA file");
+    if (!command.to_json) refuse_terminal(command.output.path, session, "a DNA file");
     refuse_replacing(command.output, {});  // a file may be edited in place
   }
   const std::vector<Edit> edits = with_scripts(command.edits);
-  Document document = open_document(command.input, session);
+  Document document = command.from_json ? read_json_document(command.input, session)
+                                        : open_document(command.input, session);
+  Dna before;
+  if (command.dry_run) before = finished(document);
   const std::vector<std::string> done = apply_edits(document, edits);
+  if (command.to_json && !command.dry_run) {
+    if (document.version != 0) {
+      fail_usage("mien edit", "--version goes with a DNA file", "leave out --to-json or --version");
+    }
+    Output output(command.output.path);
+    write_json_document(document, output);
+    output.commit();
+    note_written(session, command.output.path, output.size());
+    return;
+  }
   auto write = sized<MienWriteDesc>();
   write.version = document.version;
   write.unknown_layers = MIEN_UNKNOWN_LAYERS_KEEP;
   const std::string shown = document.shown;
   const Dna dna = finished(document);
   document.handle.reset();  // its memory is for the file to be written
-  if (command.dry_run) {
-    auto desc = sized<MienDnaDesc>();
-    desc.layers = MIEN_LAYER_ALL;
-    print_dry_run(open_rig_file(command.input, desc, session), dna.get(), done);
-    return;
-  }
+  if (command.dry_run) return print_dry_run(before.get(), dna.get(), done);
   for (const std::string& sentence : done) note(session, shown + ": " + sentence);
   write_dna(dna.get(), write, command.output.path, session);
 }
@@ -85,6 +95,9 @@ Command add_edit_command(CLI::App& app, const Session& session) {
       ->required();
   add_output_options(*edit, command->output, "File to write; - is standard output");
   edit->add_flag("-n,--dry-run", command->dry_run, "Print what would change, and write nothing");
+  edit->add_flag("--to-json", command->to_json,
+                 "Write the file as JSON, for version control: without losing a bit");
+  edit->add_flag("--from-json", command->from_json, "IN is such JSON");
   const auto add = [&](const char* name, const char* type_name, const char* text) {
     return edit
         ->add_option_function<std::string>(
@@ -110,7 +123,9 @@ Command add_edit_command(CLI::App& app, const Session& session) {
       "  mien edit head.dna --lods 2-7 --clear blend-shapes -o phone.dna\n"
       "  mien edit head.dna --conform head_lod0_mesh=sculpt.obj -o reshaped.dna\n"
       "  mien edit head.dna --remove mesh:eyelashes_lod0_mesh --dry-run\n"
-      "  mien edit head.dna --script edits.json -o out.dna");
+      "  mien edit head.dna --script edits.json -o out.dna\n"
+      "  mien edit head.dna --to-json -o head.json\n"
+      "  mien edit head.json --from-json -o head.dna");
   return {edit, [command, &session] { run(*command, session); }};
 }
 

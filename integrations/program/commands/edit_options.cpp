@@ -68,10 +68,12 @@ std::vector<double> parse_list_of(const Document& document, const std::string& l
 }
 
 uint32_t kind_named(const Document& document, const std::string& word) {
-  static const Words words = {"joint", "mesh", "blend-shape", "animated-map", "raw", "gui"};
+  static const Words words = {"joint", "mesh", "blend-shape", "animated-map", "raw",
+                              "gui",   "psd",  "ml",          "rbf"};
   constexpr uint32_t kKinds[] = {
       MIEN_KIND_JOINT,        MIEN_KIND_MESH,        MIEN_KIND_BLEND_SHAPE_CHANNEL,
-      MIEN_KIND_ANIMATED_MAP, MIEN_KIND_RAW_CONTROL, MIEN_KIND_GUI_CONTROL};
+      MIEN_KIND_ANIMATED_MAP, MIEN_KIND_RAW_CONTROL, MIEN_KIND_GUI_CONTROL,
+      MIEN_KIND_PSD_CONTROL,  MIEN_KIND_ML_CONTROL,  MIEN_KIND_RBF_CONTROL};
   for (size_t i = 0; i < words.size(); ++i) {
     if (words[i] == word) return kKinds[i];
   }
@@ -103,16 +105,32 @@ std::string length_text(double length) {
 
 // Edits -------------------------------------------------------------------------------------------
 
+/// Calls a function of the library with the document, `given` and a place for what went wrong.
+template <class Function, class... Given>
+void edited(const Document& document, Function* function, Given... given) {
+  auto error = sized<MienError>();
+  check_edit(document, function(document.get(), given..., &error), error);
+}
+
+/// Calls edit(mesh) for the mesh of this name, or for "all".
+template <class EditMesh>
+std::string edit_meshes(const Document& document, const std::string& name, EditMesh&& edit) {
+  if (name != "all") {
+    edit(find_element(document, MIEN_KIND_MESH, name));
+    return "mesh \"" + name + "\"";
+  }
+  const uint64_t count = field_count(document, "geom.meshes");
+  for (uint32_t mesh = 0; mesh < count; ++mesh) edit(mesh);
+  return "all meshes";
+}
+
 std::string apply_rename(Document& document, const std::string& value) {
   const char* const form = "KIND:OLD=NEW";
   const NamePair kind_and_names = split_pair(document, value, ':', form);
   const NamePair names = split_pair(document, kind_and_names.second, '=', form);
   const uint32_t kind = kind_named(document, kind_and_names.first);
   const uint32_t index = find_element(document, kind, names.first);
-  auto error = sized<MienError>();
-  check_edit(document,
-             mien_document_rename(document.get(), kind, index, names.second.c_str(), &error),
-             error);
+  edited(document, mien_document_rename, kind, index, names.second.c_str());
   return std::string("renamed ") + kind_noun(kind) + " \"" + names.first + "\" to \"" +
          names.second + "\"";
 }
@@ -121,18 +139,16 @@ std::string apply_remove(Document& document, const std::string& value) {
   const NamePair pair = split_pair(document, value, ':', "KIND:NAME");
   const uint32_t kind = kind_named(document, pair.first);
   const uint32_t index = find_element(document, kind, pair.second);
-  auto error = sized<MienError>();
-  check_edit(document, mien_document_remove(document.get(), kind, &index, 1, &error), error);
+  edited(document, mien_document_remove, kind, &index, 1);
   return std::string("removed ") + kind_noun(kind) + " \"" + pair.second + "\"";
 }
 
 std::string apply_clear(Document& document, const std::string& value) {
   const std::string animation = "joint-animation";
-  auto error = sized<MienError>();
   if (value.compare(0, animation.size() + 1, animation + ":") == 0) {
     const std::string name = value.substr(animation.size() + 1);
     const uint32_t joint = find_element(document, MIEN_KIND_JOINT, name);
-    check_edit(document, mien_document_clear_joints(document.get(), &joint, 1, &error), error);
+    edited(document, mien_document_clear_joints, &joint, 1);
     return "removed what moves joint \"" + name + "\"";
   }
   static const Words words = {"blend-shapes", "animated-maps", animation};
@@ -140,7 +156,7 @@ std::string apply_clear(Document& document, const std::string& value) {
                                  MIEN_KIND_JOINT};
   for (size_t i = 0; i < words.size(); ++i) {
     if (words[i] != value) continue;
-    check_edit(document, mien_document_clear(document.get(), kKinds[i], &error), error);
+    edited(document, mien_document_clear, kKinds[i]);
     return "removed all " + (i == 2 ? "that moves joints" : value);
   }
   fail_edit_value(document, "\"" + value + "\" is not one of " + list_of(words, "and"),
@@ -156,18 +172,13 @@ std::string apply_neutral(Document& document, const std::string& value) {
   }
   const std::vector<float> transform(numbers.begin(), numbers.end());
   const uint32_t joint = find_element(document, MIEN_KIND_JOINT, pair.first);
-  auto error = sized<MienError>();
-  check_edit(
-      document,
-      mien_document_set_neutral(document.get(), joint, transform.data(),
-                                numbers.size() == 6 ? transform.data() + 3 : nullptr, 1, &error),
-      error);
+  edited(document, mien_document_set_neutral, joint, transform.data(),
+         numbers.size() == 6 ? transform.data() + 3 : nullptr, 1);
   return "moved joint \"" + pair.first + "\"";
 }
 
 void apply_placement(const Document& document, const MienPlacement& placement) {
-  auto error = sized<MienError>();
-  check_edit(document, mien_document_place(document.get(), &placement, &error), error);
+  edited(document, mien_document_place, &placement);
 }
 
 std::string apply_scale(Document& document, const std::string& value) {
@@ -198,11 +209,7 @@ std::string apply_positions(Document& document, const std::string& value) {
   const MeshAndFile given = parse_mesh_and_file(document, value);
   const std::vector<float> positions =
       read_positions(document, given.path, mesh_positions(document, given.mesh));
-  auto error = sized<MienError>();
-  check_edit(document,
-             mien_document_set_positions(document.get(), given.mesh, positions.data(),
-                                         positions.size() / 3, &error),
-             error);
+  edited(document, mien_document_set_positions, given.mesh, positions.data(), positions.size() / 3);
   return "set " + amount_text(positions.size() / 3, "position") + " of mesh \"" + given.name + "\"";
 }
 
@@ -214,11 +221,8 @@ std::string apply_targets(Document& document, const std::string& value) {
   const uint32_t channel = find_element(document, MIEN_KIND_BLEND_SHAPE_CHANNEL, names.second);
   const std::vector<float> deltas =
       read_deltas(document, target.second, mesh_positions(document, mesh));
-  auto error = sized<MienError>();
-  check_edit(document,
-             mien_document_set_target(document.get(), mesh, channel, nullptr, deltas.data(),
-                                      deltas.size() / 3, &error),
-             error);
+  edited(document, mien_document_set_target, mesh, channel, nullptr, deltas.data(),
+         deltas.size() / 3);
   return "set the target of blend shape \"" + names.second + "\" on mesh \"" + names.first + "\"";
 }
 
@@ -226,25 +230,34 @@ std::string apply_skin_weights(Document& document, const std::string& value) {
   const MeshAndFile given = parse_mesh_and_file(document, value);
   const size_t count = mesh_positions(document, given.mesh).size() / 3;
   const WeightRows rows = read_weight_rows(document, given.path, count);
-  auto error = sized<MienError>();
-  check_edit(
-      document,
-      mien_document_set_weights(document.get(), given.mesh, rows.influences, rows.joints.data(),
-                                rows.weights.data(), rows.weights.size(), &error),
-      error);
+  edited(document, mien_document_set_weights, given.mesh, rows.influences, rows.joints.data(),
+         rows.weights.data(), rows.weights.size());
   return "set the skin weights of mesh \"" + given.name + "\"";
 }
 
 std::string apply_limit_influences(Document& document, const std::string& value) {
   const auto influences = static_cast<uint32_t>(parse_number(document.edit, value, 65535));
   if (influences == 0) fail_edit_value(document, "each position needs one", "write 4, say");
-  const uint64_t count = field_count(document, "geom.meshes");
-  for (uint32_t mesh = 0; mesh < count; ++mesh) {
-    auto error = sized<MienError>();
-    check_edit(document, mien_document_limit_influences(document.get(), mesh, influences, &error),
-               error);
-  }
+  edit_meshes(document, "all", [&](uint32_t mesh) {
+    edited(document, mien_document_limit_influences, mesh, influences);
+  });
   return "limited skin weights to " + amount_text(influences, "influence");
+}
+
+std::string apply_normalize_weights(Document& document, const std::string& value) {
+  return "normalized the skin weights of " + edit_meshes(document, value, [&](uint32_t mesh) {
+           edited(document, mien_document_normalize_weights, mesh);
+         });
+}
+
+std::string apply_smooth_weights(Document& document, const std::string& value) {
+  constexpr float kStrength = 0.5f;
+  constexpr uint32_t kInfluences = 8, kMostTimes = 1000;
+  const NamePair pair = split_pair(document, value, '=', "MESH=TIMES", true);
+  const auto times = static_cast<uint32_t>(parse_number(document.edit, pair.second, kMostTimes));
+  return "smoothed the skin weights of " + edit_meshes(document, pair.first, [&](uint32_t mesh) {
+           edited(document, mien_document_smooth_weights, mesh, times, kStrength, kInfluences);
+         });
 }
 
 std::string apply_conform(Document& document, const std::string& value) {
@@ -252,11 +265,8 @@ std::string apply_conform(Document& document, const std::string& value) {
   const std::vector<float> positions =
       read_positions(document, given.path, mesh_positions(document, given.mesh));
   auto conformed = sized<MienConformed>();
-  auto error = sized<MienError>();
-  check_edit(document,
-             mien_document_conform(document.get(), given.mesh, positions.data(),
-                                   positions.size() / 3, 1, &conformed, &error),
-             error);
+  edited(document, mien_document_conform, given.mesh, positions.data(), positions.size() / 3,
+         uint32_t{1}, &conformed);
   std::string text = "conformed the rig to mesh \"" + given.name + "\"";
   if (conformed.joint_distance > 0) {
     text += ": joint \"" + read_string(document, element("defn.jointNames", conformed.joint)) +
@@ -269,11 +279,7 @@ std::string apply_prune_targets(Document& document, const std::string& value) {
   const double tolerance = parse_list_of(document, value, 1, "one number")[0];
   if (tolerance < 0) fail_edit_value(document, "a length is not below 0", "write 0.001, say");
   auto pruned = sized<MienPrunedTargets>();
-  auto error = sized<MienError>();
-  check_edit(
-      document,
-      mien_document_prune_targets(document.get(), static_cast<float>(tolerance), &pruned, &error),
-      error);
+  edited(document, mien_document_prune_targets, static_cast<float>(tolerance), &pruned);
   return "removed " + amount_text(pruned.deltas, "delta") + " and " +
          amount_text(pruned.targets, "target");
 }
@@ -286,8 +292,7 @@ std::string apply_prune_joints(Document& document, const std::string& value) {
   desc.rotation = static_cast<float>(limits[1]);
   desc.scale = static_cast<float>(limits[2]);
   auto pruned = sized<MienPrunedJoints>();
-  auto error = sized<MienError>();
-  check_edit(document, mien_document_prune_joints(document.get(), &desc, &pruned, &error), error);
+  edited(document, mien_document_prune_joints, &desc, &pruned);
   return "removed " + grouped(pruned.removed_count) + " of " + grouped(pruned.entry_count) +
          " entries of the joint matrix: positions move by at most " +
          length_text(pruned.worst_distance);
@@ -295,51 +300,44 @@ std::string apply_prune_joints(Document& document, const std::string& value) {
 
 std::string apply_lods(Document& document, const std::string& value) {
   const uint64_t lods = parse_lod_list(value);
-  auto error = sized<MienError>();
-  check_edit(document, mien_document_keep_lods(document.get(), lods, &error), error);
+  edited(document, mien_document_keep_lods, lods);
   return "kept LODs " + value;
 }
 
+/// "N M", or "N M uv".
 std::string apply_make_lod(Document& document, const std::string& value) {
-  const NamePair lods = split_pair(document, value, ' ', "--make-lod N --from M");
+  const NamePair first = split_pair(document, value, ' ', "--make-lod N --from M");
+  const size_t space = first.second.find(' ');
+  const std::string from = first.second.substr(0, space);
+  const std::string match = space == std::string::npos ? "surface" : first.second.substr(space + 1);
+  if (match != "surface" && match != "uv")
+    fail_edit_value(document, "\"" + match + "\" is not surface or uv", "choose one of them");
   auto desc = sized<MienProjectDesc>();
-  desc.match = MIEN_MATCH_UV;
+  desc.match = match == "uv" ? MIEN_MATCH_UV : MIEN_MATCH_SURFACE;
   double farthest = 0;
-  auto error = sized<MienError>();
-  check_edit(
-      document,
-      mien_document_make_lod(
-          document.get(), static_cast<uint32_t>(parse_number("--make-lod", lods.first, 32)),
-          static_cast<uint32_t>(parse_number("--from", lods.second, 32)), &desc, &farthest, &error),
-      error);
-  return "made LOD " + lods.first + " from LOD " + lods.second +
-         ": texture coordinates differ by at most " + length_text(farthest);
+  edited(document, mien_document_make_lod,
+         static_cast<uint32_t>(parse_number("--make-lod", first.first, 32)),
+         static_cast<uint32_t>(parse_number("--from", from, 32)), &desc, &farthest);
+  return "made LOD " + first.first + " from LOD " + from + ": " +
+         (match == "uv" ? "texture coordinates differ" : "positions are off its surface") +
+         " by at most " + length_text(farthest);
 }
 
 std::string apply_system(Document& document, const std::string& value) {
   const MienCoordinateSystem system = parse_system(value);
-  auto error = sized<MienError>();
-  check_edit(document, mien_document_convert(document.get(), &system, &error), error);
+  edited(document, mien_document_convert, &system);
   return "converted to the units and axes of " + value;
 }
 
 std::string apply_name(Document& document, const std::string& value) {
-  auto error = sized<MienError>();
-  check_edit(
-      document,
-      mien_document_write_string(document.get(), "desc.name", value.data(), value.size(), &error),
-      error);
+  edited(document, mien_document_write_string, "desc.name", value.data(), value.size());
   return "named \"" + value + "\"";
 }
 
 void write_metadata(const Document& document, uint64_t index, const char* member,
                     const std::string& text) {
-  auto error = sized<MienError>();
-  check_edit(
-      document,
-      mien_document_write_string(document.get(), element("desc.metadata", index, member).c_str(),
-                                 text.data(), text.size(), &error),
-      error);
+  edited(document, mien_document_write_string, element("desc.metadata", index, member).c_str(),
+         text.data(), text.size());
 }
 
 std::string apply_metadata(Document& document, const std::string& value) {
@@ -355,9 +353,7 @@ std::string apply_metadata(Document& document, const std::string& value) {
     ++index;
   }
   if (index == count) {
-    auto error = sized<MienError>();
-    check_edit(document, mien_document_resize(document.get(), "desc.metadata", count + 1, &error),
-               error);
+    edited(document, mien_document_resize, "desc.metadata", count + 1);
     write_metadata(document, index, ".key", key);
   }
   write_metadata(document, index, ".value", value.substr(equals + 1));
@@ -377,10 +373,17 @@ std::string apply_copy_mesh(Document& document, const std::string& value) {
   other.edit = document.edit;
   const uint32_t mesh = find_element(other, MIEN_KIND_MESH, pair.first);
   uint32_t copied = 0;
-  auto error = sized<MienError>();
-  check_edit(document, mien_document_copy_mesh(document.get(), other.get(), mesh, &copied, &error),
-             error);
+  edited(document, mien_document_copy_mesh, other.get(), mesh, &copied);
   return "copied mesh \"" + pair.first + "\" of " + pair.second;
+}
+
+std::string apply_copy_layers(Document& document, const std::string& value) {
+  const NamePair pair = split_pair(document, value, '=', "LAYERS=FILE");
+  LoadOptions layers;
+  layers.layers = pair.first;
+  const Document other = open_document(pair.second, *document.session);
+  edited(document, mien_document_copy_layers, other.get(), parse_load_options(layers, 0).layers);
+  return "copied " + pair.first + " of " + pair.second;
 }
 
 std::string apply_merge_joints(Document& document, const std::string& value) {
@@ -388,9 +391,7 @@ std::string apply_merge_joints(Document& document, const std::string& value) {
   constexpr double kTolerance = 1e-3;
   const Document other = open_document(value, *document.session);
   const uint64_t before = field_count(document, "defn.jointNames");
-  auto error = sized<MienError>();
-  check_edit(document, mien_document_merge_joints(document.get(), other.get(), kTolerance, &error),
-             error);
+  edited(document, mien_document_merge_joints, other.get(), kTolerance);
   return "added " + amount_text(field_count(document, "defn.jointNames") - before, "joint") +
          " of " + value;
 }
@@ -398,8 +399,7 @@ std::string apply_merge_joints(Document& document, const std::string& value) {
 std::string apply_split_joints(Document& document, const std::string& value) {
   const Document other = open_document(value, *document.session);
   const uint64_t before = field_count(document, "defn.jointNames");
-  auto error = sized<MienError>();
-  check_edit(document, mien_document_split_joints(document.get(), other.get(), &error), error);
+  edited(document, mien_document_split_joints, other.get());
   return "removed " + amount_text(before - field_count(document, "defn.jointNames"), "joint") +
          " that " + value + " does not have";
 }
@@ -408,11 +408,8 @@ std::string apply_transplant(Document& document, const std::string& value) {
   const Document rig = open_document(value, *document.session);
   std::vector<MienControlError> errors(field_count(rig, "defn.rawControlNames"));
   size_t count = 0;
-  auto error = sized<MienError>();
-  check_edit(document,
-             mien_document_transplant(document.get(), rig.get(), nullptr, errors.data(),
-                                      errors.size(), &count, &error),
-             error);
+  edited(document, mien_document_transplant, rig.get(), nullptr, errors.data(), errors.size(),
+         &count);
   std::string text = "gave the character the rig of " + value;
   const auto worst = std::max_element(
       errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(count),
@@ -442,10 +439,10 @@ const std::vector<EditOption>& edit_options() {
   static const char* const kOthers = "Parts of other DNA files";
   static const std::vector<EditOption> options = {
       {"--rename", "KIND:OLD=NEW", kNames,
-       "KIND: joint, mesh, blend-shape, animated-map, raw or gui", apply_rename},
+       "KIND: joint, mesh, blend-shape, animated-map, raw, gui, ml or rbf", apply_rename},
       {"--remove", "KIND:NAME", kNames,
-       "KIND: joint, mesh, blend-shape or animated-map. What refers to it is removed, too;\n"
-       "children of a joint go to its parent and keep their place in the world",
+       "KIND: joint, mesh, blend-shape, animated-map, raw, gui or psd (psd0, psd1, ...). What\n"
+       "refers to it is removed, too; children of a joint go to its parent and keep their place",
        apply_remove},
       {"--clear", "WHAT", kNames,
        "blend-shapes (channels too), animated-maps, joint-animation, or\njoint-animation:NAME for "
@@ -478,6 +475,12 @@ const std::vector<EditOption>& edit_options() {
        apply_skin_weights},
       {"--limit-influences", "N", kMeshes, "Keep the N largest weights of each position",
        apply_limit_influences},
+      {"--normalize-weights", "MESH", kMeshes,
+       "Scale the weights of each position to a sum of 1; MESH may be all",
+       apply_normalize_weights},
+      {"--smooth-weights", "MESH=TIMES", kMeshes,
+       "Mix the weights of each position with those of its neighbors; MESH may be all",
+       apply_smooth_weights},
       {"--prune-targets", "LENGTH", kMeshes, "Remove deltas that are not longer than this",
        apply_prune_targets},
       {"--prune-joints", "T,R,S", kMeshes,
@@ -488,8 +491,13 @@ const std::vector<EditOption>& edit_options() {
        "Compute joints, weights and targets of LOD N from a finer one; followed by --from",
        apply_make_lod},
       {"--from", "M", kMeshes, "The finer LOD", nullptr},
+      {"--match", "HOW", kMeshes,
+       "After --from: by the nearest place in space, surface (default), or in the texture, uv",
+       nullptr},
       {"--copy-mesh", "MESH=DNA", kOthers, "Copy a mesh, over the one of that name or as a new one",
        apply_copy_mesh},
+      {"--copy-layers", "LAYERS=DNA", kOthers,
+       "Copy layers, named as for 'mien convert', with those that they need", apply_copy_layers},
       {"--merge-joints", "DNA", kOthers, "Add the joints that IN lacks, such as those of the body",
        apply_merge_joints},
       {"--split-joints", "DNA", kOthers, "Remove the joints that the other file lacks",
@@ -502,21 +510,25 @@ const std::vector<EditOption>& edit_options() {
 
 std::vector<Edit> join_options(const std::vector<Edit>& edits) {
   std::vector<Edit> joined;
-  bool open = false;  // the last one is a --make-lod without --from
+  std::string before;  // the option before
   for (const Edit& edit : edits) {
-    if (edit.option == "--from" && open) {
+    const bool follows = edit.option == "--from" || edit.option == "--match";
+    const char* const wanted = edit.option == "--match" ? "--from" : "--make-lod";
+    if (follows ? before != wanted : before == "--make-lod") break;
+    if (follows) {
       joined.back().value += " " + edit.value;
-      open = false;
-      continue;
+    } else {
+      joined.push_back(edit);
     }
-    if (edit.option == "--from" || open) break;
-    joined.push_back(edit);
-    open = edit.option == "--make-lod";
+    before = edit.option;
   }
   size_t used = 0;
-  for (const Edit& edit : joined) used += edit.option == "--make-lod" ? 2 : 1;
-  if (open || used != edits.size()) {
-    fail_usage("--make-lod", "--make-lod and --from go together, in this order",
+  for (const Edit& edit : joined) {
+    used += 1;
+    for (char c : edit.option == "--make-lod" ? edit.value : std::string()) used += c == ' ';
+  }
+  if (before == "--make-lod" || used != edits.size()) {
+    fail_usage("--make-lod", "--make-lod, --from and --match go together, in this order",
                "write --make-lod 3 --from 0");
   }
   return joined;

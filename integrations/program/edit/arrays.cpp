@@ -87,7 +87,7 @@ std::vector<float> read_obj_positions(const std::string& path, size_t count) {
     fail_mesh(path, "",
               "it has " + std::to_string(mesh.position_count()) + " positions and the mesh " +
                   std::to_string(count),
-              "export it with the vertices of 'mien export --format obj', in their order");
+              "give the vertices of the mesh alone, in their order");
   }
   return std::vector<float>(mesh.positions.begin(), mesh.positions.end());
 }

@@ -12,7 +12,7 @@ namespace {
 struct KindNames {
   uint32_t kind;
   const char* noun;
-  const char* path;  // of the list of names
+  const char* path;  // of the list of names; null: "psd0", "psd1", ...
 };
 
 constexpr KindNames kKinds[] = {
@@ -22,6 +22,9 @@ constexpr KindNames kKinds[] = {
     {MIEN_KIND_ANIMATED_MAP, "animated map", "defn.animatedMapNames"},
     {MIEN_KIND_RAW_CONTROL, "raw control", "defn.rawControlNames"},
     {MIEN_KIND_GUI_CONTROL, "GUI control", "defn.guiControlNames"},
+    {MIEN_KIND_PSD_CONTROL, "PSD control", nullptr},
+    {MIEN_KIND_ML_CONTROL, "ML control", "mlbh.mlControlNames"},
+    {MIEN_KIND_RBF_CONTROL, "RBF control", "rbfe.poseControlNames"},
 };
 
 const KindNames& names_of_kind(uint32_t kind) {
@@ -71,11 +74,12 @@ uint32_t find_element(const Document& document, uint32_t kind, const std::string
     return index;
   }
   const KindNames& names = names_of_kind(kind);
+  const std::string missing = std::string("there is no ") + names.noun + " \"" + name + "\"";
+  if (!names.path) fail_edit(document, missing, "they are psd0, psd1, ...");
   NearestName nearest(name);
   const uint64_t count = field_count(document, names.path);
   for (uint64_t i = 0; i < count; ++i) nearest.offer(read_string(document, element(names.path, i)));
-  fail_edit(document, std::string("there is no ") + names.noun + " \"" + name + "\"",
-            nearest.question("see 'mien info --names all'"));
+  fail_edit(document, missing, nearest.question("see 'mien info --names all'"));
 }
 
 uint64_t field_count(const Document& document, const std::string& path) {

@@ -34,7 +34,7 @@ Document open_document(const std::string& path, const Session& session);
 /// the library.
 void check_edit(const Document& document, MienStatus status, const MienError& error);
 
-/// "joint", "mesh", "blend shape", "animated map", "raw control", "GUI control"
+/// "joint", "mesh", "blend shape", "raw control", ...
 const char* kind_noun(uint32_t kind);
 
 /// Fails with the nearest name.

@@ -29,7 +29,7 @@ from .clip import (Clip, ClipBinding, ClipEvent, ClipPlayer, TICKS_PER_SECOND,
                    arkit_matrix)
 from .deformer import Deformer, DeformerInstance, Mesh, deform_batch, write_vertices_batch
 from .dna import Dna, coordinate_system, coordinate_system_names, validate
-from .document import ControlError, Document
+from .document import ControlError, Document, DocumentLayer
 from .errors import (ArgumentError, AuthorError, BusyError, ClipError, ClosedError, DnaError, Error,
                      FileError, MixError, OutOfMemoryError, OutOfRangeError, UnknownNameError)
 from .instance import Instance
@@ -53,7 +53,7 @@ __all__ = [
     "ClosedError", "Compose", "Conformed", "control_name", "ControlError", "coordinate_system", "coordinate_system_names",
     "CoordinateSystem", "CopySolver", "CustomGuard", "CustomSolver", "deform_batch", "Deformer",
     "DeformerInfo", "DeformerInstance", "Direction", "Dna", "DnaError", "DnaField", "DnaInfo",
-    "DnaLayer", "Document", "Error", "FaceWinding", "FieldType", "FileAccess", "FileError", "Finding",
+    "DnaLayer", "Document", "DocumentLayer", "Error", "FaceWinding", "FieldType", "FileAccess", "FileError", "Finding",
     "Gaze", "Generate", "Generator", "glare", "Guard", "GuardInfo", "GuardState", "Instance",
     "InstanceStatistics", "Interpolation", "Isa", "isa_available", "isa_name", "Kind",
     "Landmark", "Layer", "LayerGroup", "LayerSource", "library_path", "Looping", "Match", "Mesh", "MeshAxis", "Mix",

@@ -4820,6 +4820,25 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
         (Status.MEMORY,
          "the allocator returns NULL"),
     ),
+    "mien_document_layer_count": (),
+    "mien_document_layer": (
+        (Status.INDEX,
+         "`index` is past the end"),
+    ),
+    "mien_document_clear_layers": (
+        (Status.INVALID_ARGUMENT,
+         "`version` is not 1 to 65535"),
+        (Status.MEMORY,
+         "the allocator returns NULL"),
+    ),
+    "mien_document_add_layer": (
+        (Status.INVALID_ARGUMENT,
+         "`code` has another length, a version is above 65535, the list has a layer of "
+         "this code and version already, the kind is known and has bytes, or a file of "
+         "version 2.1 cannot have it"),
+        (Status.MEMORY,
+         "the allocator returns NULL"),
+    ),
     "mien_document_mark": (
         (Status.MEMORY,
          "the allocator returns NULL"),
@@ -4845,8 +4864,8 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
     ),
     "mien_document_remove": (
         (Status.INVALID_ARGUMENT,
-         "elements of the kind cannot be removed, or no joint would be left for the skin"
-         " weights"),
+         "elements of the kind cannot be removed, ML operations gather or scatter a "
+         "control, or no joint would be left for the skin weights"),
         (Status.INDEX,
          "an index is past the end"),
         (Status.MEMORY,
@@ -4862,8 +4881,8 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
     ),
     "mien_document_clear": (
         (Status.INVALID_ARGUMENT,
-         "elements of the kind cannot be removed, or no joint would be left for the skin"
-         " weights"),
+         "elements of the kind cannot be removed, ML operations gather or scatter a "
+         "control, or no joint would be left for the skin weights"),
         (Status.MEMORY,
          "the allocator returns NULL"),
         (Status.DNA_STRUCTURE,
@@ -4877,8 +4896,8 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
     ),
     "mien_document_clear_joints": (
         (Status.INVALID_ARGUMENT,
-         "elements of the kind cannot be removed, or no joint would be left for the skin"
-         " weights"),
+         "elements of the kind cannot be removed, ML operations gather or scatter a "
+         "control, or no joint would be left for the skin weights"),
         (Status.INDEX,
          "an index is past the end"),
         (Status.MEMORY,
@@ -5720,6 +5739,12 @@ AUTHOR_FUNCTIONS: Tuple[Tuple[str, Any, Tuple[Any, ...]], ...] = (
     ("mien_document_splice", c_int32, (MienDocument, c_char_p, c_uint64, c_uint64, c_uint64,
      POINTER(MienError))),
     ("mien_document_resize", c_int32, (MienDocument, c_char_p, c_uint64, POINTER(MienError))),
+    ("mien_document_layer_count", c_int32, (MienDocument, c_void_p, c_void_p, POINTER(MienError))),
+    ("mien_document_layer", c_int32, (MienDocument, c_uint32, POINTER(MienDnaLayer),
+     POINTER(MienStringView), POINTER(MienError))),
+    ("mien_document_clear_layers", c_int32, (MienDocument, c_uint32, POINTER(MienError))),
+    ("mien_document_add_layer", c_int32, (MienDocument, c_char_p, c_uint32, c_uint32, c_void_p,
+     c_size_t, POINTER(MienError))),
     ("mien_document_mark", c_int32, (MienDocument, c_void_p, POINTER(MienError))),
     ("mien_document_undo", c_int32, (MienDocument, c_uint64, POINTER(MienError))),
     ("mien_document_find", c_int32, (MienDocument, c_uint32, c_char_p, c_void_p,
@@ -5793,6 +5818,10 @@ class AuthorLibrary:
     mien_document_write_string: Any
     mien_document_splice: Any
     mien_document_resize: Any
+    mien_document_layer_count: Any
+    mien_document_layer: Any
+    mien_document_clear_layers: Any
+    mien_document_add_layer: Any
     mien_document_mark: Any
     mien_document_undo: Any
     mien_document_find: Any

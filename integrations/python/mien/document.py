@@ -2,6 +2,7 @@
 """DNA files that can be changed."""
 from __future__ import annotations
 
+import array
 import ctypes
 from typing import Any, Iterable, List, NamedTuple, Optional, Sequence, Union
 
@@ -35,6 +36,15 @@ class ControlError(NamedTuple):
     worst: float
     rms: float
     moved: float
+
+
+class DocumentLayer(NamedTuple):
+    """A layer of a document. content: its bytes, if its kind is not known."""
+
+    code: str
+    version_major: int
+    version_minor: int
+    content: bytes
 
 
 def _text(path: str) -> bytes:
@@ -177,7 +187,8 @@ class Document(Closable):
         else:
             held, address = new_array("q", len(values))
             count = len(values)
-            held[:] = _integers(values, path)
+            given = _integers(values, path)
+            held[:] = given if numpy is not None else array.array("q", given)
             function = "mien_document_write_integers"
         if count != field.count:
             if not field.is_array:
@@ -197,6 +208,45 @@ class Document(Closable):
         """Replaces `removed` elements of an array or list by `inserted` new ones. What refers to
         elements by number stays as it is."""
         self._call("mien_document_splice", _text(path), first, removed, inserted)
+
+    # ---- layers ------------------------------------------------------------------------------------
+
+    @raises("mien_document_layer_count", "mien_document_layer")
+    def layers(self) -> List[DocumentLayer]:
+        """The list of layers, in the order of the file."""
+        found = []
+        for i in range(self._layer_count()[1]):
+            layer, view = _api.MienDnaLayer(), _api.MienStringView()
+            self._call("mien_document_layer", i, _byref(layer), _byref(view))
+            content = ctypes.string_at(view.data, view.count) if view.count else b""
+            found.append(DocumentLayer(layer.code.decode("latin-1"), layer.version_major,
+                                       layer.version_minor, content))
+        return found
+
+    @property
+    def version(self) -> int:
+        """The document becomes a file of version 2.`version`."""
+        return self._layer_count()[0]
+
+    def _layer_count(self) -> Any:
+        version, count = ctypes.c_uint32(), ctypes.c_uint32()
+        self._call("mien_document_layer_count", _byref(version), _byref(count))
+        return version.value, count.value
+
+    @raises("mien_document_clear_layers")
+    def clear_layers(self, version: Optional[int] = None) -> None:
+        """Makes the document a file of version 2.`version` and its list of layers empty: those of
+        unknown kinds are gone, fields stay."""
+        self._call("mien_document_clear_layers",
+                   self.version if version is None else uint32(version, "version"))
+
+    @raises("mien_document_add_layer")
+    def add_layer(self, code: str, version_major: int = 1, version_minor: int = 0,
+                  content: bytes = b"") -> None:
+        """Appends a layer to the list: of a known kind without content, or of another one with its
+        bytes, which are written as they are."""
+        self._call("mien_document_add_layer", _text(code), uint32(version_major, "version"),
+                   uint32(version_minor, "version"), bytes(content), len(content))
 
     # ---- undoing -----------------------------------------------------------------------------------
 
@@ -245,8 +295,8 @@ class Document(Closable):
 
     @raises("mien_document_remove")
     def remove(self, kind: int, elements: Union[Element, Iterable[Element]]) -> None:
-        """Removes joints, blend shape channels, animated maps or meshes, and what refers to them.
-        Children and skin weights of joints go to the nearest ancestor that stays."""
+        """Removes controls, joints, blend shape channels, animated maps or meshes, and what refers
+        to them: see mien_document_remove(). PSD controls are named "psd0", "psd1", ... Children and skin weights of joints go to the nearest ancestor that stays."""
         numbers = self._numbers(kind, elements)
         self._call("mien_document_remove", uint32(kind, "kind"), numbers, len(numbers))
 

@@ -45,6 +45,29 @@ class Fields(unittest.TestCase):
             self.assertEqual(doc["desc.coordinateSystem"]["xAxis"], 1)
             self.assertEqual(doc.raw_bytes("desc.name"), "Ada é".encode())
 
+    def test_layers_are_listed_anew(self):
+        with document() as doc:
+            known = doc.layers()
+            self.assertEqual((doc.version, len(known), known[0].code), (8, 11, "desc"))
+            doc.add_layer("note", 1, 2, b"a\0b")
+            with mien.Document(doc.to_dna()) as again:
+                self.assertEqual(again.layers()[-1], ("note", 1, 2, b"a\0b"))
+            with self.assertRaises(mien.ArgumentError):
+                doc.add_layer("note", 1, 2)
+            doc.clear_layers()
+            self.assertEqual((doc.layers(), doc.version), ([], 8))
+            for layer in known:
+                doc.add_layer(*layer)
+            self.assertEqual(doc.to_bytes(), document().to_bytes())
+
+    def test_controls_are_removed(self):
+        with document() as doc:
+            raw = doc.names(Kind.RAW_CONTROL)
+            doc.remove(Kind.RAW_CONTROL, raw[:2])
+            doc.remove(Kind.PSD_CONTROL, "psd0")
+            self.assertEqual(doc.names(Kind.RAW_CONTROL), raw[2:])
+            self.assertEqual(doc.validate(), [])
+
     def test_a_list_of_names_may_be_reversed(self):
         with document() as doc:
             names = doc.names(Kind.JOINT)

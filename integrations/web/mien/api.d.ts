@@ -3370,6 +3370,34 @@ export interface Exports {
    */
   mien_document_resize(document: number, path: number, count: bigint, error: number): number;
   /**
+   * Returns the version of the file that the document becomes, 2.`out_version`, and the length of its list of
+   * layers. A file also has the layers that its version defines and the list lacks, behind the others.
+   */
+  mien_document_layer_count(document: number, out_version: number, out_count: number, error: number): number;
+  /**
+   * Returns layer `index` of the list, as mien_dna_layer(); byte_offset is MIEN_NO_OFFSET. `out_bytes` gets the
+   * contents of a layer of an unknown kind, else nothing. Contents change with mien_document_clear_layers(),
+   * mien_document_undo(): the view is valid until the document is changed.
+   * Fails with MIEN_ERROR_INDEX if `index` is past the end.
+   */
+  mien_document_layer(document: number, index: number, out_layer: number, out_bytes: number, error: number): number;
+  /**
+   * Makes the document a file of version 2.`version` and its list of layers empty: layers of unknown kinds
+   * are gone, fields stay as they are. mien_document_add_layer() fills the list again.
+   * Fails with MIEN_ERROR_INVALID_ARGUMENT if `version` is not 1 to 65535, MIEN_ERROR_MEMORY if the allocator
+   * returns NULL.
+   */
+  mien_document_clear_layers(document: number, version: number, error: number): number;
+  /**
+   * Appends a layer to the list: the layer of a known kind, without bytes, or `size` bytes of an
+   * unknown kind, which are written to the file as they are. `code` has four characters, such as "bhvr"; the
+   * layer is of version `version_major`.`version_minor`. `bytes` may be NULL if `size` is 0.
+   * Fails with MIEN_ERROR_INVALID_ARGUMENT if `code` has another length, a version is above 65535, the list has a
+   * layer of this code and version already, the kind is known and has bytes, or a file of version 2.1 cannot
+   * have it, MIEN_ERROR_MEMORY if the allocator returns NULL.
+   */
+  mien_document_add_layer(document: number, code: number, version_major: number, version_minor: number, bytes: number, size: number, error: number): number;
+  /**
    * Remembers the current state, at the cost of some KB. Mark 0 always exists: the state in which the
    * document was created. Changes before a mark keep their memory until the document is destroyed or an
    * earlier mark is restored.
@@ -3383,31 +3411,35 @@ export interface Exports {
    */
   mien_document_undo(document: number, mark: bigint, error: number): number;
   /**
-   * Finds the index of a name; of equal names, the first. `kind` is a MIEN_KIND_...: GUI, raw, ML and RBF
-   * controls, joints, blend shape channels, animated maps, meshes.
+   * Finds the index of a name; of equal names, the first. `kind` is a MIEN_KIND_...: GUI, raw, PSD ("psd0",
+   * "psd1", ...), ML and RBF controls, joints, blend shape channels, animated maps, meshes.
    * Fails with MIEN_ERROR_NAME if there is no such name, MIEN_ERROR_INVALID_ARGUMENT if the kind has no names
    * in a document.
    */
   mien_document_find(document: number, kind: number, name: number, out_index: number, error: number): number;
   /**
-   * Renames element `index` of a kind of mien_document_find().
+   * Renames element `index` of a kind of mien_document_find() but PSD controls.
    * Fails with MIEN_ERROR_INDEX if there is no such element, MIEN_ERROR_INVALID_ARGUMENT if another element
    * of the kind has the name, or the kind has no names in a document, MIEN_ERROR_MEMORY if the allocator
    * returns NULL.
    */
   mien_document_rename(document: number, kind: number, index: number, name: number, error: number): number;
   /**
-   * Removes joints, blend shape channels, animated maps or meshes, and everything that refers to them: names,
-   * LOD lists, rows of tables, targets, regions of networks. `indices` has `index_count` elements. Children
-   * of a joint go to its nearest ancestor that stays, or become roots, and keep their neutral place in the
-   * world; motions that are relative to the parent keep their numbers. The joint's skin weights go to the
-   * same ancestor, or to the first joint that stays. Quaternion joints move as before within 1e-2 degrees;
-   * where the columns of a joint group would rotate them in another order, each quaternion joint of the group
-   * gets a joint group of its own.
+   * Removes GUI, raw or PSD controls, joints, blend shape channels, animated maps or meshes, and everything that
+   * refers to them: names, LOD lists, rows of tables, targets, regions of networks. `indices` has
+   * `index_count` elements; PSD controls are numbered from 0.
+   * Children of a joint go to its nearest ancestor that stays, or become roots, and keep their neutral place
+   * in the world; motions that are relative to the parent keep their numbers. The joint's skin weights go to
+   * the same ancestor, or to the first joint that stays. Quaternion joints move as before within 1e-2
+   * degrees; where the columns of a joint group would rotate them in another order, each quaternion joint of
+   * the group gets a joint group of its own.
+   * A raw or PSD control is removed as if it stayed 0: with it go its columns of joint groups, its rows of
+   * channels and animated maps, PSD controls that are products of it, RBF solvers, twists and swings that
+   * read it, and its inputs of networks.
    * Fails with MIEN_ERROR_INDEX if an index is past the end, MIEN_ERROR_INVALID_ARGUMENT if elements of the
-   * kind cannot be removed, or no joint would be left for the skin weights, MIEN_ERROR_DNA_STRUCTURE,
-   * MIEN_ERROR_DNA_REFERENCE, MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE if the document is not valid,
-   * MIEN_ERROR_MEMORY if the allocator returns NULL.
+   * kind cannot be removed, ML operations gather or scatter a control, or no joint would be left for the skin
+   * weights, MIEN_ERROR_DNA_STRUCTURE, MIEN_ERROR_DNA_REFERENCE, MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE
+   * if the document is not valid, MIEN_ERROR_MEMORY if the allocator returns NULL.
    */
   mien_document_remove(document: number, kind: number, indices: number, index_count: number, error: number): number;
   /**

@@ -143,6 +143,11 @@ export function validate(memory, bytes) {
     const copy = scratch.array("u8", bytes);
     return memory.exports.mien_dna_validate_memory(copy, bytes.length, scratch.struct("ValidateDesc"), out, error);
   });
+  return findingsOf(memory, handle);
+}
+
+/** What a report says, which is released. */
+export function findingsOf(memory, handle) {
   const report = new Handle(memory, handle, "mien_report_destroy");
   try {
     const [errors, warnings] = memory.withScratch((scratch) => {

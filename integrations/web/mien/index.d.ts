@@ -4,6 +4,7 @@
 //     DNA file or baked file -> Rig -> Instance          controls in; joint values, weights out
 //                                 \ -> Deformer -> DeformerInstance   matrices and vertices
 //                                 \ -> Mix -> Mixer   clips, poses and reactions in; controls of an Instance
+//     DNA file -> Dna -> Document -> DNA file            changed
 //
 // Objects have memory in the module, which is released by dispose() or `using`, never by itself. Typed arrays
 // are views of that memory. When it grows, old views become empty; properties and methods make new ones, so
@@ -17,7 +18,8 @@ import type {
   RigDesc, RigInfo, RigStatistics, SolverInput, SolverStackDesc, SolverStackInfo, SpringSolver, Stage, Status,
   TwistSolver, WriteDesc, BakedCheck, AimSolver as AimSolverDesc, BlendMode, CopySolver as CopySolverDesc,
   Generator as GeneratorKind, LayerGroup, LayerSource, MixLayer as MixLayerDesc,
-  AuthorBone as AuthorBoneDesc, AuthorDesc,
+  AuthorBone as AuthorBoneDesc, AuthorDesc, Conformed, ControlError, Placement, ProjectDesc, PruneJointsDesc, PrunedJoints,
+  PrunedTargets, TransplantDesc,
 } from "./api.js";
 
 export * from "./api.js";
@@ -153,6 +155,9 @@ export class Mien {
    * their motion. Not in the module that opens baked files only. This takes seconds to minutes, so call it in a
    * worker, and end the worker to cancel from outside. docs/authoring.md says what it does. */
   authorRig(mesh: AuthorMesh, options?: AuthorOptions): AuthoredRig;
+  /** A document of an open DNA file, which may be disposed afterwards; of null, an empty one. Not in the module that
+   * opens baked files only. */
+  createDocument(dna?: Dna | null): Document;
   /** The rig of an open DNA file, which may be disposed afterwards. */
   createRig(dna: Dna, options?: CreateRigOptions): Rig;
 }
@@ -225,6 +230,111 @@ export interface Dna extends Handle {
   write(desc?: WriteDesc): Uint8Array;
 }
 export const Dna: { readonly prototype: Dna };
+
+/** A joint, mesh, channel or control: its name or its number. */
+type NameOrNumber = string | number;
+
+/** A DNA file that can be changed: its fields by the paths of Dna.field(), and as a whole by operations that keep
+ * together what refers to each other. A call that throws changes nothing. What is not changed stays as it was,
+ * byte for byte. docs/editing.md says what the operations do. */
+export interface Document extends Handle {
+  field(path: string): DnaField;
+  /** Names of the fields of a record; without a path, of the layers. */
+  children(path?: string): string[];
+  /** A string, a number or a copy of an array: Float32Array of floats, Float64Array of integers. */
+  read(path: string): string | number | Float32Array | Float64Array;
+  /** A copy of an array or string as it is in the file: big-endian. */
+  bytes(path: string): Uint8Array;
+  /** Replaces a string, a number or an array, which takes the length of the value. With `first`, replaces elements of
+   * an array from there on. */
+  write(path: string, value: string | number | Numbers | Integers, first?: number): void;
+  /** Replaces `removed` elements of an array or list by `inserted` new ones: zeros, empty strings or records of
+   * these. What refers to elements by number stays as it is. */
+  splice(path: string, first: number, removed: number, inserted: number): void;
+  /** Gives an array or list `count` elements, at its end. */
+  resize(path: string, count: number): void;
+
+  /** The document becomes a file of version 2.`version`. */
+  readonly version: number;
+  /** The list of layers; those of unknown kinds have bytes. */
+  readonly layers: readonly (DnaLayer & { readonly bytes: Uint8Array })[];
+  /** Makes the list of layers empty: those of unknown kinds are gone, fields stay. Default: the same version. */
+  clearLayers(version?: number): void;
+  /** Appends a layer to the list: of a known kind without bytes, or of another one with its bytes. */
+  addLayer(code: string, versionMajor: number, versionMinor: number, bytes?: Uint8Array): void;
+
+  /** Remembers the current state, for undo(). */
+  mark(): number;
+  /** Goes back to the state at a mark, or to the beginning. */
+  undo(mark?: number): void;
+
+  /** Number of the element that has a name. */
+  find(kind: Kind, element: NameOrNumber): number;
+  rename(kind: Kind, element: NameOrNumber, name: string): void;
+  /** Removes controls, joints, blend shape channels, animated maps or meshes, and what refers to them. Children and
+   * skin weights of joints go to the nearest ancestor that stays. */
+  remove(kind: Kind, elements: NameOrNumber | Iterable<NameOrNumber>): void;
+  /** Removes all blend shape channels with their targets, all animated maps, or, of Kind.JOINT, all that moves
+   * joints. */
+  clear(kind: Kind): void;
+  /** Removes what moves these joints. */
+  clearJoints(joints: NameOrNumber | Iterable<NameOrNumber>): void;
+
+  /** Sets neutral transforms relative to the parents, from a joint on: three numbers for each. */
+  setNeutral(firstJoint: NameOrNumber, transforms: { translations?: Numbers; rotations?: Numbers }): void;
+  /** Sets all positions of a mesh, three numbers each. Normals stay as they are. */
+  setPositions(mesh: NameOrNumber, positions: Numbers): void;
+  /** Sets the target of a channel on a mesh: deltas of the positions `vertices`, or of the first ones, three numbers
+   * each. Deltas of zero are left out; without any other the target is removed. */
+  setTarget(mesh: NameOrNumber, channel: NameOrNumber, deltas: Numbers, vertices?: Integers | null): void;
+  /** Removes deltas not longer than this, and targets that have none left. */
+  pruneTargets(tolerance: number): PrunedTargets;
+  /** Sets entries of the joint matrix not above these to 0, and measures what that does to the positions of LOD 0. */
+  pruneJoints(limits: PruneJointsDesc): PrunedJoints;
+  /** Sets the skin weights of a mesh: `influences` joints and weights for each position. */
+  setWeights(mesh: NameOrNumber, influences: number, joints: Integers, weights: Numbers): void;
+  /** Scales the weights of each position of a mesh to a sum of 1. */
+  normalizeWeights(mesh: NameOrNumber): void;
+  /** Keeps the largest weights of each position of a mesh. */
+  limitInfluences(mesh: NameOrNumber, influences: number): void;
+  /** Mixes the weights of each position with the mean of its neighbors along edges. Default: once, by 0.5, at most 8
+   * influences. */
+  smoothWeights(mesh: NameOrNumber, options?: { iterations?: number; strength?: number; influences?: number }): void;
+  /** Scales the whole character about the origin, then rotates it, then moves it. */
+  place(placement: Placement): void;
+  /** Keeps these LODs, renumbered from 0. */
+  keepLods(lods: Iterable<number>): void;
+  /** Converts to the axes, units and winding of a system. */
+  convert(system: string | CoordinateSystem): void;
+
+  /** Copies Layers of another document, combined with |. */
+  copyLayers(from: Document, layers: number): void;
+  /** Copies a mesh of another document, over the one of that name or as a new one; returns its number here. */
+  copyMesh(from: Document, mesh: NameOrNumber): number;
+  /** Adds the joints of another document that this one lacks. Joints that both have must stand in the same place,
+   * within `tolerance` (default 0.001). */
+  mergeJoints(from: Document, tolerance?: number): void;
+  /** Removes the joints that another document does not have. */
+  splitJoints(from: Document): void;
+  /** Gives a mesh the skin weights and targets of another one; returns the largest distance to a place on it. */
+  project(mesh: NameOrNumber, source: NameOrNumber, options?: ProjectDesc): number;
+  /** The same for all meshes of a LOD, from the meshes of LOD `source` whose names differ only in the number of the
+   * LOD. */
+  makeLod(lod: number, source: number, options?: ProjectDesc): number;
+  /** Gives a mesh new positions and lets joints, targets and, unless `others` is false, the other meshes follow. */
+  conform(mesh: NameOrNumber, positions: Numbers, options?: { others?: boolean }): Conformed;
+  /** Gives the character the rig of a template: controls, joints, behavior and LODs. It keeps its shape. Returns what
+   * raw controls that both have do differently. */
+  transplant(rig: Document, options?: TransplantDesc): ControlError[];
+
+  /** The document as an open file, checked as files are. */
+  toDna(): Dna;
+  /** The bytes of that file. */
+  toBytes(desc?: WriteDesc): Uint8Array;
+  /** What is wrong with the document. */
+  validate(): Report;
+}
+export const Document: { readonly prototype: Document };
 
 /** The behavior of a file, shared by any number of characters. */
 export interface Rig extends Handle {

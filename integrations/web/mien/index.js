@@ -4,6 +4,7 @@ import { Layer, Status } from "./api.js";
 import { authorRig } from "./author.js";
 import { arkitMatrix, Clip } from "./clip.js";
 import { coordinateSystemNames, Dna, validate } from "./dna.js";
+import { Document } from "./document.js";
 import { errorOf } from "./errors.js";
 import { Memory } from "./memory.js";
 import { glare, Mix } from "./mix.js";
@@ -18,6 +19,7 @@ export {
 export { Clip, ClipBinding, ClipPlayer } from "./clip.js";
 export { Deformer, DeformerInstance } from "./deformer.js";
 export { Dna } from "./dna.js";
+export { Document } from "./document.js";
 export { Gaze, Mix, Mixer } from "./mix.js";
 export { MixLayer, ticks } from "./mix_parts.js";
 export { Batch, Instance, Rig } from "./rig.js";
@@ -183,6 +185,14 @@ export class Mien {
       throw errorOf(Status.UNSUPPORTED, "this module opens baked files only: load the other one to make rigs");
     }
     return authorRig(this.#memory, mesh, options);
+  }
+
+  /** A document of an open DNA file, which may be disposed afterwards; of null, an empty one. */
+  createDocument(dna = null) {
+    if (!this.exports.mien_document_create) {
+      throw errorOf(Status.UNSUPPORTED, "this module opens baked files only: load the other one to change files");
+    }
+    return Document.create(this.#memory, dna);
   }
 
   /** The rig of an open DNA file, which may be disposed afterwards. */

@@ -4782,6 +4782,38 @@ extern "C" {
     /// Fails like `mien_document_splice()`.
     pub fn mien_document_resize(document: *mut MienDocument, path: *const c_char, count: u64, error: *mut MienError) -> MienStatus;
 
+    /// Returns the version of the file that the document becomes, 2.`out_version`, and the length
+    /// of its list of layers. A file also has the layers that its version defines and the list
+    /// lacks, behind the others.
+    pub fn mien_document_layer_count(document: *const MienDocument, out_version: *mut u32, out_count: *mut u32, error: *mut MienError) -> MienStatus;
+
+    /// Returns layer `index` of the list, as `mien_dna_layer()`; `byte_offset` is
+    /// `MIEN_NO_OFFSET`. `out_bytes` gets the contents of a layer of an unknown kind, else
+    /// nothing. Contents change with `mien_document_clear_layers()`, `mien_document_undo()`: the
+    /// view is valid until the document is changed.
+    ///
+    /// Fails with `MIEN_ERROR_INDEX` if `index` is past the end.
+    pub fn mien_document_layer(document: *const MienDocument, index: u32, out_layer: *mut MienDnaLayer, out_bytes: *mut MienStringView, error: *mut MienError) -> MienStatus;
+
+    /// Makes the document a file of version 2.`version` and its list of layers empty: layers of
+    /// unknown kinds are gone, fields stay as they are. `mien_document_add_layer()` fills the list
+    /// again.
+    ///
+    /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if `version` is not 1 to 65535,
+    /// `MIEN_ERROR_MEMORY` if the allocator returns NULL.
+    pub fn mien_document_clear_layers(document: *mut MienDocument, version: u32, error: *mut MienError) -> MienStatus;
+
+    /// Appends a layer to the list: the layer of a known kind, without bytes, or `size` bytes of
+    /// an unknown kind, which are written to the file as they are. `code` has four characters,
+    /// such as "bhvr"; the layer is of version `version_major`.`version_minor`. `bytes` may be
+    /// NULL if `size` is 0.
+    ///
+    /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if `code` has another length, a version is above
+    /// 65535, the list has a layer of this code and version already, the kind is known and has
+    /// bytes, or a file of version 2.1 cannot have it, `MIEN_ERROR_MEMORY` if the allocator
+    /// returns NULL.
+    pub fn mien_document_add_layer(document: *mut MienDocument, code: *const c_char, version_major: u32, version_minor: u32, bytes: *const c_void, size: usize, error: *mut MienError) -> MienStatus;
+
     /// Remembers the current state, at the cost of some KB. Mark 0 always exists: the state in
     /// which the document was created. Changes before a mark keep their memory until the document
     /// is destroyed or an earlier mark is restored.
@@ -4796,33 +4828,37 @@ extern "C" {
     pub fn mien_document_undo(document: *mut MienDocument, mark: u64, error: *mut MienError) -> MienStatus;
 
     /// Finds the index of a name; of equal names, the first. `kind` is a `MIEN_KIND_...`: GUI,
-    /// raw, ML and RBF controls, joints, blend shape channels, animated maps, meshes.
+    /// raw, PSD ("psd0", "psd1", ...), ML and RBF controls, joints, blend shape channels, animated
+    /// maps, meshes.
     ///
     /// Fails with `MIEN_ERROR_NAME` if there is no such name, `MIEN_ERROR_INVALID_ARGUMENT` if the
     /// kind has no names in a document.
     pub fn mien_document_find(document: *const MienDocument, kind: u32, name: *const c_char, out_index: *mut u32, error: *mut MienError) -> MienStatus;
 
-    /// Renames element `index` of a kind of `mien_document_find()`.
+    /// Renames element `index` of a kind of `mien_document_find()` but PSD controls.
     ///
     /// Fails with `MIEN_ERROR_INDEX` if there is no such element, `MIEN_ERROR_INVALID_ARGUMENT` if
     /// another element of the kind has the name, or the kind has no names in a document,
     /// `MIEN_ERROR_MEMORY` if the allocator returns NULL.
     pub fn mien_document_rename(document: *mut MienDocument, kind: u32, index: u32, name: *const c_char, error: *mut MienError) -> MienStatus;
 
-    /// Removes joints, blend shape channels, animated maps or meshes, and everything that refers
-    /// to them: names, LOD lists, rows of tables, targets, regions of networks. `indices` has
-    /// `index_count` elements. Children of a joint go to its nearest ancestor that stays, or
-    /// become roots, and keep their neutral place in the world; motions that are relative to the
-    /// parent keep their numbers. The joint's skin weights go to the same ancestor, or to the
-    /// first joint that stays. Quaternion joints move as before within 1e-2 degrees; where the
-    /// columns of a joint group would rotate them in another order, each quaternion joint of the
-    /// group gets a joint group of its own.
+    /// Removes GUI, raw or PSD controls, joints, blend shape channels, animated maps or meshes,
+    /// and everything that refers to them: names, LOD lists, rows of tables, targets, regions of
+    /// networks. `indices` has `index_count` elements; PSD controls are numbered from 0. Children
+    /// of a joint go to its nearest ancestor that stays, or become roots, and keep their neutral
+    /// place in the world; motions that are relative to the parent keep their numbers. The joint's
+    /// skin weights go to the same ancestor, or to the first joint that stays. Quaternion joints
+    /// move as before within 1e-2 degrees; where the columns of a joint group would rotate them in
+    /// another order, each quaternion joint of the group gets a joint group of its own. A raw or
+    /// PSD control is removed as if it stayed 0: with it go its columns of joint groups, its rows
+    /// of channels and animated maps, PSD controls that are products of it, RBF solvers, twists
+    /// and swings that read it, and its inputs of networks.
     ///
     /// Fails with `MIEN_ERROR_INDEX` if an index is past the end, `MIEN_ERROR_INVALID_ARGUMENT` if
-    /// elements of the kind cannot be removed, or no joint would be left for the skin weights,
-    /// `MIEN_ERROR_DNA_STRUCTURE`, `MIEN_ERROR_DNA_REFERENCE`, `MIEN_ERROR_DNA_LIMIT` or
-    /// `MIEN_ERROR_DNA_VALUE` if the document is not valid, `MIEN_ERROR_MEMORY` if the allocator
-    /// returns NULL.
+    /// elements of the kind cannot be removed, ML operations gather or scatter a control, or no
+    /// joint would be left for the skin weights, `MIEN_ERROR_DNA_STRUCTURE`,
+    /// `MIEN_ERROR_DNA_REFERENCE`, `MIEN_ERROR_DNA_LIMIT` or `MIEN_ERROR_DNA_VALUE` if the
+    /// document is not valid, `MIEN_ERROR_MEMORY` if the allocator returns NULL.
     pub fn mien_document_remove(document: *mut MienDocument, kind: u32, indices: *const u32, index_count: usize, error: *mut MienError) -> MienStatus;
 
     /// Removes all blend shape channels with their targets, all animated maps, or, for

@@ -2592,6 +2592,20 @@ macro_rules! errors {
          - [`Status::NAME`](crate::Status::NAME) if there is no such field\n\
          - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator returns NULL"
     };
+    (mien_document_layer_count) => {
+        "- none with valid arguments"
+    };
+    (mien_document_layer) => {
+        "- [`Status::INDEX`](crate::Status::INDEX) if `index` is past the end"
+    };
+    (mien_document_clear_layers) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `version` is not 1 to 65535\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator returns NULL"
+    };
+    (mien_document_add_layer) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `code` has another length, a version is above 65535, the list has a layer of this code and version already, the kind is known and has bytes, or a file of version 2.1 cannot have it\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator returns NULL"
+    };
     (mien_document_mark) => {
         "- [`Status::MEMORY`](crate::Status::MEMORY) if the allocator returns NULL"
     };
@@ -2608,7 +2622,7 @@ macro_rules! errors {
          - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator returns NULL"
     };
     (mien_document_remove) => {
-        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if elements of the kind cannot be removed, or no joint would be left for the skin weights\n\
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if elements of the kind cannot be removed, ML operations gather or scatter a control, or no joint would be left for the skin weights\n\
          - [`Status::INDEX`](crate::Status::INDEX) if an index is past the end\n\
          - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator returns NULL\n\
          - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if the document is not valid\n\
@@ -2617,7 +2631,7 @@ macro_rules! errors {
          - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if the document is not valid"
     };
     (mien_document_clear) => {
-        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if elements of the kind cannot be removed, or no joint would be left for the skin weights\n\
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if elements of the kind cannot be removed, ML operations gather or scatter a control, or no joint would be left for the skin weights\n\
          - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator returns NULL\n\
          - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if the document is not valid\n\
          - [`Status::DNA_REFERENCE`](crate::Status::DNA_REFERENCE) if the document is not valid\n\
@@ -2625,7 +2639,7 @@ macro_rules! errors {
          - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if the document is not valid"
     };
     (mien_document_clear_joints) => {
-        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if elements of the kind cannot be removed, or no joint would be left for the skin weights\n\
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if elements of the kind cannot be removed, ML operations gather or scatter a control, or no joint would be left for the skin weights\n\
          - [`Status::INDEX`](crate::Status::INDEX) if an index is past the end\n\
          - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator returns NULL\n\
          - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if the document is not valid\n\

@@ -100,7 +100,7 @@ impl Report {
         })
     }
 
-    fn create(
+    pub(crate) fn create(
         allocator: Option<&Allocator>,
         call: impl FnOnce(
             *const sys::MienValidateDesc,
