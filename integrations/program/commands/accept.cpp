@@ -142,21 +142,20 @@ void run(const AcceptOptions& options, const Session& session) {
 Command add_accept_command(CLI::App& app, const Session& session) {
   auto options = std::make_shared<AcceptOptions>();
   CLI::App* command = app.add_subcommand(
-      "accept", "Check a real export: results, round trip, geometry, poses of an engine");
+      "accept", "Check an exported rig: results, round trip, geometry, poses of an engine");
   command->add_option("FILE", options->rig, "DNA file, or .uasset with one inside")
       ->type_name("")
       ->required();
   command
-      ->add_option("--poses", options->poses,
-                   "Joints baked out of an engine, as JSON, to compare with")
+      ->add_option("--poses", options->poses, "Joints baked in an engine, as JSON, to compare with")
       ->type_name("FILE");
   command
       ->add_option("--tolerance", options->tolerance,
-                   "How far a joint may be off, in the unit of the poses (default: 0.01)")
+                   "Largest distance of a joint, in the unit of the poses (default: 0.01)")
       ->type_name("LENGTH");
   command
       ->add_option("--rotation-tolerance", options->rotation_tolerance,
-                   "How far a joint may be turned, in degrees (default: 0.1)")
+                   "Largest rotation of a joint, in degrees (default: 0.1)")
       ->type_name("DEGREES");
   command
       ->add_option("--report", options->report.path,
@@ -164,14 +163,14 @@ Command add_accept_command(CLI::App& app, const Session& session) {
       ->type_name("FILE");
   command->add_flag("--force", options->report.force, "Replace a report that is read-only");
   command->add_flag("--names", options->names,
-                    "Let the report have the names of the file, the character and joints");
+                    "Include the names of the file, the character and joints in the report");
   command->footer(
-      "Checks that the file is valid and is written again byte by byte; that all LODs give the\n"
+      "Checks that the file is valid and is written back byte for byte; that all LODs give the\n"
       "results of a model in double precision, on each instruction set of this machine; that\n"
-      "each LOD opened alone and the baked rig give the same; that the meshes are deformed as\n"
-      "the model has it. The report also has counts, histograms and times, but no name and no\n"
-      "number of the character, so that it can be passed on. docs/engine-poses.md says how to\n"
-      "bake poses out of an engine. Exits with 0 if every check holds, 1 if one fails, 2 if the\n"
+      "each LOD opened alone and the baked rig give the same results; and that meshes are\n"
+      "deformed as by the model. The report also has counts, histograms and times, but no names\n"
+      "or numbers of the character, so that it can be shared. docs/engine-poses.md explains how\n"
+      "to bake poses in an engine. Exits with 0 if every check passes, 1 if one fails, 2 if the\n"
       "file is refused.\n\n"
       "Examples:\n"
       "  mien accept head.dna\n"

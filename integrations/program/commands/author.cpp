@@ -455,8 +455,8 @@ void settle_axes(AuthorCommand& command, const MeshFile& mesh, const Session& se
                   std::to_string(std::lround(std::abs(guess.turned_degrees))) +
                   " degrees about its axis " + std::string(1, "xyz"[guess.turned_about]) + ": " +
                   differ,
-              "turn it back where it was made, or rig it as it is with --up " + up_of(command) +
-                  " --front " + front_of(command));
+              "rotate it back in the program that made it, or rig it as it is with --up " +
+                  up_of(command) + " --front " + front_of(command));
   }
   const MeshStand& stand = guess.stand;
   if (stand.up.word() == given.up.word() && stand.front.word() == given.front.word()) return;
@@ -628,8 +628,8 @@ Command add_author_command(CLI::App& app, const Session& session) {
       ->type_name("PATH");
   author
       ->add_option("--preset", options->preset,
-                   "metahuman: names of joints and controls as MetaHuman heads have\n"
-                   "them, where they have a counterpart, so that their animation plays")
+                   "metahuman: name joints and controls as in MetaHuman heads where\n"
+                   "they have a counterpart, so that their animation plays")
       ->type_name("NAME");
   author
       ->add_option("--names", options->names,
@@ -639,7 +639,7 @@ Command add_author_command(CLI::App& app, const Session& session) {
   author->add_option("--joints", options->joints, "Facial joints (default: 240)")->type_name("N");
   author
       ->add_option("--influences", options->influences,
-                   "Joints that move a vertex at most: 1 to 12 (default: 8)")
+                   "Largest number of joints per vertex: 1 to 12 (default: 8)")
       ->type_name("N");
   author->add_option("--lods", options->lods, "Levels of detail: 1 to 8 (default: 8)")
       ->type_name("N");
@@ -648,17 +648,17 @@ Command add_author_command(CLI::App& app, const Session& session) {
                    "Share of the triangles that each LOD keeps of the one\nbefore; 1 keeps all "
                    "(default: 0.5)")
       ->type_name("SHARE");
-  author->add_option("--seed", options->seed, "Of the search for joints (default: 1)")
+  author->add_option("--seed", options->seed, "Seed of the search for joints (default: 1)")
       ->type_name("N");
   author->add_option("--symmetry", options->symmetry, "Mirror joints: auto (default), on or off")
       ->type_name("NAME");
   author
       ->add_option("--residual", options->residual,
-                   "What joints cannot do: targets (default), or off to leave it out")
+                   "Motion beyond that of the joints: targets (default), or off to leave it out")
       ->type_name("NAME");
   author
       ->add_option("--overlap-correctives", options->overlaps,
-                   "Correctives for pairs of shapes that double their motion,\nat most as many "
+                   "Largest number of correctives for pairs of shapes that double\ntheir motion "
                    "(default: 0)")
       ->type_name("N");
   author->add_flag("--paper", options->paper,
@@ -666,44 +666,48 @@ Command add_author_command(CLI::App& app, const Session& session) {
   author
       ->add_option(
           "--unit", options->unit,
-          "Of MESH: cm, m, mm, dm or in (default: m for GLB, else by\nthe size of the head)")
+          "Unit of MESH: cm, m, mm, dm or in (default: m for GLB, else by\nthe size of the head)")
       ->type_name("NAME");
   author
       ->add_option("--up", options->up,
-                   "Axis to the top of the head (default: y, or as the mesh\nstands)")
+                   "Axis to the top of the head (default: y, or found by the shape\nof the mesh)")
       ->type_name("AXIS");
   author
       ->add_option("--front", options->front,
-                   "Axis out of the face (default: z, or as the mesh stands)")
+                   "Axis out of the face (default: z, or found likewise)")
       ->type_name("AXIS");
   author->add_option("--face-object", options->object, "Object with the face (default: found)")
       ->type_name("NAME");
   author
       ->add_option("--objects", options->objects,
-                   "Keep these objects only: names with commas between")
+                   "Keep only these objects: names, separated by commas")
       ->type_name("NAMES");
   author
       ->add_option("--groups", options->groups,
-                   "Groups in depth, the front one is the face (default: 3)")
+                   "Number of groups in depth; the front one is the face (default: 3)")
       ->type_name("N");
   author
       ->add_option("--metric", options->metric,
-                   "What groups are near in: depth (default), or euclid3 to\ncompare with")
+                   "Distance between groups: depth (default), or euclid3 for\ncomparison")
       ->type_name("NAME");
   author->add_flag("--no-neck-cut", options->no_neck_cut, "Leave the neck in the face mask");
   author->add_flag("--mask-from-shapes", options->mask_from_shapes,
-                   "The face mask is what shapes move: for what is not human");
+                   "Use the parts that shapes move as face mask: for heads that are not human");
   author->add_flag("--area-density", options->area_density,
-                   "Vertices count by the area around them: for scans");
+                   "Weight vertices by the area around them: for scans");
   author
       ->add_option(
           "--crop", options->crop,
-          "Keep the faces within X0,X1,Y0,Y1,Z0,Z1, in the unit and\naxes of MESH; nothing "
-          "where there is no limit:\n-1,1,5,,,")
+          "Keep the faces within X0,X1,Y0,Y1,Z0,Z1, in the unit and\naxes of MESH; leave out "
+          "numbers for no limit:\n-1,1,5,,,")
       ->type_name("BOX");
-  author->add_option("--threads", options->threads, "0 (default): as many as the machine has")
+  author
+      ->add_option("--threads", options->threads,
+                   "Number of threads; 0 (default): as many as the machine has")
       ->type_name("N");
-  author->add_option("--report", options->report, "Write what was found and measured as JSON")
+  author
+      ->add_option("--report", options->report,
+                   "Write a report of findings and measurements as JSON")
       ->type_name("R.json");
   author
       ->add_option(

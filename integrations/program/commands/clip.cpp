@@ -565,9 +565,9 @@ Command add_clip_command(CLI::App& app, const Session& session) {
   build_app
       ->add_option(
           "--close", build->closures,
-          "Events that close something for as many seconds as their value\nis, with commas "
-          "between: m,b,p=lips, f,v=lip-to-teeth, s,z=teeth.\nGuards hold on to that in "
-          "layers of speech. Can be repeated")
+          "Make events with these names closures of lips, lip-to-teeth or\nteeth, as many seconds "
+          "long as their value: m,b,p=lips,\nf,v=lip-to-teeth, s,z=teeth. In speech layers, "
+          "guards keep them\nclosed. May be repeated")
       ->type_name("NAMES=WHAT")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

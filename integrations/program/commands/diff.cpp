@@ -50,8 +50,8 @@ Command add_diff_command(CLI::App& app, const Session& session) {
   diff->footer(
       "Prints names that were added, removed or renamed; fields that differ, with the largest\n"
       "difference of their numbers; and each raw control that, at 1, moves joints or drives blend\n"
-      "shapes and animated maps differently at LOD 0. Of lists of other lengths only the lengths\n"
-      "are compared. Prints nothing if all fields are the same.\n\n"
+      "shapes and animated maps differently at LOD 0. Of lists of different lengths, only the\n"
+      "lengths are compared. Prints nothing if all fields are the same.\n\n"
       "Examples:\n"
       "  mien diff before.dna after.dna\n"
       "  mien diff before.dna after.dna --layers definition,behavior --json");

@@ -40,13 +40,13 @@ void add_glb_options(CLI::App& command, GlbOptions& options, const std::string& 
   command
       .add_option("--influences", options.influences,
                   "Joints per vertex: 4 (default), 8 or 12. Where the rig has more, weights are\n"
-                  "fitted to its expressions; the loss is printed")
+                  "fitted to its expressions; the error is printed")
       ->type_name("N")
       ->group(group);
   CLI::Option* exact =
       command
           .add_flag("--exact", options.exact,
-                    "Also moves too small to be seen; weights and texture coordinates as floats")
+                    "Keep motion too small to see; weights and texture coordinates as floats")
           ->group(group);
   command
       .add_flag("--quantize", options.quantize,

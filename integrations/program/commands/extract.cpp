@@ -128,7 +128,7 @@ void run(const ExtractOptions& options, const Session& session) {
 Command add_extract_command(CLI::App& app, const Session& session) {
   auto options = std::make_shared<ExtractOptions>();
   CLI::App* extract =
-      app.add_subcommand("extract", "Take DNA files out of other files, such as .uasset");
+      app.add_subcommand("extract", "Extract DNA files from other files, such as .uasset");
   extract->add_option("FILE", options->input, "Any file; - reads standard input")
       ->type_name("")
       ->required();
@@ -138,10 +138,10 @@ Command add_extract_command(CLI::App& app, const Session& session) {
   extract->add_flag("--list", options->list, "List the streams: offset, size, version, name");
   extract->add_flag("--json", options->json, "List them as JSON");
   extract->footer(
-      "A DNA file inside another file is found by its own structure, so that any format will do,\n"
-      "if the DNA is stored in one piece and uncompressed: assets (.uasset, .uexp, .ubulk) and\n"
-      "archives (.pak) without compression. What is written is the stream, byte for byte.\n"
-      "Commands that take a DNA file take a file with one such stream in it, too.\n\n"
+      "Finds a DNA file inside another file by its own structure, so any format works if the DNA\n"
+      "is stored in one piece and uncompressed: assets (.uasset, .uexp, .ubulk) and archives\n"
+      "(.pak) without compression. Writes the stream byte for byte. Commands that take a DNA file\n"
+      "also take a file that contains one such stream.\n\n"
       "Examples:\n"
       "  mien extract Ada_FaceMesh_DNA.uasset --list\n"
       "  mien extract Ada_FaceMesh_DNA.uasset -o ada.dna\n"

@@ -43,7 +43,7 @@ float finite_number(const Json& value, const std::string& path, size_t row) {
   const bool is_number = value.is_number();
   const float number = is_number ? value.get<float>() : 0;
   if (is_number && std::isfinite(number)) return number;
-  fail_array(path, "row " + std::to_string(row), "holds something that is not a number of a float",
+  fail_array(path, "row " + std::to_string(row), "holds a value that is not a finite float",
              "give finite numbers");
 }
 

@@ -172,8 +172,8 @@ void MatchedNames::note_matched(const std::string& shown, const Session& session
   for (const auto& [name, meaning] : matched_) {
     text += (text.empty() ? "" : "; ") + one_line(name) + " is " + meaning;
   }
-  note(session,
-       shown + ": " + std::to_string(matched_.size()) + " names are others on this rig: " + text);
+  note(session, shown + ": " + std::to_string(matched_.size()) +
+                    " names stand for other controls of this rig: " + text);
 }
 
 }  // namespace mien::cli
