@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Evaluation by instruction set, LOD and share of active controls, with controls that stay and with frames
-// that have nothing in common ("changing"); stages by themselves; and yardsticks, so that numbers of two
+// that have nothing in common ("changing"); stages by themselves; and references, so that numbers of two
 // machines compare: the joint matrix in compressed rows, and RBF solvers as anyone would write them. For the
 // stages of a body, or of a head with networks:
 //

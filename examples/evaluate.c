@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* evaluate [FILE.dna [CONTROL]]: turns a control up and tells which joint moves or turns most. */
+/* evaluate [FILE.dna [CONTROL]]: raises a control and prints the joint that moves or turns most. */
 int main(int argc, char** argv) {
   const char* control = argc > 2 ? argv[2] : "CTRL_expressions.jawOpen";
   MienGenerateDesc large = {.struct_size = sizeof large, .preset = MIEN_PRESET_LARGE};

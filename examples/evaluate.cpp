@@ -5,7 +5,7 @@
 #include <cstring>
 #include <mien_author.hpp>
 
-/* evaluate [FILE.dna [CONTROL]]: turns a control up and tells which joint moves or turns most. */
+/* evaluate [FILE.dna [CONTROL]]: raises a control and prints the joint that moves or turns most. */
 int main(int argc, char** argv) try {
   const char* control = argc > 2 ? argv[2] : "CTRL_expressions.jawOpen";
   mien::GenerateDesc large;

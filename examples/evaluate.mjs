@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// evaluate.mjs [FILE.dna [CONTROL]]: turns a control up and tells which joint moves or turns most.
+// evaluate.mjs [FILE.dna [CONTROL]]: raises a control and prints the joint that moves or turns most.
 import { Kind, Mien, Preset } from "mien";
 
 const [file, control = "CTRL_expressions.jawOpen"] = process.argv.slice(2);

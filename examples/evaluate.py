@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""evaluate.py [FILE.dna [CONTROL]]: turns a control up and tells which joint moves or turns most."""
+"""evaluate.py [FILE.dna [CONTROL]]: raises a control and prints the joint that moves or turns most."""
 import sys
 
 import mien

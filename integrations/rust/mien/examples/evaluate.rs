@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-//! evaluate [FILE.dna [CONTROL]]: turns a control up and tells which joint moves or turns most.
+//! evaluate [FILE.dna [CONTROL]]: raises a control and prints the joint that moves or turns most.
 use mien::{Dna, Kind, Preset, Rig};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
