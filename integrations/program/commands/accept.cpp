@@ -151,11 +151,11 @@ Command add_accept_command(CLI::App& app, const Session& session) {
       ->type_name("FILE");
   command
       ->add_option("--tolerance", options->tolerance,
-                   "Largest distance of a joint, in the unit of the poses (default: 0.01)")
+                   "Allowed distance of a joint, in the unit of the poses (default: 0.01)")
       ->type_name("LENGTH");
   command
       ->add_option("--rotation-tolerance", options->rotation_tolerance,
-                   "Largest rotation of a joint, in degrees (default: 0.1)")
+                   "Allowed rotation error of a joint, in degrees (default: 0.1)")
       ->type_name("DEGREES");
   command
       ->add_option("--report", options->report.path,
