@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Baked files. mien.h is the manual.
+// mien/baked.h.
 #include "capi/handles.h"
 #include "runtime/baked/baked_objects.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The library itself: version, statuses, instruction sets; named coordinate systems. mien.h is the manual.
+// mien/base.h.
 #include "capi/handles.h"
 #include "runtime/base/coordinate_system.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Clips, their players and bindings. mien.h is the manual.
+// The section "Clips" of mien/clip.h.
 #include <cstdio>
 
 #include "capi/handles.h"
@@ -21,8 +21,6 @@ static_assert(MIEN_TICKS_PER_SECOND == kTicksPerSecond, "one unit of time");
 
 namespace {
 
-Span<const char> text(const MienStringView& view) { return {view.data, view.count}; }
-
 /// The caller's lists in the form of the builder, in the arena. False if memory ran out.
 bool read_lists(const MienClipDesc& desc, Arena& arena, ClipDesc& out) {
   const auto names = arena.array<Span<const char>>(desc.channel_count);
@@ -34,11 +32,11 @@ bool read_lists(const MienClipDesc& desc, Arena& arena, ClipDesc& out) {
     return false;
   }
   for (uint32_t c = 0; c < desc.channel_count; ++c) {
-    names[c] = text(desc.names[c]);
+    names[c] = span_of(desc.names[c]);
     snaps[c] = snap_of_step(desc.snaps ? desc.snaps[c] : desc.snap);
   }
   for (uint32_t e = 0; e < desc.event_count; ++e) {
-    event_names[e] = text(desc.events[e].name);
+    event_names[e] = span_of(desc.events[e].name);
     events[e] = {desc.events[e].tick, 0, desc.events[e].value};
   }
   out.names = names;
@@ -204,16 +202,6 @@ MienStatus mien_clip_write_memory(const MienClip* clip, void* buffer, size_t cap
 
 // Looking into it ---------------------------------------------------------------------------------
 
-namespace {
-
-MienStringView view_of(Span<const char> name) { return {name.data, name.count}; }
-
-MienClipEvent event_of(const ClipEvent& event) {
-  return {event.tick, view_of(event.name), event.value, 0};
-}
-
-}  // namespace
-
 MienStatus mien_clip_info(const MienClip* clip, MienClipInfo* out_info) {
   if (MienStatus status = clear_struct(out_info)) return status;
   if (MienStatus status = check(clip)) return status;
@@ -286,7 +274,7 @@ MienStatus mien_clip_event(const MienClip* clip, uint32_t index, MienClipEvent* 
   if (MienStatus status = check(clip)) return status;
   const Clip& of = object(clip)->view;
   if (index >= of.event_count) return MIEN_ERROR_INDEX;
-  *out_event = event_of(of.event(index));
+  *out_event = view_of(of.event(index));
   return MIEN_OK;
 }
 
@@ -318,201 +306,4 @@ MienStatus mien_clip_read(const MienClip* clip, uint32_t first_frame, uint32_t f
   if (read_frames(of, first_frame, frame_count, out_values, stride)) return succeed(error);
   return give_error(error, MIEN_ERROR_CLIP_STRUCTURE,
                     "a curve is damaged; fetch the of again or build it again");
-}
-
-// Player ------------------------------------------------------------------------------------------
-
-MienStatus mien_clip_player_create(const MienClip* clip, const MienClipPlayerDesc* desc,
-                                   MienClipPlayer** out_clip_player, MienError* error) {
-  if (MienStatus status = clear_output(out_clip_player, error)) return status;
-  if (MienStatus status = check(clip, "clip", error)) return status;
-  MienClipPlayerDesc known;
-  if (MienStatus status = read_desc(desc, known, "MienClipPlayerDesc", error)) return status;
-  Allocator allocator;
-  if (MienStatus status = read_allocator(known.allocator, allocator, error)) return status;
-  const MienStatus in_range = check_fields(
-      {{"MienClipPlayerDesc.looping", known.looping, MIEN_LOOPING_WRAP},
-       {"MienClipPlayerDesc.interpolation", known.interpolation, MIEN_INTERPOLATION_CATMULL_ROM},
-       {"MienClipPlayerDesc.reserved", known.reserved, 0}},
-      error);
-  if (in_range != MIEN_OK) return in_range;
-  PlayDesc play;
-  play.start_tick = known.start_tick;
-  const bool has_speed = known.speed_numerator != 0 || known.speed_denominator != 0;
-  play.speed_numerator = has_speed ? known.speed_numerator : 1;
-  play.speed_denominator = has_speed ? known.speed_denominator : 1;
-  play.interpolation = static_cast<Interpolation>(known.interpolation);
-  constexpr Looping kLoopings[] = {Looping::kAsClip, Looping::kOnce, Looping::kLoop};
-  play.looping = kLoopings[known.looping];
-
-  ClipPlayer* player = nullptr;
-  Error detail;
-  const Status status =
-      create_clip_player(*object(clip), play, known.reverse != 0, allocator, player, detail);
-  return give_object(status, player, detail, out_clip_player, error);
-}
-
-void mien_clip_player_destroy(MienClipPlayer* clip_player) { destroy(clip_player); }
-
-MienStatus mien_clip_player_info(const MienClipPlayer* clip_player, MienClipPlayerInfo* out_info) {
-  if (MienStatus status = clear_struct(out_info)) return status;
-  if (MienStatus status = check(clip_player)) return status;
-  const ClipSampler& sampler = object(clip_player)->sampler;
-  MienClipPlayerInfo info = {};
-  info.tick = sampler.tick;
-  info.loops = sampler.loops;
-  info.looping = sampler.wraps ? MIEN_LOOPING_WRAP : MIEN_LOOPING_CLAMP;
-  info.is_damaged = sampler.decoder.damaged;
-  write_struct(out_info, info);
-  return MIEN_OK;
-}
-
-MienStatus mien_clip_player_seek(MienClipPlayer* clip_player, int64_t tick) {
-  if (MienStatus status = check(clip_player)) return status;
-  seek_clip(object(clip_player)->sampler, tick);
-  object(clip_player)->events = {};
-  return MIEN_OK;
-}
-
-MienStatus mien_clip_player_set_speed(MienClipPlayer* clip_player, int32_t numerator,
-                                      int32_t denominator) {
-  if (MienStatus status = check(clip_player)) return status;
-  Error detail;
-  const Status status =
-      set_clip_speed(object(clip_player)->sampler, numerator, denominator, detail);
-  return status == Status::kOk ? MIEN_OK : MIEN_ERROR_INVALID_ARGUMENT;
-}
-
-MienStatus mien_clip_player_advance(MienClipPlayer* clip_player, int64_t ticks) {
-  if (MienStatus status = check(clip_player)) return status;
-  if (ticks < -kMaxStepTicks || ticks > kMaxStepTicks) return MIEN_ERROR_INVALID_ARGUMENT;
-  object(clip_player)->events = advance_clip(object(clip_player)->sampler, ticks);
-  return MIEN_OK;
-}
-
-MienStatus mien_clip_player_next_event(MienClipPlayer* clip_player, MienClipEvent* out_event,
-                                       uint32_t* out_found) {
-  if (out_event) *out_event = {};
-  if (out_found) *out_found = 0;
-  if (!out_event || !out_found) return MIEN_ERROR_NULL_ARGUMENT;
-  if (MienStatus status = check(clip_player)) return status;
-  ClipEvent event = {};
-  EventRange& events = object(clip_player)->events;
-  if (!events.clip || !next_event(events, event)) return MIEN_OK;
-  *out_event = event_of(event);
-  *out_found = 1;
-  return MIEN_OK;
-}
-
-MienStatus mien_clip_player_sample(MienClipPlayer* clip_player, MienFloatView* out_values) {
-  if (!out_values) return MIEN_ERROR_NULL_ARGUMENT;
-  *out_values = {};
-  if (MienStatus status = check(clip_player)) return status;
-  const Span<const float> values = sample_clip(object(clip_player)->sampler);
-  *out_values = {values.data, values.count};
-  return MIEN_OK;
-}
-
-// Binding -----------------------------------------------------------------------------------------
-
-namespace {
-
-MienIndex16View view_of(Span<const uint16_t> list) { return {list.data, list.count}; }
-
-}  // namespace
-
-MienStatus mien_clip_binding_create(const MienClip* clip, const MienRig* rig,
-                                    const MienClipBindingDesc* desc,
-                                    MienClipBinding** out_clip_binding, MienError* error) {
-  if (MienStatus status = clear_output(out_clip_binding, error)) return status;
-  if (MienStatus status = check(clip, "clip", error)) return status;
-  if (MienStatus status = check(rig, "rig", error)) return status;
-  MienClipBindingDesc known;
-  if (MienStatus status = read_desc(desc, known, "MienClipBindingDesc", error)) return status;
-  Allocator allocator;
-  if (MienStatus status = read_allocator(known.allocator, allocator, error)) return status;
-  if (!known.matrix && known.matrix_count != 0) {
-    return give_error(error, MIEN_ERROR_NULL_ARGUMENT,
-                      "MienClipBindingDesc.matrix is NULL, but .matrix_count is %zu",
-                      known.matrix_count);
-  }
-  if (known.matrix_count > UINT32_MAX / 2) {
-    return give_error(error, MIEN_ERROR_CLIP_LIMIT,
-                      "MienClipBindingDesc.matrix_count is %zu; at most %u are supported",
-                      known.matrix_count, UINT32_MAX / 2);
-  }
-  for (size_t e = 0; e < known.matrix_count; ++e) {
-    const MienMatrixEntry& entry = known.matrix[e];
-    if ((entry.channel.data || entry.channel.count == 0) &&
-        (entry.control.data || entry.control.count == 0)) {
-      continue;
-    }
-    return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "entry %zu of the matrix: a name is NULL",
-                      e);
-  }
-  Arena arena(allocator);
-  const Span<MatrixEntry> matrix = arena.array<MatrixEntry>(known.matrix_count);
-  if (matrix.count != known.matrix_count) {
-    return give_error(error, MIEN_ERROR_MEMORY, "no memory to bind a clip");
-  }
-  for (size_t e = 0; e < matrix.count; ++e) {
-    const MienMatrixEntry& entry = known.matrix[e];
-    matrix[e] = {text(entry.channel), text(entry.control), entry.weight};
-  }
-  Binding* made = nullptr;
-  Error detail;
-  const Status status =
-      bind_clip(object(clip)->view, *object(rig), matrix, allocator, made, detail);
-  return give_object(status, made, detail, out_clip_binding, error);
-}
-
-MienStatus mien_arkit_matrix(MienMatrixEntry* out_entries, size_t capacity, size_t* out_count) {
-  if (!out_count) return MIEN_ERROR_NULL_ARGUMENT;
-  *out_count = 0;
-  if (!out_entries && capacity != 0) return MIEN_ERROR_NULL_ARGUMENT;
-  const Span<const ArkitEntry> table = arkit_table();
-  *out_count = table.count;
-  for (size_t i = 0; i < table.count && i < capacity; ++i) {
-    const ArkitEntry& from = table[i];
-    out_entries[i] = {{from.expression, strlen(from.expression)},
-                      {from.control, strlen(from.control)},
-                      from.weight,
-                      0};
-  }
-  return MIEN_OK;
-}
-
-void mien_clip_binding_destroy(MienClipBinding* clip_binding) { destroy(clip_binding); }
-
-MienStatus mien_clip_binding_info(const MienClipBinding* clip_binding,
-                                  MienClipBindingInfo* out_info) {
-  if (MienStatus status = clear_struct(out_info)) return status;
-  if (MienStatus status = check(clip_binding)) return status;
-  const Binding& binding = *object(clip_binding);
-  MienClipBindingInfo info = {};
-  info.channel_count = binding.channel_count;
-  info.raw_control_count = binding.raw_count;
-  info.missing_entry_count = binding.missing_entries;
-  info.controls = view_of(binding.controls);
-  info.extra_controls = view_of(binding.extra_controls);
-  info.missing_channels = view_of(binding.missing_channels);
-  write_struct(out_info, info);
-  return MIEN_OK;
-}
-
-MienStatus mien_clip_binding_apply(const MienClipBinding* clip_binding, const float* values,
-                                   size_t value_count, float* raw_controls,
-                                   size_t raw_control_count) {
-  if (MienStatus status = check(clip_binding)) return status;
-  const Binding& binding = *object(clip_binding);
-  if ((!values && value_count != 0) || (!raw_controls && raw_control_count != 0)) {
-    return MIEN_ERROR_NULL_ARGUMENT;
-  }
-  if (value_count != binding.channel_count || raw_control_count != binding.raw_count) {
-    return MIEN_ERROR_INVALID_ARGUMENT;
-  }
-  float gui[kMaxBoundGuiControls];
-  apply_binding(binding, {values, value_count}, {gui, kMaxBoundGuiControls},
-                {raw_controls, raw_control_count});
-  return MIEN_OK;
 }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Deformers and deformer instances. mien.h is the manual.
+// mien/deform.h, except mien_deformer_create().
 #include "runtime/deform/deform.h"
-
-#include <algorithm>
 
 #include "capi/handles.h"
 #include "simd/kernels.h"
@@ -16,14 +14,6 @@ static_assert(MIEN_NORMALS_RECOMPUTED == int(Normals::kRecomputed) &&
                   MIEN_VERTEX_FORMAT_SNORM16X4 == int(VertexFormat::kSnorm16x4) &&
                   MIEN_VERTEX_FORMAT_SNORM10_10_10_2 == int(VertexFormat::kSnorm10_10_10_2),
               "mien.h numbers these as the runtime does");
-
-namespace {
-
-MienIndex16View view_of(const Span<uint16_t>& span) { return {span.data, span.count}; }
-MienIndex32View view_of(const Span<uint32_t>& span) { return {span.data, span.count}; }
-MienFloatView view_of(const Span<float>& span) { return {span.data, span.count}; }
-
-}  // namespace
 
 // Deformer ----------------------------------------------------------------------------------------
 
@@ -252,7 +242,6 @@ MienStatus read_outputs(const DeformBatch& batch, uint32_t mesh, const MienVerte
   const uint32_t vertex_count = batch.deformer->meshes[mesh].vertex_count;
   const size_t struct_size = outputs->struct_size;
   if (struct_size % alignof(MienVertexOutput) != 0) return MIEN_ERROR_STRUCT_SIZE;
-  uintptr_t end = 0;
   for (size_t i = 0; i < batch.instances.count; ++i) {
     const void* at = reinterpret_cast<const uint8_t*>(outputs) + i * struct_size;
     const MienVertexOutput* given = static_cast<const MienVertexOutput*>(at);
@@ -265,18 +254,8 @@ MienStatus read_outputs(const DeformBatch& batch, uint32_t mesh, const MienVerte
         (output.tangents.data && !batch.deformer->has_tangents)) {
       return MIEN_ERROR_INVALID_ARGUMENT;
     }
-    // Outputs at ascending addresses cannot overlap; only others are compared in pairs.
-    const VertexOutputRange range = range_of(output, vertex_count);
-    if (range.begin < end) {
-      for (size_t k = 0; k < i; ++k) {
-        if (overlap(output, batch.instances[k]->output, vertex_count)) {
-          return MIEN_ERROR_INVALID_ARGUMENT;
-        }
-      }
-    }
-    end = std::max(end, range.end);
   }
-  return MIEN_OK;
+  return outputs_overlap(batch.instances, vertex_count) ? MIEN_ERROR_INVALID_ARGUMENT : MIEN_OK;
 }
 
 }  // namespace

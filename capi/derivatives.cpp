@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Derivatives of rigs.
+// mien/derivatives.h.
 #include "runtime/derive/derivatives.h"
 
 #include "capi/handles.h"
@@ -40,14 +40,23 @@ MienStatus check_way(const MienDerivatives* handle, uint32_t from, uint32_t to, 
   return d.linearized ? MIEN_OK : MIEN_ERROR_INVALID_ARGUMENT;
 }
 
-/// The arguments of both products: rows of a point without numbers may be NULL.
-MienStatus check_rows(const MienDerivatives* handle, uint32_t from, uint32_t to, uint32_t mesh,
-                      uint32_t count, const float* at_from, const float* at_to) {
+/// push() or pull(), from rows at the point `at` to rows at the point `result`. Rows of a point without
+/// numbers may be NULL.
+struct ProductRows {
+  uint32_t at, result;
+  const float* rows;
+  float* results;
+};
+MienStatus multiply(decltype(push)& product, MienDerivatives* handle, uint32_t from, uint32_t to,
+                    uint32_t mesh, uint32_t count, const ProductRows& p) {
   if (MienStatus status = check_way(handle, from, to, mesh)) return status;
+  Derivatives& d = *object(handle);
   const auto lacks = [&](const float* rows, uint32_t point) {
-    return !rows && count != 0 && point_size(*object(handle), static_cast<Point>(point), mesh) != 0;
+    return !rows && count != 0 && point_size(d, static_cast<Point>(point), mesh) != 0;
   };
-  return lacks(at_from, from) || lacks(at_to, to) ? MIEN_ERROR_NULL_ARGUMENT : MIEN_OK;
+  if (lacks(p.rows, p.at) || lacks(p.results, p.result)) return MIEN_ERROR_NULL_ARGUMENT;
+  product(d, static_cast<Point>(from), static_cast<Point>(to), mesh, count, p.rows, p.results);
+  return MIEN_OK;
 }
 
 /// Whether a list of numbers is within a point, and ascending if it must be.
@@ -117,23 +126,13 @@ MienStatus mien_derivatives_linearize(MienDerivatives* derivatives, const MienIn
 MienStatus mien_derivatives_forward(MienDerivatives* derivatives, uint32_t from, uint32_t to,
                                     uint32_t mesh, uint32_t count, const float* directions,
                                     float* outputs) {
-  if (MienStatus status = check_rows(derivatives, from, to, mesh, count, directions, outputs)) {
-    return status;
-  }
-  push(*object(derivatives), static_cast<Point>(from), static_cast<Point>(to), mesh, count,
-       directions, outputs);
-  return MIEN_OK;
+  return multiply(push, derivatives, from, to, mesh, count, {from, to, directions, outputs});
 }
 
 MienStatus mien_derivatives_reverse(MienDerivatives* derivatives, uint32_t from, uint32_t to,
                                     uint32_t mesh, uint32_t count, const float* gradients,
                                     float* outputs) {
-  if (MienStatus status = check_rows(derivatives, from, to, mesh, count, outputs, gradients)) {
-    return status;
-  }
-  pull(*object(derivatives), static_cast<Point>(from), static_cast<Point>(to), mesh, count,
-       gradients, outputs);
-  return MIEN_OK;
+  return multiply(pull, derivatives, from, to, mesh, count, {to, from, gradients, outputs});
 }
 
 MienStatus mien_derivatives_jacobian(MienDerivatives* derivatives, uint32_t from, uint32_t to,

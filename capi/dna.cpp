@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// DNA files: opening, looking into them, writing. mien.h is the manual.
+// mien/dna.h, except the section "DNA: validating".
 #include "capi/arguments/fields.h"
 #include "capi/arguments/systems.h"
 #include "capi/dna_handle.h"

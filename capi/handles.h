@@ -71,11 +71,7 @@ auto* object(Handle* handle) {
 
 template <class Handle>
 MienStatus check(const Handle* handle) {
-  if (!handle) return MIEN_ERROR_NULL_ARGUMENT;
-  if (reinterpret_cast<uintptr_t>(handle) % alignof(uint32_t) != 0) return MIEN_ERROR_HANDLE;
-  uint32_t found;
-  memcpy(&found, static_cast<const void*>(handle), sizeof(found));
-  return found == ObjectOf<Handle>::type::kTag ? MIEN_OK : MIEN_ERROR_HANDLE;
+  return check_tag(handle, ObjectOf<Handle>::type::kTag);
 }
 
 /// The same for calls that report errors; `name` is that of the parameter.
@@ -85,6 +81,17 @@ MienStatus check(const Handle* handle, const char* name, MienError* error) {
   if (status == MIEN_OK) return MIEN_OK;
   if (!handle) return give_error(error, status, "%s is NULL", name);
   return give_error(error, status, "%s is a handle of another kind, or none", name);
+}
+
+inline Span<const char> span_of(const MienStringView& view) { return {view.data, view.count}; }
+
+inline MienStringView view_of(Span<const char> name) { return {name.data, name.count}; }
+inline MienIndex16View view_of(Span<const uint16_t> list) { return {list.data, list.count}; }
+inline MienIndex32View view_of(Span<const uint32_t> list) { return {list.data, list.count}; }
+inline MienFloatView view_of(Span<const float> list) { return {list.data, list.count}; }
+
+inline MienClipEvent view_of(const ClipEvent& event) {
+  return {event.tick, view_of(event.name), event.value, 0};
 }
 
 /// The kernels of a MIEN_ISA_...; null with an error if there are none.

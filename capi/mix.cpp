@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Mixes and mixers. mien.h is the manual.
-#include <cstring>
-
+// The section "Mix" of mien/mix.h; mix_file.cpp and mix_probe.cpp have its files and measurements.
 #include "capi/handles.h"
+#include "runtime/mix/mix_fields.h"
 #include "runtime/probe/probe_guards.h"
 
 using namespace mien;
@@ -15,9 +14,33 @@ static_assert(MIEN_LAYER_GROUP_LIFE == int(LayerGroup::kLife) &&
                   MIEN_RETRIGGER_IGNORE == int(Retrigger::kIgnore),
               "mix.h and mien.h number the same choices");
 
-// Mix ---------------------------------------------------------------------------------------------
-
 namespace {
+
+/// Takes the numbers of a caller's struct. Choices that do not exist become one past the last, which
+/// create_mix() refuses.
+struct TakeFields : SkipsLists {
+  template <class T, class From>
+  void value(Field, const Limits& limits, T& to, From from) {
+    const bool left_out = limits.default_value != 0 && from == 0;
+    to = left_out ? static_cast<T>(limits.default_value) : static_cast<T>(from);
+  }
+  template <class T, size_t N>
+  void choice(Field, const char* const (&)[N], T& to, uint32_t from) {
+    to = static_cast<T>(from < N ? from : N);
+  }
+};
+
+/// Gives numbers back.
+struct GiveFields : SkipsLists {
+  template <class T, class To>
+  void value(Field, const Limits&, T from, To& to) {
+    to = static_cast<To>(from);
+  }
+  template <class T, class Names>
+  void choice(Field, const Names&, T from, uint32_t& to) {
+    to = static_cast<uint32_t>(from);
+  }
+};
 
 /// The caller's lists in the form of the mix, in memory that lasts for the call.
 struct MixLists {
@@ -41,60 +64,37 @@ struct MixLists {
   }
 
   void fill(const MienMixDesc& desc) {
+    TakeFields take;
     for (size_t i = 0; i < desc.layer_count; ++i) {
       const MienMixLayer& from = desc.layers[i];
-      LayerDesc& to = layers[i];
-      to.group = static_cast<LayerGroup>(from.group);
-      to.mode = static_cast<BlendMode>(from.mode);
-      to.source = static_cast<LayerSource>(from.source);
-      to.flags = from.after_guards != 0 ? uint32_t{kLayerAfterGuards} : 0;
-      to.weight = from.weight;
-      to.mask = {from.mask, from.mask ? from.mask_count : 0};
-      to.first_pose = from.first_pose;
-      to.pose_count = from.pose_count;
-      to.curves = {from.curves, from.curve_count};
-      to.amounts = {from.amounts, from.amounts ? from.curve_count : 0};
-      to.generator = static_cast<Generator>(from.generator);
-      to.period = from.period;
-      to.delay = from.delay;
-      to.stream_frames = from.stream_frames != 0 ? from.stream_frames : 64;
+      visit_fields(take, layers[i], from);
+      layers[i].after_guards = from.after_guards != 0;
+      layers[i].mask = {from.mask, from.mask ? from.mask_count : 0};
+      layers[i].curves = {from.curves, from.curve_count};
+      layers[i].amounts = {from.amounts, from.amounts ? from.curve_count : 0};
     }
     for (size_t i = 0; i < desc.pose_count; ++i) {
       const MienMixPose& from = desc.poses[i];
       poses[i] = {{from.curves, from.count}, {from.values, from.count}};
     }
-    size_t stroke = 0;
+    size_t first = 0;
     for (size_t i = 0; i < desc.reaction_count; ++i) {
       const MienMixReaction& from = desc.reactions[i];
-      ReactionDesc& to = reactions[i];
-      to.strokes = strokes.slice(stroke, from.stroke_count);
-      to.retrigger = static_cast<Retrigger>(from.retrigger);
-      to.after_guards = from.after_guards != 0;
-      to.cooldown = from.cooldown;
-      to.adapted = from.adapted;
-      to.adapt_ticks = from.adapt_ticks;
-      to.recover_ticks = from.recover_ticks;
-      to.level_on = from.level_on;
-      to.level_off = from.level_off;
-      for (size_t s = 0; s < from.stroke_count; ++s, ++stroke) {
-        const MienMixStroke& each = from.strokes[s];
-        strokes[stroke] = {each.pose,           static_cast<BlendMode>(each.mode),
-                           each.is_held != 0,   each.is_lag != 0,
-                           each.is_scaled != 0, each.delay,
-                           each.attack,         each.hold,
-                           each.release};
-      }
+      visit_fields(take, reactions[i], from);
+      const Span<Stroke> list = strokes.slice(first, from.stroke_count);
+      for (size_t s = 0; s < list.count; ++s) visit_fields(take, list[s], from.strokes[s]);
+      reactions[i].strokes = list;
+      first += list.count;
     }
     for (size_t i = 0; i < desc.antagonist_count; ++i) {
-      const MienMixAntagonists& from = desc.antagonists[i];
-      antagonists[i] = {from.first, from.second, from.stiffness};
+      visit_fields(take, antagonists[i], desc.antagonists[i]);
     }
   }
 };
 
 constexpr uint32_t kMaxLandmarkPoints = 65536;
 
-/// Checks that the mix cannot make, because it takes spans and 8-bit enums.
+/// What create_mix() cannot check: arrays that are NULL, counts before memory for them, reserved fields.
 MienStatus check_mix_desc(const MienMixDesc& desc, MienError* error) {
   if ((!desc.layers && desc.layer_count != 0) || (!desc.poses && desc.pose_count != 0) ||
       (!desc.reactions && desc.reaction_count != 0) ||
@@ -117,13 +117,8 @@ MienStatus check_mix_desc(const MienMixDesc& desc, MienError* error) {
     if (!layer.curves && layer.curve_count != 0) {
       return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "layer %zu: curves is NULL", i);
     }
-    if (layer.group > MIEN_LAYER_GROUP_LIFE || layer.mode > MIEN_BLEND_MODE_SCALE ||
-        layer.source > MIEN_LAYER_SOURCE_GENERATOR || layer.generator > MIEN_GENERATOR_GAZE ||
-        layer.reserved != 0) {
-      return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
-                        "layer %zu: group, mode, source or generator is none of its values, or "
-                        "reserved is not 0",
-                        i);
+    if (layer.reserved != 0) {
+      return give_error(error, MIEN_ERROR_INVALID_ARGUMENT, "layer %zu: reserved is not 0", i);
     }
   }
   for (size_t i = 0; i < desc.custom_guard_count; ++i) {
@@ -145,33 +140,22 @@ MienStatus check_mix_desc(const MienMixDesc& desc, MienError* error) {
     if (!reaction.strokes && reaction.stroke_count != 0) {
       return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "reaction %zu: strokes is NULL", i);
     }
-    bool known = reaction.stroke_count <= kMaxStrokes &&
-                 reaction.retrigger <= MIEN_RETRIGGER_IGNORE && reaction.reserved == 0;
+    bool known = reaction.stroke_count <= kMaxStrokes && reaction.reserved == 0;
     for (size_t s = 0; known && s < reaction.stroke_count; ++s) {
-      known =
-          reaction.strokes[s].mode <= MIEN_BLEND_MODE_SCALE && reaction.strokes[s].reserved == 0;
+      known = reaction.strokes[s].reserved == 0;
     }
     if (!known) {
       return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
-                        "reaction %zu: too many strokes, retrigger or a mode is none of its "
-                        "values, or reserved is not 0",
-                        i);
+                        "reaction %zu: too many strokes, or reserved is not 0", i);
     }
   }
   return MIEN_OK;
 }
 
-uint32_t guard_bit(StandardGuard kind) {
-  switch (kind) {
-    case StandardGuard::kLidsLeft:
-    case StandardGuard::kLidsRight: return MIEN_GUARD_LIDS;
-    case StandardGuard::kTeeth: return MIEN_GUARD_TEETH;
-    default: return MIEN_GUARD_LIPS;
-  }
-}
-
 static_assert(sizeof(kOfJoints) == 4 && kOfJoints == MIEN_NO_MESH &&
-                  kNoControl == MIEN_NO_CONTROL && kStandardGuardCount < kMaxGuards,
+                  kNoControl == MIEN_NO_CONTROL && kStandardGuardCount < kMaxGuards &&
+                  MIEN_GUARD_LIPS == int(kGuardsOfLips) && MIEN_GUARD_LIDS == int(kGuardsOfLids) &&
+                  MIEN_GUARD_TEETH == int(kGuardsOfTeeth),
               "guards of the caller are those of the runtime");
 
 Landmark landmark_of(const MienLandmark& from) {
@@ -187,36 +171,6 @@ GuardDesc guard_of(const MienMixGuard& from) {
   to.f_on = from.f_on;
   to.needs_speech = from.needs_speech != 0;
   return to;
-}
-
-/// The standard guards of MIEN_GUARD_... bits.
-GuardKinds kinds_of(uint32_t guards) {
-  GuardKinds kinds = 0;
-  for (uint32_t k = 0; k < kStandardGuardCount; ++k) {
-    if ((guards & guard_bit(static_cast<StandardGuard>(k))) != 0) kinds |= 1u << k;
-  }
-  return kinds;
-}
-
-const char* guard_name(StandardGuard kind) {
-  switch (kind) {
-    case StandardGuard::kLipsLeft: return "lips left";
-    case StandardGuard::kLipsCenter: return "lips center";
-    case StandardGuard::kLipsRight: return "lips right";
-    case StandardGuard::kLipToTeeth: return "lower lip to teeth";
-    case StandardGuard::kLidsLeft: return "left lids";
-    case StandardGuard::kLidsRight: return "right lids";
-    case StandardGuard::kTeeth: return "teeth";
-    default: return "custom";
-  }
-}
-
-uint32_t clip_layer_count(const MienMixDesc& desc) {
-  uint32_t count = 0;
-  for (size_t i = 0; i < desc.layer_count; ++i) {
-    count += desc.layers[i].source == MIEN_LAYER_SOURCE_CLIP;
-  }
-  return count;
 }
 
 }  // namespace
@@ -258,7 +212,8 @@ MienStatus mien_mix_create(const MienRig* rig, const MienMixDesc* desc, MienMix*
   mix.kernels = of.kernels;
   mix.raw_count = of.raw_count;
   mix.names = of.names[static_cast<size_t>(Kind::kRawControl)];
-  mix.variable_count = known.variable_count;
+  TakeFields take;
+  visit_fields(take, mix, known);
   const size_t curves = size_t{of.raw_count} + known.variable_count;
   mix.layers = lists.layers;
   mix.poses = lists.poses;
@@ -267,16 +222,8 @@ MienStatus mien_mix_create(const MienRig* rig, const MienMixDesc* desc, MienMix*
   if (known.mirror) mix.mirror = {known.mirror, curves};
   if (known.lower) mix.lower = {known.lower, curves};
   if (known.upper) mix.upper = {known.upper, curves};
-  mix.player_count = known.player_count != 0 ? known.player_count : 2 * clip_layer_count(known);
-  mix.max_channels = known.max_channels != 0 ? known.max_channels : of.raw_count;
-  mix.max_changing_channels = known.max_changing_channels;
-  if (mix.max_changing_channels == 0) {
-    mix.max_changing_channels =
-        mix.max_channels < kMaxChangingChannels ? mix.max_channels : kMaxChangingChannels;
-  }
   mix.max_bound_gui = bound_gui_limit(of.gui_count);
-  mix.plays_backward = known.reverse != 0;
-  mix.max_events = known.max_events != 0 ? known.max_events : 64;
+  set_default_sizes(mix);
   Error detail;
   Guard guards[kMaxGuards];
   uint32_t guard_count = 0;
@@ -284,7 +231,7 @@ MienStatus mien_mix_create(const MienRig* rig, const MienMixDesc* desc, MienMix*
     GuardDesc own[kMaxGuards];
     for (size_t g = 0; g < known.custom_guard_count; ++g) own[g] = guard_of(known.custom_guards[g]);
     const Status planned =
-        plan_guards(*object(known.deformer), kinds_of(known.guards),
+        plan_guards(*object(known.deformer), guard_kinds(known.guards),
                     {own, known.custom_guard_count}, allocator, guards, guard_count, detail);
     if (planned != Status::kOk) return give_error(detail, error);
   }
@@ -340,311 +287,14 @@ MienStatus mien_mix_glare(uint32_t first_pose, MienMixStroke* out_strokes, size_
   if (stroke_count < kGlareStrokes) return MIEN_ERROR_INVALID_ARGUMENT;
   Stroke strokes[kGlareStrokes];
   glare_strokes(first_pose, strokes);
-  const ReactionDesc reaction = glare_reaction(strokes);
+  ReactionDesc reaction = glare_reaction(strokes);
+  GiveFields give;
   for (uint32_t i = 0; i < kGlareStrokes; ++i) {
-    const Stroke& from = strokes[i];
-    out_strokes[i] = {from.delay,  from.attack,
-                      from.hold,   from.release,
-                      from.pose,   static_cast<uint32_t>(from.mode),
-                      from.held,   from.lags,
-                      from.scaled, 0};
+    out_strokes[i] = {};
+    visit_fields(give, strokes[i], out_strokes[i]);
   }
-  *out_reaction = {reaction.cooldown,
-                   reaction.adapt_ticks,
-                   reaction.recover_ticks,
-                   out_strokes,
-                   kGlareStrokes,
-                   static_cast<uint32_t>(reaction.retrigger),
-                   0,
-                   reaction.adapted,
-                   reaction.level_on,
-                   reaction.level_off,
-                   0};
+  visit_fields(give, reaction, *out_reaction);
+  out_reaction->strokes = out_strokes;
+  out_reaction->stroke_count = kGlareStrokes;
   return MIEN_OK;
-}
-
-// Mixer -------------------------------------------------------------------------------------------
-
-namespace {
-
-/// The statuses that setting a number can return.
-MienStatus status_of(Status status) {
-  if (status == Status::kOk) return MIEN_OK;
-  return status == Status::kIndex ? MIEN_ERROR_INDEX : MIEN_ERROR_INVALID_ARGUMENT;
-}
-
-MienStatus check_step(const MienMixer* mixer, const MienInstance* instance, int64_t ticks) {
-  if (MienStatus status = check(mixer)) return status;
-  if (ticks < 0 || ticks > kMaxStepTicks || object(mixer)->header->now > kMaxMixerTime - ticks) {
-    return MIEN_ERROR_INVALID_ARGUMENT;
-  }
-  if (!instance) return MIEN_OK;
-  if (MienStatus status = check(instance)) return status;
-  return object(instance)->rig->raw_count == object(mixer)->mix->raw_count ? MIEN_OK
-                                                                           : MIEN_ERROR_MISMATCH;
-}
-
-void step(MienMixer* mixer, MienInstance* instance, int64_t ticks) {
-  Mixer& m = *object(mixer);
-  step_mixer(m, ticks, instance ? object(instance)->controls.data : nullptr,
-             instance ? m.mix->raw_count : 0, nullptr);
-}
-
-}  // namespace
-
-MienStatus mien_mixer_create(const MienMix* mix, const MienMixerDesc* desc, MienMixer** out_mixer,
-                             MienError* error) {
-  if (MienStatus status = clear_output(out_mixer, error)) return status;
-  if (MienStatus status = check(mix)) return give_error(error, status, "not a mix");
-  MienMixerDesc known;
-  if (MienStatus status = read_desc(desc, known, "MienMixerDesc", error)) return status;
-  Allocator allocator;
-  if (MienStatus status = read_allocator(known.allocator, allocator, error)) return status;
-  if (known.reserved != 0) {
-    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT, "MienMixerDesc.reserved is not 0");
-  }
-  Mixer* made = create_mixer(*object(mix), known.seed, known.stages != 0, allocator);
-  if (!made) return give_error(error, MIEN_ERROR_MEMORY, "no memory for a mixer");
-  *out_mixer = reinterpret_cast<MienMixer*>(made);
-  return succeed(error);
-}
-
-void mien_mixer_destroy(MienMixer* mixer) { destroy(mixer); }
-
-MienStatus mien_mixer_play(MienMixer* mixer, uint32_t layer, const MienClip* clip,
-                           const MienClipBinding* clip_binding, const MienPlayDesc* desc,
-                           MienError* error) {
-  if (check_error(error) != MIEN_OK) return MIEN_ERROR_STRUCT_SIZE;
-  if (MienStatus status = check(mixer)) return give_error(error, status, "not a mixer");
-  if (MienStatus status = check(clip)) return give_error(error, status, "not a clip");
-  if (MienStatus status = check(clip_binding)) {
-    return give_error(error, status, "not a binding of a clip");
-  }
-  MienPlayDesc known;
-  if (MienStatus status = read_desc(desc, known, "MienPlayDesc", error)) return status;
-  if (known.transition > MIEN_TRANSITION_CUT || known.looping > MIEN_LOOPING_WRAP ||
-      known.interpolation > MIEN_INTERPOLATION_CATMULL_ROM) {
-    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
-                      "MienPlayDesc.transition, .looping or .interpolation is none of its values");
-  }
-  constexpr Transition kTransitions[] = {Transition::kInertial, Transition::kCrossfade,
-                                         Transition::kCut};
-  constexpr Looping kLoopings[] = {Looping::kAsClip, Looping::kOnce, Looping::kLoop};
-  LayerPlayDesc play;
-  play.transition = kTransitions[known.transition];
-  play.transition_ticks = known.transition_ticks;
-  play.mirrored = known.mirrored != 0;
-  play.play.start_tick = known.start_tick;
-  const bool has_speed = known.speed_numerator != 0 || known.speed_denominator != 0;
-  play.play.speed_numerator = has_speed ? known.speed_numerator : 1;
-  play.play.speed_denominator = has_speed ? known.speed_denominator : 1;
-  play.play.looping = kLoopings[known.looping];
-  play.play.interpolation = static_cast<Interpolation>(known.interpolation);
-  Error detail;
-  const Status status =
-      play_clip(*object(mixer), layer, {known.clip_id, &object(clip)->view, object(clip_binding)},
-                play, detail);
-  return give_status(status, detail, error);
-}
-
-MienStatus mien_mixer_stop(MienMixer* mixer, uint32_t layer, int64_t fade_ticks) {
-  if (MienStatus status = check(mixer)) return status;
-  Error detail;
-  return status_of(stop_layer(*object(mixer), layer, fade_ticks, detail));
-}
-
-MienStatus mien_mixer_set_weight(MienMixer* mixer, uint32_t layer, float weight,
-                                 int64_t fade_ticks) {
-  if (MienStatus status = check(mixer)) return status;
-  Error detail;
-  return status_of(set_layer_weight(*object(mixer), layer, weight, fade_ticks, detail));
-}
-
-MienStatus mien_mixer_set_pose_weight(MienMixer* mixer, uint32_t layer, uint32_t pose, float weight,
-                                      int64_t fade_ticks) {
-  if (MienStatus status = check(mixer)) return status;
-  Error detail;
-  return status_of(set_pose_weight(*object(mixer), layer, pose, weight, fade_ticks, detail));
-}
-
-MienStatus mien_mixer_set_variable(MienMixer* mixer, uint32_t variable, float value) {
-  if (MienStatus status = check(mixer)) return status;
-  Error detail;
-  return status_of(set_variable(*object(mixer), variable, value, detail));
-}
-
-MienStatus mien_mixer_set_guard(MienMixer* mixer, uint32_t guard_index, float activation) {
-  if (MienStatus status = check(mixer)) return status;
-  Error detail;
-  return status_of(set_guard(*object(mixer), guard_index, activation, detail));
-}
-
-MienStatus mien_mixer_guard(const MienMixer* mixer, uint32_t guard_index,
-                            MienGuardState* out_state) {
-  if (MienStatus status = clear_struct(out_state)) return status;
-  if (MienStatus status = check(mixer)) return status;
-  const Mixer& of = *object(mixer);
-  GuardState found = {};
-  Error detail;
-  if (guard_state(of, guard_index, found, detail) != Status::kOk) return MIEN_ERROR_INDEX;
-  const auto kind = static_cast<StandardGuard>(of.mix->guards[guard_index].kind);
-  const char* name = guard_name(kind);
-  MienGuardState state = {};
-  state.name = {name, strlen(name)};
-  state.controls = {found.curves.data, found.curves.count};
-  state.kind = of.mix->guards[guard_index].kind < kStandardGuardCount ? guard_bit(kind) : 0;
-  state.activation = found.activation;
-  state.protected_distance = found.protected_distance;
-  state.wanted = found.wanted;
-  state.limit = found.limit;
-  state.distance = found.distance;
-  write_struct(out_state, state);
-  return MIEN_OK;
-}
-
-MienStatus mien_mixer_trigger(MienMixer* mixer, uint32_t reaction, float strength,
-                              int64_t hold_ticks) {
-  if (MienStatus status = check(mixer)) return status;
-  Error detail;
-  return status_of(trigger(*object(mixer), reaction, strength,
-                           hold_ticks < 0 ? kUntilReleased : hold_ticks, detail));
-}
-
-MienStatus mien_mixer_release(MienMixer* mixer, uint32_t reaction) {
-  if (MienStatus status = check(mixer)) return status;
-  Error detail;
-  return end_stimulus(*object(mixer), reaction, detail) == Status::kOk ? MIEN_OK : MIEN_ERROR_INDEX;
-}
-
-MienStatus mien_mixer_set_level(MienMixer* mixer, uint32_t reaction, float level) {
-  if (MienStatus status = check(mixer)) return status;
-  Error detail;
-  return status_of(set_level(*object(mixer), reaction, level, detail));
-}
-
-MienStatus mien_mixer_push(MienMixer* mixer, uint32_t layer, int64_t tick, const float* values,
-                           size_t value_count, uint32_t* out_accepted) {
-  if (out_accepted) *out_accepted = 0;
-  if (MienStatus status = check(mixer)) return status;
-  if (!values && value_count != 0) return MIEN_ERROR_NULL_ARGUMENT;
-  Error detail;
-  bool accepted = false;
-  const Status status =
-      push_row(*object(mixer), layer, tick, {values, value_count}, &accepted, detail);
-  if (out_accepted) *out_accepted = accepted;
-  return status == Status::kMismatch ? MIEN_ERROR_MISMATCH : status_of(status);
-}
-
-MienStatus mien_mixer_step(MienMixer* mixer, int64_t ticks, MienInstance* instance) {
-  if (MienStatus status = check_step(mixer, instance, ticks)) return status;
-  step(mixer, instance, ticks);
-  return MIEN_OK;
-}
-
-MienStatus mien_mixer_step_batch(MienMixer* const* mixers, MienInstance* const* instances,
-                                 size_t count, int64_t ticks) {
-  if (!mixers && count != 0) return MIEN_ERROR_NULL_ARGUMENT;
-  for (size_t i = 0; i < count; ++i) {
-    if (MienStatus status = check_step(mixers[i], instances ? instances[i] : nullptr, ticks)) {
-      return status;
-    }
-  }
-  size_t marked = 0;
-  while (marked < count && !object(mixers[marked])->in_batch) {
-    object(mixers[marked++])->in_batch = true;
-  }
-  for (size_t i = 0; i < marked; ++i) object(mixers[i])->in_batch = false;
-  if (marked < count) return MIEN_ERROR_INVALID_ARGUMENT;
-  for (size_t i = 0; i < count; ++i) step(mixers[i], instances ? instances[i] : nullptr, ticks);
-  return MIEN_OK;
-}
-
-// Looking into it ---------------------------------------------------------------------------------
-
-MienStatus mien_mixer_row(const MienMixer* mixer, MienFloatView* out_row) {
-  if (!out_row) return MIEN_ERROR_NULL_ARGUMENT;
-  *out_row = {};
-  if (MienStatus status = check(mixer)) return status;
-  *out_row = {object(mixer)->row.data, object(mixer)->mix->used_curves()};
-  return MIEN_OK;
-}
-
-MienStatus mien_mixer_stage(const MienMixer* mixer, uint32_t stage, MienFloatView* out_row) {
-  if (!out_row) return MIEN_ERROR_NULL_ARGUMENT;
-  *out_row = {};
-  if (MienStatus status = check(mixer)) return status;
-  const Mixer& of = *object(mixer);
-  if (!of.stages) return MIEN_ERROR_INVALID_ARGUMENT;
-  if (stage >= stage_count(*of.mix)) return MIEN_ERROR_INDEX;
-  *out_row = {of.stages + size_t{stage} * of.mix->curve_count, of.mix->used_curves()};
-  return MIEN_OK;
-}
-
-MienStatus mien_mixer_info(const MienMixer* mixer, MienMixerInfo* out_info) {
-  if (MienStatus status = clear_struct(out_info)) return status;
-  if (MienStatus status = check(mixer)) return status;
-  const Mixer& of = *object(mixer);
-  MienMixerInfo info = {};
-  info.tick = of.header->now;
-  info.event_count = of.event_count;
-  info.lost_events = of.lost_events;
-  write_struct(out_info, info);
-  return MIEN_OK;
-}
-
-MienStatus mien_mixer_event(const MienMixer* mixer, uint32_t index, MienClipEvent* out_event,
-                            uint32_t* out_layer) {
-  if (out_event) *out_event = {};
-  if (out_layer) *out_layer = 0;
-  if (!out_event || !out_layer) return MIEN_ERROR_NULL_ARGUMENT;
-  if (MienStatus status = check(mixer)) return status;
-  const Mixer& of = *object(mixer);
-  if (index >= of.event_count) return MIEN_ERROR_INDEX;
-  const MixEvent& event = of.events[index];
-  *out_event = {
-      event.event.tick, {event.event.name.data, event.event.name.count}, event.event.value, 0};
-  *out_layer = event.layer;
-  return MIEN_OK;
-}
-
-MienStatus mien_mixer_snapshot(MienMixer* mixer, void* buffer, size_t capacity, size_t* out_size,
-                               MienError* error) {
-  if (MienStatus status = clear_output(out_size, error)) return status;
-  if (!buffer && capacity != 0) {
-    return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "buffer is NULL");
-  }
-  if (MienStatus status = check(mixer)) return give_error(error, status, "not a mixer");
-  *out_size = snapshot_size(*object(mixer)->mix);
-  if (!buffer) return succeed(error);
-  Error detail;
-  const Status status =
-      take_snapshot(*object(mixer), {static_cast<uint8_t*>(buffer), capacity}, detail);
-  return give_status(status, detail, error);
-}
-
-MienStatus mien_mixer_restore(MienMixer* mixer, const void* bytes, size_t size,
-                              const MienMixerClip* clips, size_t clip_count, MienError* error) {
-  if (check_error(error) != MIEN_OK) return MIEN_ERROR_STRUCT_SIZE;
-  if ((!bytes && size != 0) || (!clips && clip_count != 0)) {
-    return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "bytes or clips is NULL");
-  }
-  if (MienStatus status = check(mixer)) return give_error(error, status, "not a mixer");
-  // A mixer plays few clips at a time, so the caller's clips are searched one by one.
-  const auto find = [](const void* user, uint64_t id, ClipSource& source) {
-    const auto& list = *static_cast<const Span<const MienMixerClip>*>(user);
-    for (const MienMixerClip& clip : list) {
-      if (clip.clip_id != id || check(clip.clip) != MIEN_OK ||
-          check(clip.clip_binding) != MIEN_OK) {
-        continue;
-      }
-      source = {id, &object(clip.clip)->view, object(clip.clip_binding)};
-      return true;
-    }
-    return false;
-  };
-  const Span<const MienMixerClip> list = {clips, clip_count};
-  Error detail;
-  const Status status = restore_snapshot(*object(mixer), {static_cast<const uint8_t*>(bytes), size},
-                                         {&list, find}, detail);
-  return give_status(status, detail, error);
 }

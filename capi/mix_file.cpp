@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Mixes as files. mien.h is the manual.
+// Files of mixes, in the section "Mix" of mien/mix.h.
 #include "runtime/mix/mix_file.h"
 
 #include "capi/handles.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Names of controls. mien.h is the manual.
+// mien/names.h.
 #include <algorithm>
 
 #include "capi/handles.h"

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Rigs, instances and evaluation. mien.h is the manual.
+// mien/rig.h, except batches and mien_rig_create().
 #include <algorithm>
 
 #include "capi/handles.h"
+#include "runtime/anim/control_names.h"
 #include "runtime/eval/evaluate.h"
+#include "runtime/eval/statistics.h"
 #include "simd/kernels.h"
 
 using namespace mien;
@@ -63,16 +65,6 @@ MienStatus count_of(const Rig& rig, uint32_t kind, uint32_t& count) {
   return MIEN_OK;
 }
 
-MienIndex16View view_of(const Span<uint16_t>& span) { return {span.data, span.count}; }
-
-/// The sign of a comparison of bytes: a string comes before longer ones that begin with it.
-int compare(const Span<char>& a, const char* b, size_t b_count) {
-  const size_t common = std::min(a.count, b_count);
-  const int order = common ? memcmp(a.data, b, common) : 0;
-  if (order != 0) return order;
-  return a.count < b_count ? -1 : a.count > b_count;
-}
-
 }  // namespace
 
 MienStatus mien_rig_count(const MienRig* rig, uint32_t kind, uint32_t* out_count) {
@@ -110,13 +102,9 @@ MienStatus mien_rig_find_n(const MienRig* rig, uint32_t kind, const char* name, 
   if (MienStatus status = check(rig)) return status;
   if (!name && name_count != 0) return MIEN_ERROR_NULL_ARGUMENT;
   if (kind >= kKindsWithNames) return MIEN_ERROR_INVALID_ARGUMENT;
-  const NameList& list = object(rig)->names[kind];
-  const uint32_t* found = std::lower_bound(
-      list.sorted.begin(), list.sorted.end(), name,
-      [&](uint32_t i, const char* wanted) { return compare(list[i], wanted, name_count) < 0; });
-  if (found == list.sorted.end() || compare(list[*found], name, name_count) != 0)
-    return MIEN_ERROR_NAME;
-  *out_index = *found;
+  const uint32_t found = find_name(object(rig)->names[kind], {name, name_count});
+  if (found == kNoName) return MIEN_ERROR_NAME;
+  *out_index = found;
   return MIEN_OK;
 }
 
@@ -193,24 +181,17 @@ MienStatus mien_rig_statistics(const MienRig* rig, uint32_t lod,
   const Rig& of = *object(rig);
   if (lod >= of.lod_count) return MIEN_ERROR_LOD;
   MienRigStatistics statistics = {};
-  if (of.psd_count) statistics.psd_count = of.psds.count_at_lod[lod];
+  const RigStatistics found = rig_statistics(of, lod);
   statistics.lod = lod;
-  statistics.joint_count = static_cast<uint32_t>(of.lod_joints.at(lod).count);
-  statistics.blend_shape_count = of.channels.count_at_lod[lod];
-  statistics.animated_map_row_count = of.map_rows_at_lod[lod];
-  statistics.rbf_solver_count = static_cast<uint32_t>(of.rbf.lod_solvers.at(lod).count);
-  const JointMatrix& joints = of.joints;
-  const uint32_t panels = joints.panels_at_lod[lod];
-  for (size_t k = 0; k < joints.columns.count; ++k) {
-    statistics.joint_entry_count += uint64_t{joints.blocks_before(k, panels)} * kJointBlockRows;
-    statistics.joint_byte_count += joints.bytes_before(k, panels);
-  }
-  for (size_t g = 0; g < joints.group_count; ++g) {
-    statistics.joint_row_count += joints.group_rows_at_lod[g * of.lod_count + lod];
-  }
-  for (const RotationOutput& turn : of.rotations.turns) {
-    statistics.quaternion_joint_count += turn.lods >> lod & 1;
-  }
+  statistics.psd_count = found.psd_count;
+  statistics.joint_count = found.joint_count;
+  statistics.joint_row_count = found.joint_row_count;
+  statistics.blend_shape_count = found.blend_shape_count;
+  statistics.animated_map_row_count = found.animated_map_row_count;
+  statistics.rbf_solver_count = found.rbf_solver_count;
+  statistics.quaternion_joint_count = found.quaternion_joint_count;
+  statistics.joint_entry_count = found.joint_entry_count;
+  statistics.joint_byte_count = found.joint_byte_count;
   write_struct(out_statistics, statistics);
   return MIEN_OK;
 }
@@ -310,19 +291,14 @@ MienStatus mien_instance_statistics(const MienInstance* instance,
   if (MienStatus status = clear_struct(out_statistics)) return status;
   if (MienStatus status = check(instance)) return status;
   const Instance& of = *object(instance);
-  const JointMatrix& joints = of.rig->joints;
+  const InstanceStatistics found = instance_statistics(of);
   MienInstanceStatistics statistics = {};
   statistics.lod = of.lod;
   statistics.control_count = static_cast<uint32_t>(of.controls.count);
-  for (float control : of.controls) statistics.active_control_count += control != 0.0f;
-  const uint32_t panels = of.rig->lod_count ? joints.panels_at_lod[of.lod] : 0;
-  for (size_t k = 0; k < joints.columns.count; ++k) {
-    if (of.controls[joints.columns[k]] == 0.0f) continue;
-    const uint32_t blocks = joints.blocks_before(k, panels);
-    statistics.joint_column_count += blocks != 0;
-    statistics.joint_entry_count += uint64_t{blocks} * kJointBlockRows;
-    statistics.joint_byte_count += joints.bytes_before(k, panels);
-  }
+  statistics.active_control_count = found.active_control_count;
+  statistics.joint_column_count = found.joint_column_count;
+  statistics.joint_entry_count = found.joint_entry_count;
+  statistics.joint_byte_count = found.joint_byte_count;
   write_struct(out_statistics, statistics);
   return MIEN_OK;
 }

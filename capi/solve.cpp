@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Solver stacks and their states. mien.h is the manual.
-#include <cmath>
-
+// mien/solve.h.
 #include "capi/handles.h"
-#include "runtime/base/vector.h"
 #include "runtime/solve/solvers.h"
 
 using namespace mien;
@@ -80,23 +77,7 @@ class Describer {
                       curve_count_);
   }
 
-  /// A direction of length 1; 0 0 0 becomes `otherwise`, or is an error if that is missing.
-  MienStatus read_direction(const float (&from)[3], const Vec3* otherwise, float (&to)[3]) {
-    Vec3 v = {from[0], from[1], from[2]};
-    if (!(std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z))) {
-      return refuse_solver("a direction is not finite");
-    }
-    v = normalized(v);
-    if (is_zero(v)) {
-      if (!otherwise) return refuse_solver("a direction has length 0");
-      v = *otherwise;
-    }
-    to[0] = static_cast<float>(v.x);
-    to[1] = static_cast<float>(v.y);
-    to[2] = static_cast<float>(v.z);
-    return MIEN_OK;
-  }
-  static bool within(float value, float low, float high) { return value >= low && value <= high; }
+  static void copy_vector(const float (&from)[3], float (&to)[3]) { memcpy(to, from, sizeof(to)); }
 
   MienStatus describe_aim(const MienAimSolver& from, SolverDesc& to) {
     const Span<AimSolver> solver = arena_.array<AimSolver>(1);
@@ -109,18 +90,11 @@ class Describer {
       return status;
     }
     out.target_curve = from.target_curve;
-    const Vec3 none = {}, up = {0, 1, 0};
-    if (MienStatus status = read_direction(from.axis, nullptr, out.axis)) return status;
-    if (MienStatus status = read_direction(from.up_axis, &none, out.up_axis)) return status;
-    if (MienStatus status = read_direction(from.up, &up, out.up)) return status;
-    if (!within(from.cone_degrees, 0, 180) || !within(from.weight, 0, 1)) {
-      return refuse_solver("cone_degrees or weight is out of range");
-    }
-    if (from.cone_degrees > 0) {
-      constexpr double kRadians = 3.14159265358979323846 / 180;
-      out.cone_cosine = static_cast<float>(std::cos(double{from.cone_degrees} * kRadians));
-    }
+    copy_vector(from.axis, out.axis);
+    copy_vector(from.up_axis, out.up_axis);
+    copy_vector(from.up, out.up);
     out.weight = from.weight;
+    if (const char* wrong = set_up(out, from.cone_degrees)) return refuse_solver(wrong);
     to = mien::describe(skeleton_, out);
     return MIEN_OK;
   }
@@ -132,9 +106,8 @@ class Describer {
     if (MienStatus status = read_joint(from.joint, out.joint)) return status;
     if (MienStatus status = check_curves(from.curve, 1)) return status;
     if (!from.spaces || from.space_count == 0 || from.space_count > kMaxSolverJoints ||
-        from.ease_ticks < 0 || from.ease_ticks > kMaxFadeTicks || from.reserved != 0) {
-      return refuse_solver(
-          "it has no spaces or too many, ease_ticks is out of range, or reserved is not 0");
+        from.reserved != 0) {
+      return refuse_solver("it has no spaces or too many, or reserved is not 0");
     }
     for (uint32_t i = 0; i < from.space_count; ++i) {
       out.spaces[i] = kNoSolverJoint;
@@ -144,6 +117,7 @@ class Describer {
     out.space_count = from.space_count;
     out.curve = from.curve;
     out.ease_ticks = from.ease_ticks;
+    if (const char* wrong = set_up(out)) return refuse_solver(wrong);
     to = mien::describe(skeleton_, out);
     return MIEN_OK;
   }
@@ -153,18 +127,12 @@ class Describer {
     if (!solver.data) return no_solver_memory();
     SpringSolver& out = solver[0];
     if (MienStatus status = read_joint(from.joint, out.joint)) return status;
-    constexpr float kMost = 1e9f;
-    bool known = from.frequency > 0 && from.frequency <= 1000 && within(from.damping, 0, 1000) &&
-                 within(from.stretch, 0, kMost) && within(from.teleport, 0, kMost);
-    for (float offset : from.rest_offset) known = known && within(offset, -kMost, kMost);
-    if (!known) {
-      return refuse_solver("frequency, damping, rest_offset, stretch or teleport is out of range");
-    }
     out.frequency = from.frequency;
     out.damping = from.damping;
-    memcpy(out.rest_offset, from.rest_offset, sizeof(out.rest_offset));
-    if (from.stretch > 0) out.stretch = from.stretch;
-    if (from.teleport > 0) out.teleport = from.teleport;
+    copy_vector(from.rest_offset, out.rest_offset);
+    out.stretch = from.stretch;
+    out.teleport = from.teleport;
+    if (const char* wrong = set_up(out)) return refuse_solver(wrong);
     to = mien::describe(skeleton_, out);
     return MIEN_OK;
   }
@@ -174,17 +142,17 @@ class Describer {
     if (!solver.data) return no_solver_memory();
     TwistSolver& out = solver[0];
     if (MienStatus status = read_joint(from.source, out.source)) return status;
-    if (MienStatus status = read_direction(from.axis, nullptr, out.axis)) return status;
+    copy_vector(from.axis, out.axis);
     if (!from.joints || !from.shares || from.joint_count == 0 ||
         from.joint_count > kMaxSolverJoints || from.reserved != 0) {
       return refuse_solver("it has no joints or shares, or too many, or reserved is not 0");
     }
     for (uint32_t i = 0; i < from.joint_count; ++i) {
       if (MienStatus status = read_joint(from.joints[i], out.joints[i])) return status;
-      if (!within(from.shares[i], -1, 1)) return refuse_solver("a share is not within -1 to 1");
       out.shares[i] = from.shares[i];
     }
     out.joint_count = from.joint_count;
+    if (const char* wrong = set_up(out)) return refuse_solver(wrong);
     to = mien::describe(skeleton_, out);
     return MIEN_OK;
   }
@@ -195,11 +163,10 @@ class Describer {
     CopySolver& out = solver[0];
     if (MienStatus status = read_joint(from.source, out.source)) return status;
     if (MienStatus status = read_joint(from.joint, out.joint)) return status;
-    const Vec3 left = {1, 0, 0};
-    if (MienStatus status = read_direction(from.mirror_axis, &left, out.mirror_axis)) return status;
-    if (!within(from.weight, 0, 1)) return refuse_solver("weight is not within 0 to 1");
+    copy_vector(from.mirror_axis, out.mirror_axis);
     out.mirrored = from.is_mirrored != 0;
     out.weight = from.weight;
+    if (const char* wrong = set_up(out)) return refuse_solver(wrong);
     to = mien::describe(skeleton_, out);
     return MIEN_OK;
   }

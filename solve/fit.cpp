@@ -241,7 +241,7 @@ MienStatus mien_fit_create(const MienRig* rig, const MienFitDesc* desc, MienFit*
 }
 
 void mien_fit_destroy(MienFit* fit) {
-  if (!fit || fit->tag != kFitTag) return;
+  if (check_tag(fit, kFitTag) != MIEN_OK) return;
   destroy_parts(*fit);
   fit->tag = 0;
   const Allocator allocator = fit->allocator;
@@ -249,8 +249,8 @@ void mien_fit_destroy(MienFit* fit) {
 }
 
 MienStatus mien_fit_observability(const MienFit* fit, float* out_values, size_t count) {
-  if (!fit || !out_values) return MIEN_ERROR_NULL_ARGUMENT;
-  if (fit->tag != kFitTag) return MIEN_ERROR_HANDLE;
+  if (!out_values) return MIEN_ERROR_NULL_ARGUMENT;
+  if (MienStatus status = check_tag(fit, kFitTag)) return status;
   if (count != fit->raw_count) return MIEN_ERROR_INVALID_ARGUMENT;
   std::copy(fit->observability.begin(), fit->observability.end(), out_values);
   return MIEN_OK;

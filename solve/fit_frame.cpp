@@ -377,8 +377,8 @@ uint32_t solve(Frame& f, Cost& cost, uint32_t& iterations) {
 
 MienStatus mien_fit_solve(MienFit* fit, const MienFitFrame* frame, float* out_raw,
                           MienFitResult* result) {
-  if (!fit || !frame || !out_raw) return MIEN_ERROR_NULL_ARGUMENT;
-  if (fit->tag != kFitTag) return MIEN_ERROR_HANDLE;
+  if (!frame || !out_raw) return MIEN_ERROR_NULL_ARGUMENT;
+  if (MienStatus status = check_tag(fit, kFitTag)) return status;
   MienFitFrame known;
   if (MienStatus status = read_struct(frame, known)) return status;
   if (result) {

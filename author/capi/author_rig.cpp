@@ -3,6 +3,7 @@
 #include "author/capi/made_file.h"
 #include "author/rigging/rigging.h"
 #include "capi/arguments/arguments.h"
+#include "runtime/base/object.h"
 
 using namespace mien;
 using namespace mien::capi;
@@ -15,15 +16,14 @@ static_assert(MIEN_BONE_TONGUE == int(author::BoneKind::kTongue) &&
                   MIEN_SYMMETRY_OFF == int(author::Symmetry::kOff),
               "the enums agree");
 
-struct MienAuthorReport {
-  uint32_t tag;
-  Allocator allocator;
-  size_t size;  // of the text, which follows
+struct MienAuthorReport : Object {
+  static constexpr uint32_t kTag = 0x6D41'5250;
+
+  Span<const char> text;
 };
 
 namespace {
 
-constexpr uint32_t kAuthorReportTag = 0x6D41'5250;
 constexpr uint32_t kMaxFacialJoints = 7000;
 
 author::Name name_of(MienStringView view) { return {view.data, view.data ? view.count : 0}; }
@@ -315,15 +315,14 @@ void run_parallel(void* user, uint32_t count, void (*task)(void*, uint32_t), voi
 MienStatus make_report(const Input& input, const author::Rigging& rigging, Arena& arena,
                        const Allocator& allocator, MienAuthorReport** out, MienError* error) {
   Span<const char> text;
-  void* block = nullptr;
   if (author::write_report(input.source, input.options, rigging, arena, text)) {
-    block = allocator.get(sizeof(MienAuthorReport) + text.count, alignof(MienAuthorReport));
+    *out =
+        create_object<MienAuthorReport>(allocator, [&](Placer& placer, MienAuthorReport& report) {
+          report.text = text;
+          placer.keep(report.text);
+        });
   }
-  if (!block) return give_error(error, MIEN_ERROR_MEMORY, "no memory for the report");
-  MienAuthorReport* report = new (block) MienAuthorReport{kAuthorReportTag, allocator, text.count};
-  memcpy(static_cast<void*>(report + 1), text.data, text.count);
-  *out = report;
-  return MIEN_OK;
+  return *out ? MIEN_OK : give_error(error, MIEN_ERROR_MEMORY, "no memory for the report");
 }
 
 }  // namespace
@@ -383,16 +382,13 @@ MienStatus mien_author_report_json(const MienAuthorReport* author_report,
                                    MienStringView* out_json) {
   if (!out_json) return MIEN_ERROR_NULL_ARGUMENT;
   *out_json = {};
-  if (!author_report) return MIEN_ERROR_NULL_ARGUMENT;
-  if (author_report->tag != kAuthorReportTag) return MIEN_ERROR_HANDLE;
-  *out_json = {reinterpret_cast<const char*>(author_report + 1), author_report->size};
+  if (MienStatus status = check_tag(author_report, MienAuthorReport::kTag)) return status;
+  *out_json = {author_report->text.data, author_report->text.count};
   return MIEN_OK;
 }
 
 void mien_author_report_close(MienAuthorReport* author_report) {
-  if (!author_report || author_report->tag != kAuthorReportTag) return;
+  if (check_tag(author_report, MienAuthorReport::kTag) != MIEN_OK) return;
   author_report->tag = 0;
-  const Allocator allocator = author_report->allocator;
-  allocator.put(author_report, sizeof(MienAuthorReport) + author_report->size,
-                alignof(MienAuthorReport));
+  release(author_report);
 }

@@ -86,9 +86,8 @@ MienStatus mien_document_create(const MienDna* dna, const MienDocumentDesc* desc
   if (MienStatus status = read_desc(desc, known, "MienDocumentDesc", error)) return status;
   Allocator allocator;
   if (MienStatus status = read_allocator(known.allocator, allocator, error)) return status;
-  void* memory = allocator.get(sizeof(MienDocument), alignof(MienDocument));
-  if (!memory) return give_error(error, MIEN_ERROR_MEMORY, "no memory for a document");
-  MienDocument* made = new (memory) MienDocument{kDocumentTag, Document(allocator)};
+  MienDocument* made = create_object<MienDocument>(allocator);
+  if (!made) return give_error(error, MIEN_ERROR_MEMORY, "no memory for a document");
   Status status;
   if (dna) {
     status = open_document(dna, made->document, error);
@@ -107,10 +106,8 @@ MienStatus mien_document_create(const MienDna* dna, const MienDocumentDesc* desc
 
 void mien_document_destroy(MienDocument* document) {
   if (check_document(document, nullptr) != MIEN_OK) return;
-  const Allocator allocator = document->document.allocator();
   document->tag = 0;
-  document->~MienDocument();
-  allocator.put(document, sizeof(MienDocument), alignof(MienDocument));
+  release(document);
 }
 
 // Fields --------------------------------------------------------------------------------------------

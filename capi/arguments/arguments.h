@@ -56,6 +56,16 @@ inline MienStatus check_error(const MienError* error) {
              : MIEN_OK;
 }
 
+/// Whether a handle is of the kind that a tag identifies: what is behind it begins with the tag
+/// (runtime/base/object.h).
+inline MienStatus check_tag(const void* handle, uint32_t tag) {
+  if (!handle) return MIEN_ERROR_NULL_ARGUMENT;
+  if (reinterpret_cast<uintptr_t>(handle) % alignof(uint32_t) != 0) return MIEN_ERROR_HANDLE;
+  uint32_t found;
+  memcpy(&found, handle, sizeof(found));
+  return found == tag ? MIEN_OK : MIEN_ERROR_HANDLE;
+}
+
 /// Copies an error to the caller's struct, if there is one.
 inline MienStatus give_error(const Error& from, MienError* to) {
   if (to) {

@@ -5,6 +5,9 @@
     generate_api.py            write mien-sys/src/bindings.rs, mien-sys/tests/layout.rs and
                                mien/src/generated.rs
     generate_api.py --check    fail if one of them is not what the data says
+
+They are committed, one item a line: a crate has to build without Python, and docs.rs and editors show their
+documentation and source to users.
 """
 import argparse
 import json

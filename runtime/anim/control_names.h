@@ -70,6 +70,14 @@ struct NameIndex {
   }
 };
 
+/// The element whose name has these bytes; kNoName if there is none.
+inline uint32_t find_name(const NameList& names, Span<const char> name) {
+  const uint32_t* at = std::lower_bound(
+      names.sorted.begin(), names.sorted.end(), name,
+      [&](uint32_t i, Span<const char> wanted) { return compare_names(names[i], wanted) < 0; });
+  return at != names.sorted.end() && compare_names(names[*at], name) == 0 ? *at : kNoName;
+}
+
 struct RigNames {
   const NameList& list;
   Span<const char> name(uint32_t i) const { return list[i]; }

@@ -91,10 +91,8 @@ void ControlFinder::sort(Span<ControlKey> by_spelling, Span<ControlKey> by_alias
 /// The control of the same name without regard to case, `.` being `_`, with or without the part before its
 /// last dot. kUnmatched if there are several.
 uint32_t ControlFinder::find_folded(Span<const char> name) const {
-  const uint32_t* exact = std::lower_bound(
-      names_.sorted.begin(), names_.sorted.end(), name,
-      [&](uint32_t i, Span<const char> wanted) { return compare_names(names_[i], wanted) < 0; });
-  if (exact != names_.sorted.end() && compare_names(names_[*exact], name) == 0) return *exact;
+  const uint32_t exact = find_name(names_, name);
+  if (exact != kNoName) return exact;
   // With lists, the spelling finds it in less time.
   if (!by_spelling_.empty()) return kUnmatched;
   uint32_t found = kUnmatched;

@@ -233,6 +233,20 @@ void deform(const Deformer& deformer, Span<DeformerInstance* const> instances, u
   run(job);
 }
 
+bool outputs_overlap(Span<DeformerInstance* const> instances, uint32_t vertex_count) {
+  uintptr_t end = 0;
+  for (size_t i = 0; i < instances.count; ++i) {
+    // Outputs at ascending addresses cannot overlap; only others are compared in pairs.
+    const VertexOutput& output = instances[i]->output;
+    const VertexOutputRange range = range_of(output, vertex_count);
+    for (size_t k = 0; k < i && range.begin < end; ++k) {
+      if (overlap(output, instances[k]->output, vertex_count)) return true;
+    }
+    end = std::max(end, range.end);
+  }
+  return false;
+}
+
 void write_vertices(const Deformer& deformer, Span<DeformerInstance* const> instances,
                     uint32_t mesh, Normals normals, const ParallelFor& parallel) {
   bool tangents = false;

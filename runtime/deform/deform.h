@@ -14,7 +14,10 @@ namespace mien {
 void deform(const Deformer& deformer, Span<DeformerInstance* const> instances, uint32_t mesh,
             Normals normals, const ParallelFor& parallel);
 
-/// The same, and then writes the vertices of each instance to its `output`, which must be valid. It may
+/// True if the output of an instance shares a byte with that of another one. All are valid.
+bool outputs_overlap(Span<DeformerInstance* const> instances, uint32_t vertex_count);
+
+/// Like deform(), and then writes the vertices of each instance to its `output`, which must be valid. It may
 /// have a stream of tangents only if the deformer has tangents. docs/deformation.md, 5 "Vertex output".
 void write_vertices(const Deformer& deformer, Span<DeformerInstance* const> instances,
                     uint32_t mesh, Normals normals, const ParallelFor& parallel);

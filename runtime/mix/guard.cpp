@@ -79,6 +79,23 @@ void take_off(const float* __restrict free_row, const float* __restrict more, ui
 
 }  // namespace
 
+uint32_t guard_group(uint32_t kind) {
+  if (kind >= kStandardGuardCount) return 0;
+  switch (static_cast<StandardGuard>(kind)) {
+    case StandardGuard::kLidsLeft:
+    case StandardGuard::kLidsRight: return kGuardsOfLids;
+    case StandardGuard::kTeeth: return kGuardsOfTeeth;
+    default: return kGuardsOfLips;
+  }
+}
+
+const char* guard_name(uint32_t kind) {
+  constexpr const char* kNames[kStandardGuardCount] = {
+      "lips left", "lips center", "lips right", "lower lip to teeth",
+      "left lids", "right lids",  "teeth"};
+  return kind < kStandardGuardCount ? kNames[kind] : "custom";
+}
+
 float guard_distance(const Guard& guard, const float* row) {
   float sum = guard.rest;
   for (uint32_t i = 0; i < guard.count; ++i) sum += guard.gains[i] * row[guard.curves[i]];

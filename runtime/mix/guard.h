@@ -36,6 +36,15 @@ enum class StandardGuard : uint8_t {
 };
 constexpr uint32_t kStandardGuardCount = 7;
 
+/// Groups of standard guards; bits.
+enum GuardGroups : uint32_t { kGuardsOfLips = 1, kGuardsOfLids = 2, kGuardsOfTeeth = 4 };
+
+/// The group of a guard by Guard::kind; 0 if it is not a standard guard.
+uint32_t guard_group(uint32_t kind);
+
+/// "lips left", or "custom" if it is not a standard guard.
+const char* guard_name(uint32_t kind);
+
 /// A distance in millimeters; at 0 both sides touch, below 0 they overlap:
 ///     f(row) = rest + sum of gain * curve + sum of gain * curve * curve over the pairs
 /// runtime/probe/probe_guards.h measures the gains on a rig.

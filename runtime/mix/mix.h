@@ -53,18 +53,14 @@ constexpr uint32_t kLayerSources = 4;
 enum class Generator : uint8_t { kBlink, kBreath, kNoise, kGaze };
 constexpr uint32_t kGenerators = 4;
 
-enum LayerFlags : uint32_t {
-  kLayerAfterGuards = 1,  // acts after the guards; not for base and speech
-};
-
 struct LayerDesc {
   LayerGroup group = LayerGroup::kBase;
   BlendMode mode = BlendMode::kOverride;
   LayerSource source = LayerSource::kClip;
-  uint32_t flags = 0;
-  float weight = 1;         // the initial one; 0 ... 1, with kAdd -1 ... 1
-  Span<const float> mask;   // [curve] 0 ... 1; 0 for curves beyond its end; empty: all 1
-  uint32_t first_pose = 0;  // of kPoses
+  uint32_t after_guards = 0;  // 1: acts after the guards; not for base and speech
+  float weight = 1;           // the initial one; 0 ... 1, with kAdd -1 ... 1
+  Span<const float> mask;     // [curve] 0 ... 1; 0 for curves beyond its end; empty: all 1
+  uint32_t first_pose = 0;    // of kPoses
   uint32_t pose_count = 0;
   Span<const uint16_t> curves;  // of the channels of kStream; or that kGenerator moves
   Span<const float> amounts;    // of kGenerator: a factor for each of its curves
@@ -91,9 +87,9 @@ constexpr int64_t kUntilReleased = INT64_MAX;
 struct Stroke {
   uint32_t pose;
   BlendMode mode;
-  bool held;    // stays as long as the stimulus lasts, and adapts unless it lags
-  bool lags;    // moves exponentially: attack and release are time constants. Else quintics
-  bool scaled;  // scaled by the level of the reaction
+  bool is_held;    // stays as long as the stimulus lasts, and adapts unless it lags
+  bool is_lag;     // moves exponentially: attack and release are time constants. Else quintics
+  bool is_scaled;  // scaled by the level of the reaction
   int64_t delay, attack;
   int64_t hold;  // after the attack, if not held
   int64_t release;
@@ -124,7 +120,7 @@ struct ReactionDesc {
 /// Two curves that move the face in opposite directions. If both are above 0, the smaller one times
 /// stiffness is subtracted from both.
 struct AntagonistPair {
-  uint16_t a, b;
+  uint16_t first, second;
   float stiffness;  // 0 ... 1
 };
 
@@ -136,7 +132,7 @@ inline uint32_t bound_gui_limit(uint32_t gui_count) {
   return gui_count < kMaxBoundGuiControls ? gui_count + 1 : kMaxBoundGuiControls;
 }
 
-/// Everything is copied.
+/// Everything is copied. mix_fields.h describes the fields.
 struct MixDesc {
   uint32_t raw_count = 0;       // raw controls of the rig
   uint32_t variable_count = 0;  // pose variables
@@ -156,13 +152,29 @@ struct MixDesc {
   /// How many clips can play at the same time, including those that fade out, and how large they may be.
   uint32_t player_count = 0;
   uint32_t max_channels = 0, max_changing_channels = 0;
-  uint32_t max_bound_gui = 0;   // largest Binding::gui_count
-  bool plays_backward = false;  // SamplerLimits::reverse
-  uint32_t max_events = 64;     // capacity for the events of a step
+  uint32_t max_bound_gui = 0;  // largest Binding::gui_count
+  bool reverse = false;        // clips may play backward: SamplerLimits::reverse
+  uint32_t max_events = 64;    // capacity for the events of a step
   /// The kernels of the rig, so that mixing uses the same instruction set. Null: the best one. Results are
   /// the same with all.
   const KernelTable* kernels = nullptr;
 };
+
+inline bool is_gaze(const LayerDesc& layer) {
+  return layer.source == LayerSource::kGenerator && layer.generator == Generator::kGaze;
+}
+
+/// Whether guards protect the layers of a group.
+inline bool is_protected(LayerGroup group) {
+  return group == LayerGroup::kBase || group == LayerGroup::kSpeech;
+}
+
+/// Layers that play clips.
+uint32_t clip_layer_count(const MixDesc& desc);
+
+/// Gives sizes that are 0 their defaults: two players for each layer of clips, a channel for each raw
+/// control, all of which change if a clip can have as many.
+void set_default_sizes(MixDesc& desc);
 
 /// Immutable, in one block of memory: a copy of the desc, and further data that steps need. Masks of the
 /// copy are 0 for curves that the layer cannot change; there is no gaze if no layer generates it.

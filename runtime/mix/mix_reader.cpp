@@ -61,6 +61,10 @@ struct MixReader {
   }
 
   template <class T>
+  void value(Field field, const Limits&, T& to) {
+    value(field.name, to);
+  }
+  template <class T>
   void value(const char*, T& to) {
     to = number<T>();
   }
@@ -76,7 +80,7 @@ struct MixReader {
   }
   void place(const char*, uint16_t& to) { to = number<uint16_t>(); }
   template <class T, class Names>
-  void choice(const char*, T& to, const Names&) {
+  void choice(Field, const Names&, T& to) {
     to = static_cast<T>(number<uint8_t>());
   }
   void count(const char*, uint32_t& to, uint32_t most) { to = bounded(most, 1); }
@@ -94,6 +98,9 @@ struct MixReader {
     const Span<float> numbers = room<float>(list.count);
     for (float& each : numbers) value(name, each);
     values = numbers;
+  }
+  void mask(const char* name, Span<const float>& to) {
+    row(name, to, [](size_t) { return 0.0f; });
   }
   template <class T, class Otherwise>
   void row(const char* name, Span<const T>& to, Otherwise otherwise) {
@@ -213,7 +220,7 @@ Status open_mix(Span<const uint8_t> bytes, const Rig* rig, const Allocator& allo
   Arena arena(allocator);
   MixReader reader = {bytes, rig, arena, error};
   MixDesc desc;
-  walk(reader, desc);
+  visit_mix(reader, desc);
   if (reader.status == Status::kOk && reader.at != bytes.count) reader.refuse("its end");
   if (reader.status != Status::kOk) return reader.status;
   desc.raw_count = reader.raw_count;

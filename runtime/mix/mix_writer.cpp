@@ -10,14 +10,18 @@
 namespace mien {
 namespace {
 
-/// Shared by bytes and text: elements are copied before they are walked, because a walk may write them.
+/// Shared by bytes and text: elements are copied before they are walked, because visitors may write them.
 template <class To>
 struct MixOutput {
   To& to() { return static_cast<To&>(*this); }
   void count(const char* name, uint32_t number, uint32_t) { to().value(name, number); }
+  template <class T>
+  void value(Field field, const Limits&, T number) {
+    to().value(field.name, number);
+  }
   template <class T, class Names>
-  void choice(const char* name, T number, const Names&) {
-    to().value(name, static_cast<uint8_t>(number));
+  void choice(Field field, const Names&, T number) {
+    to().value(field.name, static_cast<uint8_t>(number));
   }
   void pair(const char* name, uint16_t curve, float value) {
     to().value(name, curve);
@@ -27,6 +31,9 @@ struct MixOutput {
     for (uint16_t curve : list) to().value(name, curve);
   }
   void keep(const GazeTable&, const GazeTable*) {}
+  void mask(const char* name, Span<const float> numbers) {
+    to().row(name, numbers, [](size_t) { return 0.0f; });
+  }
   template <class T, class Fields>
   void list(const char* name, Span<const T> items, uint32_t, Fields fields) {
     to().value(name, static_cast<uint32_t>(items.count));
@@ -54,6 +61,7 @@ struct Sink {
 };
 
 struct MixBytes : MixOutput<MixBytes> {
+  using MixOutput::value;
   const Mix& mix;
   const CurveMap& map;
   Sink& sink;
@@ -96,6 +104,7 @@ struct MixBytes : MixOutput<MixBytes> {
 };
 
 struct MixText : MixOutput<MixText> {
+  using MixOutput::value;
   const Mix& mix;
   const CurveMap& map;
   Sink& sink;
@@ -155,8 +164,8 @@ struct MixText : MixOutput<MixText> {
   }
   void place(const char* name, uint16_t number) { value(name, uint32_t{number}); }
   template <class T, size_t N>
-  void choice(const char* name, T number, const char* const (&names)[N]) {
-    begin(name);
+  void choice(Field field, const char* const (&names)[N], T number) {
+    begin(field.name);
     const auto value = static_cast<size_t>(number);
     if (value < N) put(names[value]);
     put("\n");
@@ -190,8 +199,9 @@ struct MixText : MixOutput<MixText> {
   }
 };
 
-/// Finds the curves that a walk meets.
+/// Finds the curves that fields name.
 struct CurveFinder : MixOutput<CurveFinder> {
+  using MixOutput::value;
   Span<uint16_t> used;  // [curve of the mix] kNowhere: not yet
 
   explicit CurveFinder(Span<uint16_t> curves) : used(curves) {}
@@ -218,7 +228,7 @@ Status map_curves(const Mix& mix, MixDesc& desc, Arena& arena, CurveMap& map, Er
   }
   std::fill(map.file_curve_of.begin(), map.file_curve_of.end(), kNowhere);
   CurveFinder finder(map.file_curve_of);
-  walk(finder, desc);
+  visit_mix(finder, desc);
   for (uint16_t l = 0; l < mix.raw_count; ++l) {
     if (map.file_curve_of[l] != kNowhere) map.curve_of[map.name_count++] = l;
   }
@@ -258,7 +268,7 @@ Status write(const Mix& mix, Sink& sink, Error& error) {
   const Status status = map_curves(mix, desc, arena, map, error);
   if (status != Status::kOk) return status;
   Output output(mix, map, sink);
-  walk(output, desc);
+  visit_mix(output, desc);
   return Status::kOk;
 }
 

@@ -44,9 +44,9 @@ void place_mixer(Placer& placer, const Mix& mix, bool stages, Mixer& mixer) {
   mixer.players = placer.array<Player>(mix.player_count, kBlockAlignment);
   for (uint32_t i = 0; i < mix.player_count; ++i) {
     Player player;
-    place_clip_sampler(
-        placer, {mix.max_channels, mix.max_changing_channels, mix.plays_backward, mix.kernels},
-        player.sampler);
+    place_clip_sampler(placer,
+                       {mix.max_channels, mix.max_changing_channels, mix.reverse, mix.kernels},
+                       player.sampler);
     player.rows = placer.array<float>(size_t{3} * mix.curve_count, kBlockAlignment);
     if (!placer.measuring()) mixer.players[i] = player;
   }

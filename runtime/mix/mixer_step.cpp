@@ -247,7 +247,7 @@ void keep_stage(Mixer& mixer, uint32_t stage) {
 void mix_layers(Mixer& mixer, uint32_t begin, uint32_t end, bool after_guards, int64_t ticks) {
   const Mix& mix = *mixer.mix;
   for (uint32_t i = begin; i < end; ++i) {
-    if (((mix.layers[i].flags & kLayerAfterGuards) != 0) != after_guards) continue;
+    if ((mix.layers[i].after_guards != 0) != after_guards) continue;
     switch (mix.layers[i].source) {
       case LayerSource::kClip: mix_clip_layer(mixer, i, ticks); break;
       case LayerSource::kPoses: mix_pose_layer(mixer, i); break;
@@ -289,10 +289,10 @@ void mix_guards(Mixer& mixer, int64_t ticks) {
 void net_antagonists(const Mix& mix, float* row) {
   for (const AntagonistPair& pair : mix.antagonists) {
     // Without branches, which would be mispredicted.
-    const float a = row[pair.a], b = row[pair.b], smaller = a < b ? a : b;
+    const float a = row[pair.first], b = row[pair.second], smaller = a < b ? a : b;
     const float both = pair.stiffness * (smaller > 0.0f ? smaller : 0.0f);
-    row[pair.a] = a - both;
-    row[pair.b] = b - both;
+    row[pair.first] = a - both;
+    row[pair.second] = b - both;
   }
 }
 

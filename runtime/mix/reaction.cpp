@@ -32,7 +32,7 @@ void start_lag(Fade& lag, int64_t now, float target, int64_t time_constant) {
 }
 
 void lead(const Stroke& stroke, StrokeState& state, int64_t now, float target, int64_t ticks) {
-  if (stroke.lags) {
+  if (stroke.is_lag) {
     start_lag(state.envelope, now, target, ticks);
   } else {
     start_fade(state.envelope, now, target, ticks);
@@ -49,15 +49,15 @@ void advance_stroke(const Stroke& stroke, const ReactionState& reaction, int64_t
   if (state.phase == kStrokeRises) {
     const int64_t risen = state.begin + stroke.attack;
     int64_t end = risen + stroke.hold;
-    if (stroke.held) end = reaction.stimulus_end > risen ? reaction.stimulus_end : risen;
+    if (stroke.is_held) end = reaction.stimulus_end > risen ? reaction.stimulus_end : risen;
     if (now >= end) {
       lead(stroke, state, end, 0.0f, stroke.release);
       state.phase = kStrokeFalls;
     }
   }
   if (state.phase != kStrokeFalls) return;
-  const bool ended = stroke.lags ? lag_left(state.envelope, now) == 0.0f
-                                 : now - state.envelope.start >= state.envelope.ticks;
+  const bool ended = stroke.is_lag ? lag_left(state.envelope, now) == 0.0f
+                                   : now - state.envelope.start >= state.envelope.ticks;
   if (!ended) return;
   set_fade(state.envelope, 0.0f);
   state.phase = kStrokeRests;
@@ -87,7 +87,7 @@ void aim_level(const ReactionDesc& reaction, int64_t now, float target, Reaction
   if (state.level.target == target) return;
   bool shows = false;
   for (size_t s = 0; s < strokes.count; ++s) {
-    shows = shows || (reaction.strokes[s].scaled && strokes[s].phase != kStrokeRests);
+    shows = shows || (reaction.strokes[s].is_scaled && strokes[s].phase != kStrokeRests);
   }
   if (!shows) state.level = {target, 0.0f, 0.0f, 0, now};
   follow_level(state.level, now, target);
@@ -149,10 +149,10 @@ void trigger_reaction(const Mix& mix, uint32_t index, int64_t now, float strengt
     advance_stroke(stroke, state, now, now_at);
     if (now_at.phase == kStrokeWaits) continue;
     const bool resting = now_at.phase == kStrokeRests || now_at.phase == kStrokeFalls;
-    if (restarts || (resting && (stroke.held || cooled))) {
+    if (restarts || (resting && (stroke.is_held || cooled))) {
       now_at.begin = now + stroke.delay;
       now_at.phase = kStrokeWaits;
-      began = began || !stroke.held;
+      began = began || !stroke.is_held;
     } else if (grows && now_at.phase == kStrokeRises) {
       lead(stroke, now_at, now, stronger, stroke.attack);
     }
@@ -207,10 +207,10 @@ void mix_reactions(const Mix& mix, int64_t now, bool after_guards, Span<Reaction
       const Stroke& stroke = reaction.strokes[s];
       advance_stroke(stroke, state, now, strokes[s]);
       running = running || strokes[s].phase != kStrokeRests;
-      float weight =
-          stroke.lags ? lag_value(strokes[s].envelope, now) : fade_value(strokes[s].envelope, now);
-      if (stroke.held && !stroke.lags) weight *= gain;
-      if (stroke.scaled) weight *= level;
+      float weight = stroke.is_lag ? lag_value(strokes[s].envelope, now)
+                                   : fade_value(strokes[s].envelope, now);
+      if (stroke.is_held && !stroke.is_lag) weight *= gain;
+      if (stroke.is_scaled) weight *= level;
       if (weight > 0.0f) blend_pose(mix, stroke, weight < 1.0f ? weight : 1.0f, row);
     }
     state.running = running ? 1 : 0;
@@ -231,7 +231,7 @@ TickRange lids_closing(const Mix& mix, int64_t lead, Span<const ReactionState> s
       if (!waits && state.phase != kStrokeRises) continue;
       const int64_t rises = waits ? state.begin : state.envelope.start;
       const int64_t ticks = waits ? strokes[s].attack : state.envelope.ticks;
-      const int64_t end = rises + (strokes[s].lags ? kLagEnd * ticks : ticks);
+      const int64_t end = rises + (strokes[s].is_lag ? kLagEnd * ticks : ticks);
       const bool first = found.begin == found.end;
       found.begin = first ? rises - lead : std::min(found.begin, rises - lead);
       found.end = first ? end : std::max(found.end, end);

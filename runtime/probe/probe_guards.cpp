@@ -267,6 +267,14 @@ Status probe_guards(const Deformer& deformer, Span<const GuardDesc> descs,
   return Status::kOk;
 }
 
+GuardKinds guard_kinds(uint32_t groups) {
+  GuardKinds kinds = 0;
+  for (uint32_t kind = 0; kind < kStandardGuardCount; ++kind) {
+    if ((groups & guard_group(kind)) != 0) kinds |= 1u << kind;
+  }
+  return kinds;
+}
+
 Status plan_guards(const Deformer& deformer, GuardKinds kinds, Span<const GuardDesc> own,
                    const Allocator& allocator, Guard (&out)[kMaxGuards], uint32_t& count,
                    Error& error) {

@@ -40,6 +40,9 @@ Status find_standard_guards(const Deformer& deformer, const Allocator& allocator
 /// A set of standard guards: bit k is the StandardGuard k.
 using GuardKinds = uint32_t;
 
+/// The guards of some GuardGroups.
+GuardKinds guard_kinds(uint32_t groups);
+
 /// Measures the guards of a mix: those of `kinds` whose landmarks are found, then `own`. kInvalidArgument for
 /// more than kMaxGuards; errors of find_standard_guards() and probe_guards().
 Status plan_guards(const Deformer& deformer, GuardKinds kinds, Span<const GuardDesc> own,

@@ -8,8 +8,13 @@
 
 namespace mien {
 
+// set_up() checks the numbers of a solver and brings them into the form that steps use: directions get
+// length 1, and 0 0 0 becomes the default of a direction that has one. Returns null, or what is wrong.
+
 constexpr uint16_t kNoSolverJoint = 0xFFFF;
 constexpr uint32_t kMaxSolverJoints = 8;
+constexpr float kFarthest = 1e9f;
+constexpr int64_t kMaxEaseTicks = int64_t{1} << 40;  // 26 minutes
 
 /// Turns a joint so that one of its axes points at a target, by the shortest rotation, then about that axis
 /// so that `up_axis` comes as near to `up` as possible. Beyond the cone it points at the cone's edge.
@@ -26,6 +31,8 @@ struct AimSolver {
   float cone_axis[3] = {};  // in the space of the parent
   uint16_t reads[3] = {};
 };
+/// `cone_degrees`: the largest angle, 0 ... 180; 0: any.
+const char* set_up(AimSolver& solver, float cone_degrees);
 SolverDesc describe(const Skeleton& skeleton, AimSolver& solver);
 
 /// Moves a joint as if its parent were attached to another joint. The curve's value, rounded, selects one of
@@ -39,6 +46,7 @@ struct SpaceSolver {
   int64_t ease_ticks = 0;
   uint16_t reads[kMaxSolverJoints + 1] = {};  // set by describe()
 };
+const char* set_up(const SpaceSolver& solver);
 SolverDesc describe(const Skeleton& skeleton, SpaceSolver& solver);
 
 /// Lets the position of a joint swing about its position in the pose: a damped harmonic oscillator in model
@@ -46,13 +54,15 @@ SolverDesc describe(const Skeleton& skeleton, SpaceSolver& solver);
 /// while its goal does not move. Output 0 is its speed.
 struct SpringSolver {
   uint16_t joint = 0;
-  float frequency = 3;        // of the undamped spring, in Hertz; above 0
-  float damping = 0.3f;       // damping ratio, 0 or more; 1 is critical damping
-  float rest_offset[3] = {};  // from the pose's place, in model space
-  float stretch = 1e9f;       // largest distance from it
-  float teleport = 1e9f;      // a goal that jumps farther in a step takes the joint along
-  uint16_t reads[2] = {};     // set by describe()
+  float frequency = 3;         // of the undamped spring, in Hertz; above 0
+  float damping = 0.3f;        // damping ratio, 0 or more; 1 is critical damping
+  float rest_offset[3] = {};   // from the pose's place, in model space
+  float stretch = kFarthest;   // largest distance from it
+  float teleport = kFarthest;  // a goal that jumps farther in a step takes the joint along
+  uint16_t reads[2] = {};      // set by describe()
 };
+/// A stretch or teleport of 0 becomes the default.
+const char* set_up(SpringSolver& solver);
 SolverDesc describe(const Skeleton& skeleton, SpringSolver& solver);
 
 /// Gives joints a share of the twist of another joint about an axis: 0.5 is half of its angle. Their own
@@ -65,6 +75,7 @@ struct TwistSolver {
   uint32_t joint_count = 0;
   uint16_t reads[1] = {};  // set by describe()
 };
+const char* set_up(TwistSolver& solver);
 SolverDesc describe(const Skeleton& skeleton, TwistSolver& solver);
 
 /// Moves a joint as another one was moved from its neutral pose, or as its mirror image.
@@ -75,6 +86,7 @@ struct CopySolver {
   float weight = 1;                  // 0 ... 1
   uint16_t reads[1] = {};            // set by describe()
 };
+const char* set_up(CopySolver& solver);
 SolverDesc describe(const Skeleton& skeleton, CopySolver& solver);
 
 }  // namespace mien

@@ -106,7 +106,7 @@ TEST(Determinism, DifferentSeedsChangeTheCurvesOfLifeOnly) {
     for (uint16_t curve : layer.curves) life[curve] = true;
   }
   for (const AntagonistPair& pair : scene.mix->antagonists) {
-    if (life[pair.a] || life[pair.b]) life[pair.a] = life[pair.b] = true;
+    if (life[pair.first] || life[pair.second]) life[pair.first] = life[pair.second] = true;
   }
   Error error;
   for (SceneActor* actor : {&one, &two}) {

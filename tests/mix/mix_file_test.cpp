@@ -223,7 +223,7 @@ TEST(MixFile, TextHasALineForEachNumberAndKeepsNamesInTheirLine) {
   EXPECT_TRUE(has("poses.0.value lip\\x3Alow 0.100000001"));
   EXPECT_TRUE(has("poses.0.value variable:0 -2.98023224e-08"));
   EXPECT_TRUE(has("poses.0.value jaw\\x20Open\\x0A 3"));
-  EXPECT_TRUE(has("plays_backward false"));
+  EXPECT_TRUE(has("reverse false"));
 }
 
 TEST(MixFile, EveryFieldIsInTheBytesAndInTheText) {
@@ -265,7 +265,7 @@ TEST(MixFile, EveryFieldIsInTheBytesAndInTheText) {
         m.input.desc.max_changing_channels = 3;
       },
       [](GazeMix& m, Stroke&, ReactionDesc&, Guard&, AntagonistPair&) {
-        m.input.desc.plays_backward = true;
+        m.input.desc.reverse = true;
       },
       [](GazeMix& m, Stroke&, ReactionDesc&, Guard&, AntagonistPair&) {
         m.input.layers[1].delay = 7;
@@ -283,7 +283,7 @@ TEST(MixFile, EveryFieldIsInTheBytesAndInTheText) {
         m.input.layers[2].first_pose = m.input.layers[2].pose_count = 1;
       },
       [](GazeMix& m, Stroke&, ReactionDesc&, Guard&, AntagonistPair&) {
-        m.input.layers[0].flags = kLayerAfterGuards;
+        m.input.layers[0].after_guards = 1;
       },
       [](GazeMix& m, Stroke&, ReactionDesc&, Guard&, AntagonistPair&) {
         m.input.layers[0].period = 77;
@@ -301,8 +301,8 @@ TEST(MixFile, EveryFieldIsInTheBytesAndInTheText) {
       },
       [](GazeMix&, Stroke& s, ReactionDesc&, Guard&, AntagonistPair&) { s.pose = 0; },
       [](GazeMix&, Stroke& s, ReactionDesc&, Guard&, AntagonistPair&) { s.mode = BlendMode::kMax; },
-      [](GazeMix&, Stroke& s, ReactionDesc&, Guard&, AntagonistPair&) { s.held = true; },
-      [](GazeMix&, Stroke& s, ReactionDesc&, Guard&, AntagonistPair&) { s.lags = false; },
+      [](GazeMix&, Stroke& s, ReactionDesc&, Guard&, AntagonistPair&) { s.is_held = true; },
+      [](GazeMix&, Stroke& s, ReactionDesc&, Guard&, AntagonistPair&) { s.is_lag = false; },
       [](GazeMix&, Stroke& s, ReactionDesc&, Guard&, AntagonistPair&) { s.delay = 9; },
       [](GazeMix&, Stroke& s, ReactionDesc&, Guard&, AntagonistPair&) { s.attack = 9; },
       [](GazeMix&, Stroke& s, ReactionDesc&, Guard&, AntagonistPair&) { s.hold = 9; },
@@ -320,7 +320,9 @@ TEST(MixFile, EveryFieldIsInTheBytesAndInTheText) {
         r.level_on = 0.9f;
         r.level_off = 0.8f;
       },
-      [](GazeMix&, Stroke& s, ReactionDesc&, Guard&, AntagonistPair&) { s.scaled = !s.scaled; },
+      [](GazeMix&, Stroke& s, ReactionDesc&, Guard&, AntagonistPair&) {
+        s.is_scaled = !s.is_scaled;
+      },
       [](GazeMix&, Stroke&, ReactionDesc&, Guard& g, AntagonistPair&) { g.kind = 3; },
       [](GazeMix&, Stroke&, ReactionDesc&, Guard& g, AntagonistPair&) { g.needs_speech = 1; },
       [](GazeMix&, Stroke&, ReactionDesc&, Guard& g, AntagonistPair&) { g.rest = 9; },
@@ -333,7 +335,7 @@ TEST(MixFile, EveryFieldIsInTheBytesAndInTheText) {
       [](GazeMix&, Stroke&, ReactionDesc&, Guard& g, AntagonistPair&) { g.pairs[1].gain = 9; },
       [](GazeMix&, Stroke&, ReactionDesc&, Guard& g, AntagonistPair&) { g.pair_count = 2; },
       [](GazeMix&, Stroke&, ReactionDesc&, Guard&, AntagonistPair& p) { p.stiffness = 1; },
-      [](GazeMix&, Stroke&, ReactionDesc&, Guard&, AntagonistPair& p) { p.b = 11; },
+      [](GazeMix&, Stroke&, ReactionDesc&, Guard&, AntagonistPair& p) { p.second = 11; },
   };
   const auto base = both([](auto&&...) {});
   int index = 0;
@@ -344,6 +346,22 @@ TEST(MixFile, EveryFieldIsInTheBytesAndInTheText) {
     EXPECT_EQ(written(*opened(changed.first)), changed.first) << index;
     ++index;
   }
+}
+
+TEST(MixFile, FingerprintsAndBytesStay) {
+  // If a fingerprint changes, snapshots written by earlier versions are refused; if bytes change, files
+  // are. Then kVersion of snapshots or kMixVersion has to change, too.
+  const auto check = [](const Mix& mix, uint64_t fingerprint, uint32_t checksum, size_t size) {
+    const Bytes bytes = written(mix);
+    EXPECT_EQ(mix.fingerprint, fingerprint);
+    EXPECT_EQ(clip_checksum(bytes.data(), bytes.size()), checksum);
+    EXPECT_EQ(bytes.size(), size);
+  };
+  check(*MixScene(9).mix, 0xBDE6E2BCA5A3062Bu, 0x009BAD66u, 2328);
+  check(*MixScene(24).mix, 0x176779CA53E691EBu, 0xFA33C69Fu, 3506);
+  check(*MixScene(300).mix, 0x929B392ED18B9CDCu, 0x04F39874u, 11494);
+  GazeMix gaze;
+  check(*make_mix(gaze.input), 0xE2B6392CE5C0A421u, 0x6460A4B7u, 553);
 }
 
 TEST(MixFile, TruncatedAndForeignBytesAreRefused) {

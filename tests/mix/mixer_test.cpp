@@ -365,14 +365,14 @@ TEST(Antagonists, AreNeverBothAboveZero) {
   for (int i = 0; i < 100; ++i) {
     const Row a = own.step(kStep), b = expected.step(kStep);
     for (const AntagonistPair& pair : pairs) {
-      ASSERT_FALSE(a[pair.a] > 0 && a[pair.b] > 0);
-      const bool both = b[pair.a] > 0 && b[pair.b] > 0;
+      ASSERT_FALSE(a[pair.first] > 0 && a[pair.second] > 0);
+      const bool both = b[pair.first] > 0 && b[pair.second] > 0;
       netted += both ? 1 : 0;
       if (both) {
-        ASSERT_EQ(a[pair.a] - a[pair.b], b[pair.a] - b[pair.b]);
+        ASSERT_EQ(a[pair.first] - a[pair.second], b[pair.first] - b[pair.second]);
       } else {
-        ASSERT_EQ(bits_of(a[pair.a]), bits_of(b[pair.a]));
-        ASSERT_EQ(bits_of(a[pair.b]), bits_of(b[pair.b]));
+        ASSERT_EQ(bits_of(a[pair.first]), bits_of(b[pair.first]));
+        ASSERT_EQ(bits_of(a[pair.second]), bits_of(b[pair.second]));
       }
     }
   }
@@ -415,7 +415,7 @@ TEST(Stages, AreSeenOneByOne) {
   input.add(BlendMode::kOverride, LayerSource::kPoses).pose_count = 1;
   LayerDesc& late = input.add(BlendMode::kAdd, LayerSource::kPoses, LayerGroup::kEmotion);
   late.pose_count = 1;
-  late.flags = kLayerAfterGuards;
+  late.after_guards = 1;
   input.add_pose({0, 1}, {0.5f, 0.25f});
   const AntagonistPair pair = {0, 1, 1.0f};
   input.desc.antagonists = {&pair, 1};
@@ -523,8 +523,8 @@ TEST(MixRefuses, WhatIsOutOfRange) {
   EXPECT_TRUE(refused([&](MixInput& i) { i.layers[0].mask = {wide.data(), 11}; }));
   EXPECT_TRUE(refused([&](MixInput& i) { i.layers[0].mask = {two.data(), 2}; }));
   EXPECT_TRUE(refused([&](MixInput& i) { i.layers[0].mode = static_cast<BlendMode>(5); }));
-  EXPECT_TRUE(refused([&](MixInput& i) { i.layers[0].flags = kLayerAfterGuards; }));
-  EXPECT_TRUE(refused([&](MixInput& i) { i.layers[1].flags = 2; }));
+  EXPECT_TRUE(refused([&](MixInput& i) { i.layers[0].after_guards = 1; }));
+  EXPECT_TRUE(refused([&](MixInput& i) { i.layers[1].after_guards = 2; }));
   EXPECT_TRUE(refused([&](MixInput& i) { i.layers[1].pose_count = 2; }));
   EXPECT_TRUE(refused([&](MixInput& i) { i.layers[1].first_pose = ~0u; }));
   EXPECT_TRUE(refused([&](MixInput& i) { i.layers.resize(kMaxLayers + 1); }));
@@ -569,7 +569,7 @@ TEST(MixRefuses, WhatIsOutOfRange) {
     i.desc.guards = {&guard, 1};
   }));
   EXPECT_TRUE(refused([&](MixInput& i) {
-    pair.b = 10;
+    pair.second = 10;
     i.desc.antagonists = {&pair, 1};
   }));
   EXPECT_TRUE(refused([&](MixInput& i) {

@@ -45,7 +45,7 @@ TEST(Antagonists, AreTheHalvesOfGuiControls) {
   const uint32_t count = find_antagonists(*head().deformer.rig, {pairs.data(), pairs.size()});
   std::set<std::string> names;
   for (uint32_t i = 0; i < count; ++i) {
-    names.insert(head().controls[pairs[i].a] + " " + head().controls[pairs[i].b]);
+    names.insert(head().controls[pairs[i].first] + " " + head().controls[pairs[i].second]);
     EXPECT_EQ(pairs[i].stiffness, 1);
   }
   EXPECT_EQ(names, (std::set<std::string>{
@@ -72,8 +72,8 @@ TEST(Antagonists, AreDrivenByNothingElse) {
   const RigHandle rig = make_rig(plain);
   AntagonistPair pairs[8];
   ASSERT_EQ(find_antagonists(*capi::object(rig.get()), {pairs, 8}), 1u);
-  EXPECT_EQ(pairs[0].a, 0);
-  EXPECT_EQ(pairs[0].b, 1);
+  EXPECT_EQ(pairs[0].first, 0);
+  EXPECT_EQ(pairs[0].second, 1);
 }
 
 // Rows of a file are as many as somebody likes: not each can be compared with each.
@@ -98,8 +98,8 @@ TEST(Antagonists, OfLongTablesAreFoundAtOnce) {
   ASSERT_EQ(find_antagonists(*capi::object(rig.get()), {pairs.data(), pairs.size()}), pairs.size());
   EXPECT_LT(cpu_seconds() - begin, 2) << "pairs of rows take hours";
   for (size_t i = 0; i < pairs.size(); ++i) {
-    ASSERT_EQ(pairs[i].a, 2 * (i / kHalf));
-    ASSERT_EQ(pairs[i].b, 2 * (i % kHalf) + 1);
+    ASSERT_EQ(pairs[i].first, 2 * (i / kHalf));
+    ASSERT_EQ(pairs[i].second, 2 * (i % kHalf) + 1);
   }
 }
 

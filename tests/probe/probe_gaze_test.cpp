@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 #include <string>
 #include <vector>
 
+#include "tests/support/counting_allocator.h"
 #include "tests/support/deform_rig.h"
 
 namespace mien {
@@ -59,6 +61,32 @@ TEST(Gaze, FindsTheControlsOfEachDirection) {
   EXPECT_EQ(name(0, kGazeUp), "eyeLookUpLeft");
   EXPECT_EQ(name(1, kGazeDown), "eyeLookDownRight");
   EXPECT_LT(head().table.fit_error, 2);
+}
+
+TEST(Gaze, ObjectsHaveTheTableOfTheirRig) {
+  CountingAllocator counter;
+  const MienAllocator given = counter.get();
+  const Allocator allocator = {given.user, given.allocate, given.release, 0};
+  Gaze* gaze = nullptr;
+  Error error;
+  ASSERT_EQ(create_gaze(head().deformer, head().eyes, allocator, gaze, error), Status::kOk)
+      << error.message;
+  EXPECT_EQ(gaze->tag, Gaze::kTag);
+  EXPECT_EQ(gaze->raw_count, head().deformer.rig->raw_count);
+  EXPECT_EQ(memcmp(&gaze->table, &head().table, sizeof(GazeTable)), 0);
+  EXPECT_EQ(counter.live, 1u) << "what measuring took is back";
+  release(gaze);
+  EXPECT_TRUE(counter.clean()) << counter.first_wrong;
+
+  const uint32_t none[2] = {head().eyes[0], head().deformer.skeleton.joint_count};
+  EXPECT_EQ(create_gaze(head().deformer, none, allocator, gaze, error), Status::kIndex);
+  EXPECT_EQ(gaze, nullptr);
+  counter.restart();
+  counter.fail_at = 1;
+  counter.keep_failing = true;
+  EXPECT_EQ(create_gaze(head().deformer, head().eyes, allocator, gaze, error), Status::kMemory);
+  EXPECT_EQ(gaze, nullptr);
+  EXPECT_TRUE(counter.clean()) << counter.first_wrong;
 }
 
 TEST(Gaze, BothEyesLookAtTheTarget) {

@@ -210,7 +210,7 @@ struct MixScene {
     layers[kOverGuards].first_pose = kMoods;
     layers[kOverGuards].weight = 0;  // without pose weights it scales to 0
     layers[kOverGuards].pose_count = 1;
-    layers[kOverGuards].flags = kLayerAfterGuards;
+    layers[kOverGuards].after_guards = 1;
     const std::vector<uint16_t>* generated[] = {&parts.blinks, &parts.small, &parts.small};
     for (uint32_t g = 0; g < 3; ++g) {
       LayerDesc& layer = layers[kBlinks + g];

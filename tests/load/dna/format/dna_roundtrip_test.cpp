@@ -295,6 +295,21 @@ TEST(DnaVersions, WhatWouldNotOpenIsNotWritten) {
   }
 }
 
+TEST(DnaVersions, FilesOf4GiBAreNotWritten) {
+  Arena arena(default_allocator());
+  DnaView view = tiny_rig(arena);
+  // Only counts are looked at before a file is found too large.
+  Array<float>& xs = view.geom.meshes[0].positions.xs;
+  const uint64_t rest = encoded_size(view, {8, true}) - 4 * xs.count;
+  const auto most = static_cast<uint32_t>((UINT32_MAX - rest) / 4);
+  xs.count = most;
+  EXPECT_EQ(check_written_as(view, 8, true), Status::kOk);
+  xs.count = most + 1;
+  std::string message;
+  EXPECT_EQ(check_written_as(view, 8, true, &message), Status::kDnaLimit);
+  EXPECT_NE(message.find("less than 4 GiB"), std::string::npos) << message;
+}
+
 // Unknown layers ----------------------------------------------------------------------------------
 
 TEST(DnaUnknownLayers, SurviveInTheirPlace) {

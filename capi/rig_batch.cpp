@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Many instances at once.
-#include "runtime/eval/batch.h"
-
+// Batches of instances, in the section "Evaluation" of mien/rig.h.
 #include "capi/handles.h"
+#include "runtime/eval/batch.h"
 #include "runtime/eval/evaluate.h"
 
 using namespace mien;

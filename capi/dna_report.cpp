@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Validation of DNA files. mien.h is the manual.
+// The section "DNA: validating" of mien/dna.h.
 #include "capi/dna_handle.h"
 
 using namespace mien;

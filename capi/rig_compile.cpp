@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// DNA -> rig, DNA -> deformer. mien.h is the manual.
+// mien_rig_create() of mien/rig.h and mien_deformer_create() of mien/deform.h: what needs the compiler.
 #include "capi/dna_handle.h"
 #include "runtime/load/compile/compile_deformer.h"
 #include "runtime/load/compile/compile_rig.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Measurements of a rig that a mix needs, and gazes. mien.h is the manual.
+// What a mix needs to know of a rig, in the section "Mix" of mien/mix.h: antagonists, mirror, mask, gaze.
 #include <algorithm>
 #include <cmath>
 
@@ -12,7 +12,7 @@ using namespace mien;
 using namespace mien::capi;
 
 static_assert(sizeof(MienMixAntagonists) == sizeof(AntagonistPair) &&
-                  offsetof(MienMixAntagonists, second) == offsetof(AntagonistPair, b) &&
+                  offsetof(MienMixAntagonists, second) == offsetof(AntagonistPair, second) &&
                   offsetof(MienMixAntagonists, stiffness) == offsetof(AntagonistPair, stiffness),
               "both have one layout");
 
@@ -65,39 +65,6 @@ MienStatus mien_mix_mask(const MienRig* rig, const uint32_t* groups, size_t grou
     return give_error(detail, error);
   }
   std::fill(out_mask + of.raw_count, out_mask + curve_count, otherwise_weight);
-  return succeed(error);
-}
-
-MienStatus mien_clip_binding_snaps(const MienClipBinding* clip_binding,
-                                   const MienDeformer* deformer, float tolerance, float* out_snaps,
-                                   size_t channel_count, MienError* error) {
-  if (MienStatus status = check_error(error)) return status;
-  if (!out_snaps && channel_count != 0) {
-    return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "out_snaps is NULL");
-  }
-  if (MienStatus status = check(clip_binding, "clip_binding", error)) return status;
-  if (MienStatus status = check(deformer, "deformer", error)) return status;
-  const Binding& binding = *object(clip_binding);
-  const Deformer& of = *object(deformer);
-  if (channel_count != binding.channel_count || binding.raw_count != of.rig->raw_count) {
-    return give_error(error, MIEN_ERROR_MISMATCH,
-                      "%zu steps for %u channels, which drive %u raw controls of the %u of the rig",
-                      channel_count, binding.channel_count, binding.raw_count, of.rig->raw_count);
-  }
-  if (!(tolerance > 0) || !std::isfinite(tolerance)) {
-    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
-                      "tolerance is %g; it must be above 0 millimeters", double{tolerance});
-  }
-  Arena arena(of.rig->allocator);
-  const Span<uint8_t> snaps = arena.array<uint8_t>(channel_count + 1);
-  Error detail;
-  if (!snaps.data) return give_error(error, MIEN_ERROR_MEMORY, "no memory for steps");
-  if (probe_snaps(of, binding, tolerance, of.rig->allocator, snaps, detail) != Status::kOk) {
-    return give_error(detail, error);
-  }
-  for (size_t c = 0; c < channel_count; ++c) {
-    out_snaps[c] = snap_step(snaps[c]);
-  }
   return succeed(error);
 }
 
