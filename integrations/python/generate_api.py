@@ -12,7 +12,9 @@ import textwrap
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-API = HERE.parent / "api" / "mien_api.json"
+sys.path.insert(0, str(HERE.parent / "api"))
+from generator import load, plain, short_name, type_name, write_or_check  # noqa: E402
+
 OUTPUT = HERE / "mien" / "_api.py"
 
 CTYPES = {
@@ -64,7 +66,7 @@ class Words:
     def __init__(self, api):
         self.constants, self.prefixes = {}, {}
         for enum in api["enums"]:
-            name = python_name(enum["name"])
+            name = type_name(enum["name"])
             self.prefixes.setdefault(enum["prefix"], name)
             for value in enum["values"]:
                 self.constants[value["name"]] = f"{name}.{short_name(enum, value)}"
@@ -97,28 +99,10 @@ def docstring(text, indent="    "):
     return f'{indent}"""{body}\n{indent}"""\n'
 
 
-def python_name(c_name):
-    """MienRigInfo -> RigInfo; the typedef MienStatus is a number, its enum has the good name."""
-    return {"MienStatusCode": "Status"}.get(c_name, c_name[len("Mien"):])
-
-
-def short_name(enum, value):
-    name = value["short_name"]
-    if enum["name"] == "MienStatusCode":
-        name = re.sub(r"^ERROR_", "", name)
-    return name if name.isidentifier() else "_" + name
-
-
-def scalar_of(kind):
-    while kind["kind"] == "alias":
-        kind = kind["of"]
-    return kind
-
-
 def c_type(kind, parameter=False):
     """How ctypes calls a type. Pointers to numbers are addresses, since Python has no use for what
     they point to; text that has to be terminated is bytes."""
-    kind = scalar_of(kind)
+    kind = plain(kind)
     if kind["kind"] == "scalar":
         return CTYPES[kind["name"]]
     if kind["kind"] in ("struct", "callback"):
@@ -130,7 +114,7 @@ def c_type(kind, parameter=False):
         return f"CFUNCTYPE({', '.join(types)})"
     if kind["kind"] == "void":
         return "None"
-    to = scalar_of(kind["to"])
+    to = plain(kind["to"])
     if to["kind"] == "handle":
         return to["name"]
     if to["kind"] == "struct":
@@ -144,7 +128,7 @@ def c_type(kind, parameter=False):
 
 def write_enum(enum):
     base = "IntFlag" if enum["flags"] else "IntEnum"
-    yield f"class {python_name(enum['name'])}({base}):\n"
+    yield f"class {type_name(enum['name'])}({base}):\n"
     yield docstring(enum["documentation"] or f"Values of enum {enum['name']} of the C interface.")
     yield "\n"
     for value in enum["values"]:
@@ -186,9 +170,9 @@ def write_struct(struct, inputs):
 
 
 def annotation_of(field):
-    kind = scalar_of(field["type"])
+    kind = plain(field["type"])
     if kind["kind"] == "array":
-        item = "float" if scalar_of(kind["of"])["name"] in ("float", "double") else "int"
+        item = "float" if plain(kind["of"])["name"] in ("float", "double") else "int"
         return f"Tuple[{', '.join([item] * kind['count'])}]"
     if kind["kind"] == "scalar":
         return "bool" if field["boolean"] else "float" if kind["name"] in ("float", "double") else "int"
@@ -196,7 +180,7 @@ def annotation_of(field):
 
 
 def default_of(field):
-    kind = scalar_of(field["type"])
+    kind = plain(field["type"])
     if kind["kind"] == "array":
         return f"({', '.join(['0'] * kind['count'])})"
     if kind["kind"] == "scalar":
@@ -216,7 +200,7 @@ def has_views(struct):
 
 def write_record(struct):
     """The struct as what Python gives out: an immutable copy."""
-    name = python_name(struct["name"])
+    name = type_name(struct["name"])
     fields = [f for f in struct["fields"] if f["name"] not in ("struct_size", "reserved")]
     yield f"class {name}(NamedTuple):\n"
     lines = [struct["documentation"] or f"Copy of a {struct['name']}.", ""]
@@ -228,9 +212,9 @@ def write_record(struct):
     yield "\n"
     values = []
     for field in fields:
-        value, kind = f"c.{field['name']}", scalar_of(field["type"])
-        inner = scalar_of(kind["of"]) if kind["kind"] == "array" else kind
-        enum = field["enum"] and python_name(field["enum"])
+        value, kind = f"c.{field['name']}", plain(field["type"])
+        inner = plain(kind["of"]) if kind["kind"] == "array" else kind
+        enum = field["enum"] and type_name(field["enum"])
         if is_text(kind):
             annotation, value = "str", f"text({value})"
         elif kind["kind"] == "array" and inner["name"] == "char":
@@ -340,15 +324,5 @@ def generate(api):
     return "\n\n".join("".join(block) for block in blocks)
 
 
-def main():
-    text = generate(json.loads(API.read_text(encoding="utf-8")))
-    if "--check" not in sys.argv[1:]:
-        OUTPUT.write_text(text, encoding="utf-8")
-    elif not OUTPUT.exists() or OUTPUT.read_text(encoding="utf-8") != text:
-        sys.exit("mien/_api.py is not what mien_api.json says: run ./dev api")
-    else:
-        print("mien/_api.py is what mien_api.json says")
-
-
 if __name__ == "__main__":
-    main()
+    write_or_check({OUTPUT: generate(load())})

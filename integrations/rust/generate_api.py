@@ -9,15 +9,15 @@
 They are committed, one item a line: a crate has to build without Python, and docs.rs and editors show their
 documentation and source to users.
 """
-import argparse
-import json
 import re
 import sys
 import textwrap
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-API = HERE.parent / "api" / "mien_api.json"
+sys.path.insert(0, str(HERE.parent / "api"))
+from generator import load, short_name, write_or_check  # noqa: E402
+
 HEAD = "// SPDX-License-Identifier: MIT\n// Written by generate_api.py from mien.h. Do not edit.\n"
 
 SCALARS = {
@@ -50,7 +50,7 @@ def prose(text, api=None):
     for enum in api["enums"] if api else ():
         constants[enum["prefix"] + "..."] = rust_name(enum["name"])
         for value in enum["values"]:
-            constants[value["name"]] = f"{rust_name(enum['name'])}::{safe_value_name(enum, value)}"
+            constants[value["name"]] = f"{rust_name(enum['name'])}::{short_name(enum, value)}"
 
     def replace(match):
         name = match.group()
@@ -60,10 +60,6 @@ def prose(text, api=None):
 
     pattern = r"`[^`]*`|\bMIEN_\w*(?:\.\.\.)?|\bmien_\w+(?:\(\))?|\b[a-z]+(?:_[a-z0-9]+)+\b|[\[\]<>*_|]"
     return re.sub(pattern, replace, text)
-
-
-def safe_value_name(enum, value):
-    return re.sub("^ERROR_", "", value["short_name"])
 
 
 def sentence(text):
@@ -241,10 +237,10 @@ def safe_enum(enum, api):
     out += f"#[repr(transparent)]\npub struct {name}(pub {type_});\n\n"
     out += f"impl {name} {{\n"
     for value in enum["values"]:
-        short = safe_value_name(enum, value)
+        short = short_name(enum, value)
         out += doc(sentence(value["documentation"]), "    ", f"`{value['name']}` in C.", api)
         out += f"    pub const {short}: Self = Self({value['value']});\n"
-    names = ", ".join(f'({value["value"]}, "{safe_value_name(enum, value)}")' for value in enum["values"])
+    names = ", ".join(f'({value["value"]}, "{short_name(enum, value)}")' for value in enum["values"])
     out += "}\n\n"
     macro = "flags" if enum["flags"] else "numbers"
     out += f"{macro}!({name}, {type_}, [{names}]);\n"
@@ -359,7 +355,7 @@ GENERAL = {"MIEN_ERROR_INVALID_ARGUMENT": "an argument is outside its range",
 
 def errors(api):
     """A macro that gives the `# Errors` section of what calls a function."""
-    status_of = {value["name"]: safe_value_name(enum, value) for enum in api["enums"]
+    status_of = {value["name"]: short_name(enum, value) for enum in api["enums"]
                  if enum["name"] == "MienStatusCode" for value in enum["values"]}
     out = "/// The `# Errors` section of what calls a function of the C interface.\n"
     out += "macro_rules! errors {\n"
@@ -389,23 +385,8 @@ def generated(api):
     return "\n".join(parts)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument("--check", action="store_true")
-    check = parser.parse_args().check
-    api = json.loads(API.read_text(encoding="utf-8"))
-    stale = []
-    for path, text in (("mien-sys/src/bindings.rs", bindings(api)), ("mien-sys/tests/layout.rs", layout(api)),
-                       ("mien/src/generated.rs", generated(api))):
-        file = HERE / path
-        if check:
-            if not file.exists() or file.read_text(encoding="utf-8") != text:
-                stale.append(path)
-        else:
-            file.write_text(text, encoding="utf-8")
-    if stale:
-        sys.exit(f"{', '.join(stale)}: stale; run ./dev api")
-
-
 if __name__ == "__main__":
-    main()
+    data = load()
+    write_or_check({HERE / "mien-sys/src/bindings.rs": bindings(data),
+                    HERE / "mien-sys/tests/layout.rs": layout(data),
+                    HERE / "mien/src/generated.rs": generated(data)})

@@ -15,7 +15,8 @@ import sys
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-API = HERE.parent / "api" / "mien_api.json"
+sys.path.insert(0, str(HERE.parent / "api"))
+from generator import load, plain, short_name, type_name, write_or_check  # noqa: E402
 
 KINDS = {
     "char": "i8", "int8_t": "i8", "uint8_t": "u8", "int16_t": "i16", "uint16_t": "u16",
@@ -46,24 +47,6 @@ def camel(name):
     return re.sub(r"_(\w)", lambda match: match.group(1).upper(), name)
 
 
-def script_name(name):
-    """MienRigInfo -> RigInfo; the enum of statuses is Status."""
-    return "Status" if name == "MienStatusCode" else name[len("Mien"):]
-
-
-def short_name(enum, value):
-    name = value["short_name"]
-    if enum["name"] == "MienStatusCode":
-        name = re.sub(r"^ERROR_", "", name)
-    return name if name.isidentifier() else "_" + name
-
-
-def plain(kind):
-    while kind["kind"] == "alias":
-        kind = kind["of"]
-    return kind
-
-
 def fields_of(struct):
     return [field for field in struct["fields"] if field["name"] not in HIDDEN]
 
@@ -74,7 +57,7 @@ def field_kind(field):
     if kind["kind"] == "array":
         return "text" if field["terminated"] else KINDS[plain(kind["of"])["name"]]
     if kind["kind"] == "struct":
-        return VIEWS[kind["name"]][0] if kind["name"] in VIEWS else script_name(kind["name"])
+        return VIEWS[kind["name"]][0] if kind["name"] in VIEWS else type_name(kind["name"])
     if kind["kind"] == "pointer":
         to = plain(kind["to"])
         if to["kind"] == "handle":
@@ -82,7 +65,7 @@ def field_kind(field):
         if to["kind"] == "void" or to.get("name") in INTERNAL - set(VIEWS):
             return "u32"
         if to["kind"] == "struct":
-            return "*" + (VIEWS[to["name"]][0] if to["name"] in VIEWS else script_name(to["name"]))
+            return "*" + (VIEWS[to["name"]][0] if to["name"] in VIEWS else type_name(to["name"]))
         return "*text" if to["name"] == "char" else "*" + KINDS[to["name"]]
     if kind["kind"] == "function":
         return "u32"
@@ -101,14 +84,14 @@ def write_script(api):
             yield f"export const {constant['name'][len('MIEN_'):]} = {constant['value']};\n"
     for enum in api["enums"]:
         values = "".join(f"  {short_name(enum, v)}: {v['value']},\n" for v in enum["values"])
-        yield f"\nexport const {script_name(enum['name'])} = Object.freeze({{\n{values}}});\n"
+        yield f"\nexport const {type_name(enum['name'])} = Object.freeze({{\n{values}}});\n"
     yield "\n// Of each struct the size, whether it begins with struct_size, and of each field its offset,\n"
     yield "// kind, and the length of an array or the field that counts what a pointer points to.\n"
     yield "export const layouts = {\n"
     for struct in api["structs"]:
         if struct["name"] in INTERNAL:
             continue
-        yield f"  {script_name(struct['name'])}: {{ size: {struct['size_32']}, "
+        yield f"  {type_name(struct['name'])}: {{ size: {struct['size_32']}, "
         yield f"sized: {json.dumps(struct['sized'])}, fields: {{\n"
         for field in fields_of(struct):
             entry = [field["offset_32"], field_kind(field)]
@@ -163,7 +146,7 @@ def field_type(field):
         return "readonly number[]"
     if declared["kind"] == "struct":
         return kind
-    return script_name(field["enum"]) if field["enum"] else "number"
+    return type_name(field["enum"]) if field["enum"] else "number"
 
 
 def inputs_of(api):
@@ -197,7 +180,7 @@ def write_types(api):
     yield "/** Times of clips and mixers are integers, in ticks. */\n"
     yield "export declare const TICKS_PER_SECOND: 705600000;\n"
     for enum in api["enums"]:
-        name = script_name(enum["name"])
+        name = type_name(enum["name"])
         yield "\n" + comment(enum["documentation"])
         yield f"export declare const {name}: {{\n"
         for value in enum["values"]:
@@ -212,7 +195,7 @@ def write_types(api):
             continue
         optional = "?" if struct["name"] in inputs else ""
         yield "\n" + comment(struct["documentation"])
-        yield f"export interface {script_name(struct['name'])} {{\n"
+        yield f"export interface {type_name(struct['name'])} {{\n"
         for field in fields_of(struct):
             yield comment(field["documentation"], "  ")
             readonly = "" if optional else "readonly "
@@ -232,18 +215,7 @@ def write_types(api):
     yield "}\n"
 
 
-def main():
-    api = json.loads(API.read_text(encoding="utf-8"))
-    stale = 0
-    for name, write in (("api.js", write_script), ("api.d.ts", write_types)):
-        output, text = HERE / "mien" / name, "".join(write(api))
-        if sys.argv[1:] != ["--check"]:
-            output.write_text(text, encoding="utf-8")
-        elif output.read_text(encoding="utf-8") != text:
-            print(f"{output} is not what integrations/api/mien_api.json says: run ./dev api")
-            stale = 1
-    return stale
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    data = load()
+    write_or_check({HERE / "mien" / name: "".join(write(data))
+                    for name, write in (("api.js", write_script), ("api.d.ts", write_types))})
