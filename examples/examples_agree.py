@@ -2,11 +2,13 @@
 # SPDX-License-Identifier: MIT
 """The examples of all languages do the same job: they have to print the same.
 
-Usage: examples_agree.py --python INTERPRETER --cargo CARGO_OR_NOTHING --programs DIRECTORY
+Usage: examples_agree.py --python INTERPRETER --cargo CARGO_OR_NOTHING --luajit LUAJIT_OR_NOTHING
+                         --programs DIRECTORY
 The programs in C and C++ are DIRECTORY/example_c, _cpp, _mix_c and _mix_cpp.
-The library is found by the environment: MIEN_LIBRARY (Python), MIEN_LIB_DIR (Rust).
+The library is found by the environment: MIEN_LIBRARY (Python, Lua), MIEN_LIB_DIR (Rust).
 """
 import argparse
+import os
 import subprocess
 import sys
 import tempfile
@@ -26,7 +28,7 @@ def run(command, arguments):
 
 
 def mixes_differ(programs):
-    """Whether the four say something else while the head speaks, smiles and is dazzled."""
+    """Whether they say something else while the head speaks, smiles and is dazzled."""
     printed = {name: run(command, [])[1] for name, command in programs.items()}
     print(printed["C"], end="")
     rows = [line.split() for line in printed["C"].splitlines()]
@@ -44,6 +46,7 @@ def main():
     parser.add_argument("--programs", type=Path, required=True)
     parser.add_argument("--python", default=sys.executable)
     parser.add_argument("--cargo", default="")
+    parser.add_argument("--luajit", default="")
     args = parser.parse_args()
 
     programs = {"C": ["example_c"], "C++": ["example_cpp"]}
@@ -62,6 +65,12 @@ def main():
         cargo = [args.cargo, "run", "--quiet", "--offline", "--manifest-path", manifest, "--example"]
         programs["Rust"] = cargo + ["evaluate", "--"]
         mixing["Rust"] = cargo + ["mix"]
+    if not args.luajit:
+        print("NOT TESTED: the example in Lua; there is no luajit")
+    else:
+        os.environ["LUA_PATH"] = f"{HERE.parent / 'integrations' / 'lua'}/?.lua"
+        programs["Lua"] = [args.luajit, HERE / "evaluate.lua"]
+        mixing["Lua"] = [args.luajit, HERE / "mix.lua"]
 
     code = (HERE / "evaluate.c").read_text(encoding="utf-8").split("\n", 1)[1]
     if code not in (HERE.parent / "README.md").read_text(encoding="utf-8"):

@@ -134,9 +134,11 @@ endforeach()
 
 if(NOT MIEN_SANITIZE AND NOT CMAKE_CROSSCOMPILING)
   find_program(MIEN_CARGO cargo)
+  find_program(MIEN_LUAJIT luajit)
   add_test(NAME examples_agree
     COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/examples/examples_agree.py --python ${MIEN_PYTHON}
       --cargo "$<$<BOOL:${MIEN_CARGO}>:${MIEN_CARGO}>"
+      --luajit "$<$<BOOL:${MIEN_LUAJIT}>:${MIEN_LUAJIT}>"
       --programs $<TARGET_FILE_DIR:example_c>)
   set_tests_properties(examples_agree PROPERTIES LABELS abi TIMEOUT 600
     ENVIRONMENT "${python_environment};MIEN_LIB_DIR=$<TARGET_FILE_DIR:mien>;CARGO_TARGET_DIR=${PROJECT_BINARY_DIR}/rust/target/shared")
@@ -160,6 +162,23 @@ endif()
 add_test(NAME rust_api
   COMMAND Python3::Interpreter ${integrations}/rust/generate_api.py --check)
 set_tests_properties(rust_api PROPERTIES LABELS guard)
+
+# ---- Lua --------------------------------------------------------------------------------------------
+
+add_test(NAME lua_api
+  COMMAND Python3::Interpreter ${integrations}/lua/generate_api.py --check)
+set_tests_properties(lua_api PROPERTIES LABELS guard)
+if(MIEN_SANITIZE OR CMAKE_CROSSCOMPILING)
+  # LuaJIT is neither built with sanitizers nor for other machines.
+elseif(MIEN_LUAJIT)
+  foreach(name lifetime misuse values)
+    add_test(NAME lua_${name}_test COMMAND ${MIEN_LUAJIT} ${integrations}/lua/tests/${name}_test.lua)
+    set_tests_properties(lua_${name}_test PROPERTIES LABELS abi TIMEOUT 120 ENVIRONMENT
+      "MIEN_LIBRARY=$<TARGET_FILE:mien>;LUA_PATH=${integrations}/lua/?.lua\\;${integrations}/lua/tests/?.lua")
+  endforeach()
+else()
+  message(STATUS "NOT TESTED: the Lua binding; there is no luajit")
+endif()
 
 # ---- JavaScript -------------------------------------------------------------------------------------
 

@@ -1,0 +1,210 @@
+-- SPDX-License-Identifier: MIT
+-- What the classes give is what the library computes, by every way to it; frames allocate nothing.
+local ffi = require("ffi")
+local api = require("mien.api")
+local mien = require("mien")
+local support = require("support")
+local test, equal, arrays_equal = support.test, support.equal, support.arrays_equal
+
+test("structs have the sizes of the header", function()
+  local count = 0
+  for name, size in pairs(api.sizes) do
+    equal(ffi.sizeof(name), size, name)
+    count = count + 1
+  end
+  assert(count > 50)
+end)
+
+test("batch, stages and baked files give the bits of evaluate", function()
+  local rig, deformer = support.small()
+  local baked = mien.open_baked_bytes(rig:bake_bytes(deformer))
+  local same_rig = baked:rig()
+  local batch, faces, again = rig:batch(4), {}, {}
+  for i = 1, 3 do
+    faces[i], again[i] = rig:instance(), rig:instance()
+    support.pose(faces[i], i)
+    support.pose(again[i], i)
+  end
+  batch:evaluate(faces)
+  local other = same_rig:instance()
+  local moved = 0
+  for i = 1, 3 do
+    again[i]:evaluate(0)
+    arrays_equal(faces[i].joints, again[i].joints, "joints of batch")
+    arrays_equal(faces[i].blend_shapes, again[i].blend_shapes, "blend shapes of batch")
+    support.pose(other, i)
+    other:evaluate(0)
+    arrays_equal(other.joints, again[i].joints, "joints of the baked rig")
+    for j = 0, #other.joints - 1 do moved = moved + math.abs(other.joints[j]) end
+  end
+  assert(moved > 1)
+  for j = 0, #faces[1].joints - 1 do
+    if faces[1].joints[j] ~= faces[2].joints[j] then return end
+  end
+  error("different controls gave the same joints")
+end)
+
+test("a DNA file survives memory and disk", function()
+  local dna = mien.generate(mien.Preset.SMALL, { seed = 5 })
+  local bytes, path = dna:bytes(), os.tmpname()
+  equal(dna:info().raw_control_count, mien.rig(dna):count(mien.Kind.RAW_CONTROL), "raw controls")
+  dna:save(path)
+  local again = mien.open_dna(path, { file_access = mien.FileAccess.READ })
+  equal(again:bytes(), bytes, "bytes")
+  equal(mien.open_dna_bytes(bytes):bytes(), bytes, "bytes")
+  local meters = mien.open_dna(path, { system = "unity" })
+  equal(meters:info().translation_unit, mien.TranslationUnit.METERS, "unit")
+  os.remove(path)
+end)
+
+test("names and indices are inverse", function()
+  local rig = support.small()
+  for _, kind in ipairs { mien.Kind.RAW_CONTROL, mien.Kind.JOINT } do
+    assert(rig:count(kind) > 2)
+    for i = 0, rig:count(kind) - 1 do equal(rig:find(kind, rig:name(kind, i)), i, "index") end
+  end
+  equal(rig:find(mien.Kind.JOINT, "nobody"), nil, "index of an unknown name")
+  equal(#rig:joint_parents(), rig:count(mien.Kind.JOINT), "parents")
+  local face, name = rig:instance(), rig:name(mien.Kind.RAW_CONTROL, 2)
+  face:set(name, 0.25)
+  equal(face.raw_controls[2], 0.25, name)
+  equal(face:get(name), 0.25, name)
+end)
+
+test("the deformer moves what joints move, and writes the same vertices", function()
+  local rig, deformer = support.small()
+  local face, body = rig:instance(), deformer:instance()
+  local mesh = deformer:mesh(0)
+  body:update(face)
+  body:deform(0, mien.Normals.RECOMPUTED)
+  equal(#body:positions(0), 3 * mesh.position_count, "numbers")
+  local neutral = body:positions(0):list()
+  for i, value in ipairs(neutral) do assert(math.abs(value - mesh.positions[i - 1]) < 1e-3) end
+  support.pose(face, 1)
+  face:evaluate(0)
+  body:update(face)
+  body:deform(0, mien.Normals.RECOMPUTED)
+  local farthest = 0
+  for i, value in ipairs(neutral) do farthest = math.max(farthest, math.abs(body:positions(0)[i - 1] - value)) end
+  assert(farthest > 0.01)
+  equal(#body.skin_matrices, 16 * rig:count(mien.Kind.JOINT), "matrices")
+
+  local vertices, output = ffi.new("float[?]", 3 * mesh.vertex_count), ffi.new("MienVertexOutput")
+  output.vertex_capacity = mesh.vertex_count
+  output.positions = { data = vertices, stride = 12, format = mien.VertexFormat.FLOAT32X3 }
+  body:write_vertices(0, output)
+  for i = 0, mesh.vertex_count - 1 do
+    local position = mesh.vertex_position_indices[i]
+    for k = 0, 2 do equal(vertices[3 * i + k], body:positions(0)[3 * position + k], "vertex") end
+  end
+end)
+
+test("clips keep every bit, play, and drive the controls they name", function()
+  local rig = support.small()
+  local names, values = { rig:name(mien.Kind.RAW_CONTROL, 1), "nobody" }, {}
+  for i = 0, 199 do values[i + 1] = ffi.new("float[1]", i / 300)[0] end
+  local clip = mien.build_clip { names = names, values = values, rate_numerator = 30,
+    events = { { tick = mien.ticks(0.5), name = "step", value = 2 } } }
+  local read, path = clip:read(), os.tmpname()
+  for i, value in ipairs(values) do equal(read[i - 1], value, "value") end
+  clip:save(path)
+  local opened = mien.open_clip(path)
+  equal(opened:bytes(), clip:bytes(), "bytes")
+  os.remove(path)
+  equal(clip:info().frame_count, 100, "frames")
+  local player, face = mien.open_clip_bytes(clip:bytes()):player(), rig:instance()
+  player:advance(mien.ticks(1))
+  equal(player:sample()[0], values[61], "frame 30")
+  clip:bind(rig):apply(player.values, face)
+  equal(face.raw_controls[1], values[61], "control")
+  equal(face.raw_controls[2], 0, "another control")
+end)
+
+test("a mix opens again, its mixer restores, events arrive", function()
+  local rig = support.small()
+  local name, other = rig:name(mien.Kind.RAW_CONTROL, 0), rig:name(mien.Kind.RAW_CONTROL, 1)
+  local mix = rig:mix {
+    variables = { "surprise" },
+    layers = {
+      { source = mien.LayerSource.CLIP, mask = { [name] = 1, [other] = 0.5, surprise = 1 } },
+      { source = mien.LayerSource.POSES, group = mien.LayerGroup.EMOTION, mode = mien.BlendMode.ADD,
+        poses = { { [other] = 0.25 } } },
+      { source = mien.LayerSource.STREAM, group = mien.LayerGroup.EMOTION, mode = mien.BlendMode.ADD,
+        curves = { "surprise" } },
+    },
+  }
+  equal(mien.open_mix_bytes(mix:bytes(), rig):bytes(), mix:bytes(), "bytes")
+  assert(mix:text():find(name, 1, true))
+  equal(mix:info().layer_count, 3, "layers")
+  local clip = mien.build_clip { names = { name, other }, values = { 0.5, 0.5, 0.5, 0.5 }, looping = mien.Looping.CLAMP,
+    events = { { tick = 100, name = "now", value = 3 } } }
+  local binding = clip:bind(rig)
+  local mixer, face, frame = mix:mixer(), rig:instance(), mien.TICKS_PER_SECOND / 60
+  mixer:play(0, clip, binding, { clip_id = 7, transition = mien.Transition.CUT })
+  mixer:set_pose_weight(1, 0, 1)
+  equal(mixer:push(2, 1, { 0.75 }), true, "first row")
+  equal(mixer:push(2, 1, { 0.75 }), false, "a row that is not newer")
+  mixer:step(frame, face)
+  equal(face.raw_controls[0], 0.5, name)
+  equal(face.raw_controls[1], 0.5, other)
+  equal(mixer:info().event_count, 1, "events")
+  local event = mixer:event(0)
+  equal(event.name .. event.tick .. event.value .. event.layer, "now10030", "event")
+  for i = 1, 60 do -- the stream fades in
+    mixer:push(2, (i + 1) * frame, { 0.75 })
+    mixer:step(frame)
+  end
+  equal(mixer.row[#face.raw_controls], 0.75, "surprise")
+
+  local state, twin = mixer:snapshot(), mix:mixer()
+  twin:restore(state, { { clip_id = 7, clip = clip, binding = binding } })
+  mixer:set_pose_weight(1, 0, 0, 5 * frame)
+  twin:set_pose_weight(1, 0, 0, 5 * frame)
+  for _ = 1, 4 do
+    mixer:step(frame)
+    twin:step(frame)
+    for i = 0, #face.raw_controls - 1 do equal(twin.row[i], mixer.row[i], "row") end
+  end
+end)
+
+-- Bytes that frames of a mixer, an instance, a batch and a deformer leave to the garbage collector.
+local function garbage_of_frames(frames)
+  local rig, deformer = support.small()
+  local face, body, batch = rig:instance(), deformer:instance(), rig:batch(2)
+  local faces = { rig:instance(), rig:instance() }
+  local mix = rig:mix { layers = { { source = mien.LayerSource.POSES, poses = { { [0] = 1 } } } } }
+  local mixer, frame = mix:mixer(), mien.TICKS_PER_SECOND / 60
+  mixer:set_pose_weight(0, 0, 1, 100 * frame)
+  local function run(count)
+    for _ = 1, count do
+      mixer:step(frame, face)
+      face:evaluate(0)
+      batch:evaluate(faces)
+      body:update(face)
+      body:deform(0)
+    end
+  end
+  run(200)
+  collectgarbage()
+  collectgarbage("stop")
+  local before = collectgarbage("count")
+  run(frames)
+  local bytes = (collectgarbage("count") - before) * 1024
+  collectgarbage("restart")
+  return bytes
+end
+
+test("frames allocate nothing, interpreted", function()
+  jit.off()
+  local bytes = garbage_of_frames(1000)
+  jit.on()
+  equal(bytes, 0, "bytes")
+end)
+
+test("frames allocate nothing, compiled", function()
+  -- The compiler itself may still record a trace during these frames, which is not garbage of each of them.
+  local bytes = garbage_of_frames(5000)
+  assert(bytes < 5000, bytes)
+end)
+
+support.finish()
