@@ -64,21 +64,17 @@ WITHOUT = {
 }
 # Families of names that a language has not yet: what they begin with. Users of Lua call these by the FFI.
 LATER = {"Lua": (
-    "MienAuthorDesc", "MienAuthorMesh", "MienDerivatives", "MienDocument", "MienGaze", "MienJacobian",
-    "MienPlacement", "MienProject", "MienPrune", "MienSolver", "MienTransplant", "MienValidate",
-    "mien_arkit_", "mien_author_", "mien_batch_bytes", "mien_clip_binding_info", "mien_clip_binding_snaps",
-    "mien_clip_channel", "mien_clip_event", "mien_clip_find_", "mien_clip_player_info",
-    "mien_clip_player_next_event", "mien_clip_player_set_speed", "mien_clip_verify", "mien_control_name",
-    "mien_coordinate_system_name", "mien_deformer_bind_", "mien_deformer_influences",
-    "mien_deformer_instance_deform_batch", "mien_deformer_instance_local_", "mien_deformer_instance_update_from_",
+    "MienAuthorDesc", "MienAuthorMesh", "MienDerivatives", "MienDocument", "MienJacobian", "MienPlacement",
+    "MienProject", "MienPrune", "MienSolver", "MienTransplant", "MienValidate", "mien_author_", "mien_batch_bytes",
+    "mien_clip_binding_snaps", "mien_clip_channel", "mien_clip_event", "mien_clip_find_", "mien_clip_verify",
+    "mien_control_name", "mien_coordinate_system_name", "mien_deformer_bind_", "mien_deformer_influences",
+    "mien_deformer_instance_deform_batch", "mien_deformer_instance_local_",
     "mien_deformer_instance_write_vertices_batch", "mien_deformer_inverse_", "mien_deformer_target",
-    "mien_derivatives_", "mien_dna_child_", "mien_dna_field", "mien_dna_layer", "mien_dna_read_",
-    "mien_dna_validate_", "mien_document_", "mien_gaze_", "mien_instance_ml_controls", "mien_instance_psd_",
-    "mien_instance_rbf_", "mien_instance_statistics", "mien_isa_", "mien_mix_antagonists", "mien_mix_glare",
-    "mien_mix_guard", "mien_mix_mask", "mien_mix_mirror", "mien_mixer_guard", "mien_mixer_stage",
-    "mien_mixer_step_batch", "mien_report_", "mien_rig_evaluate_joint_group", "mien_rig_evaluate_rbf_",
-    "mien_rig_evaluate_twist_", "mien_rig_initial_", "mien_rig_match", "mien_rig_psd_", "mien_rig_statistics",
-    "mien_rig_variable_", "mien_solver_")}
+    "mien_derivatives_", "mien_dna_child_", "mien_dna_layer", "mien_dna_validate_", "mien_document_",
+    "mien_instance_ml_controls", "mien_instance_psd_", "mien_instance_rbf_", "mien_instance_statistics",
+    "mien_isa_", "mien_mix_glare", "mien_mix_guard", "mien_mix_mask", "mien_mixer_step_batch", "mien_report_",
+    "mien_rig_evaluate_joint_group", "mien_rig_evaluate_rbf_", "mien_rig_evaluate_twist_", "mien_rig_initial_",
+    "mien_rig_psd_", "mien_rig_statistics", "mien_rig_variable_", "mien_solver_")}
 # Functions whose own statuses cannot reach a user, who finds no list of them either.
 SILENT = {
     "mien_coordinate_system_name": {"Python", "Rust"},

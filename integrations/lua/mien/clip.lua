@@ -108,6 +108,26 @@ function ClipPlayer:advance(ticks)
   check(lib.mien_clip_player_advance(open(self, ClipPlayer), ticks), "the player cannot advance as far")
 end
 
+-- The speed is a fraction; `denominator` is 1 without it.
+function ClipPlayer:set_speed(numerator, denominator)
+  check(lib.mien_clip_player_set_speed(open(self, ClipPlayer), numerator, denominator or 1), "the speed is out of range")
+end
+
+-- A MienClipPlayerInfo.
+function ClipPlayer:info()
+  local info = object.info("MienClipPlayerInfo")
+  check(lib.mien_clip_player_info(open(self, ClipPlayer), info), "info")
+  return info
+end
+
+-- The next event that the last advance passed, { tick =, name =, value = }, or nil.
+function ClipPlayer:next_event()
+  local event, found = ffi.new("MienClipEvent"), ffi.new("uint32_t[1]")
+  check(lib.mien_clip_player_next_event(open(self, ClipPlayer), event, found), "events")
+  if found[0] == 0 then return nil end
+  return { tick = tonumber(event.tick), name = object.text(event.name), value = event.value }
+end
+
 -- Decodes the values at the current position: one per channel, also in the field `values`.
 function ClipPlayer:sample()
   check(lib.mien_clip_player_sample(open(self, ClipPlayer), self.values), "cannot sample")
@@ -131,6 +151,29 @@ function Clip:bind(rig, matrix)
     object.desc("MienClipBindingDesc", { matrix = entries, matrix_count = matrix and #matrix or 0 }), out, detail),
     "cannot bind the clip")
   return object.new(ClipBinding, out)
+end
+
+-- The entries for Clip.bind that suit clips with the names of ARKit.
+function clips.arkit_matrix()
+  local count = ffi.new("size_t[1]")
+  check(lib.mien_arkit_matrix(nil, 0, count), "matrix")
+  local entries = ffi.new("MienMatrixEntry[?]", count[0])
+  check(lib.mien_arkit_matrix(entries, count[0], count), "matrix")
+  local list = {}
+  for i = 1, tonumber(count[0]) do
+    local entry = entries[i - 1]
+    list[i] = { channel = object.text(entry.channel), control = object.text(entry.control), weight = entry.weight }
+  end
+  return list
+end
+
+-- What was found, as lists: `controls` and `extra_controls`, raw controls that are driven and that are not, and
+-- `missing_channels`, which drive nothing.
+function ClipBinding:info()
+  local info, result = object.info("MienClipBindingInfo"), {}
+  check(lib.mien_clip_binding_info(open(self, ClipBinding), info), "info")
+  for _, name in ipairs { "controls", "extra_controls", "missing_channels" } do result[name] = info[name]:list() end
+  return result
 end
 
 -- Sets the raw controls of an instance from values of the clip, such as of ClipPlayer.sample.

@@ -80,6 +80,13 @@ function DeformerInstance:update(instance)
     "the instance is of another rig")
 end
 
+-- The same from C arrays of floats: joint values like those of Instance.joints, and a weight per blend shape channel.
+-- Without values there are no deltas, without weights all are 0.
+function DeformerInstance:update_from_values(joint_values, joint_value_count, channel_weights, channel_weight_count)
+  check(lib.mien_deformer_instance_update_from_values(open(self, DeformerInstance), joint_values,
+    joint_value_count or 0, channel_weights, channel_weight_count or 0), "the rig has another number of values")
+end
+
 -- Computes positions and normals of a mesh. normals: mien.Normals, those of the deformer without it.
 function DeformerInstance:deform(mesh, normals)
   check(lib.mien_deformer_instance_deform(open(self, DeformerInstance), mesh, normals or 0, nil), "cannot deform")

@@ -11,7 +11,8 @@ local open, check, check_detail, detail = object.open, object.check, object.chec
 local mixes = {}
 local Mix = object.class("Mix", "MienMix")
 local Mixer = object.class("Mixer", "MienMixer")
-mixes.Mix, mixes.Mixer = Mix, Mixer
+local Gaze = object.class("Gaze", "MienGaze")
+mixes.Mix, mixes.Mixer, mixes.Gaze = Mix, Mixer, Gaze
 
 -- ---- descriptions -----------------------------------------------------------------------------------
 
@@ -109,7 +110,9 @@ end
 --            MienMixStroke, whose `pose` is { name = value, ... }
 -- variables: list of names of pose variables, curves behind the raw controls
 -- antagonists: list of { first =, second =, stiffness = }, curves by name
+-- mirror:    such as Deformer.mirror, so that clips can be played mirrored
 -- deformer:  a mien.Deformer, with which guards are measured
+-- gaze:      a mien.Gaze, for layers of mien.Generator.GAZE
 -- and guards (mien.Guard), player_count, max_channels, max_changing_channels, max_events, reverse as in MienMixDesc
 function rigs.Rig:mix(fields)
   local rig, variables = open(self, rigs.Rig), fields.variables or {}
@@ -124,8 +127,10 @@ function rigs.Rig:mix(fields)
     pairs_list[i] = { first = lists:curve(pair.first), second = lists:curve(pair.second),
       stiffness = pair.stiffness or 1 }
   end
-  local given = copy(fields, { layers = true, reactions = true, variables = true, antagonists = true, deformer = true })
+  local given = copy(fields, { layers = true, reactions = true, variables = true, antagonists = true, deformer = true,
+    gaze = true })
   given.deformer = fields.deformer and open(fields.deformer, rigs.Deformer)
+  given.gaze = fields.gaze and open(fields.gaze, Gaze)
   given.variable_count = #variables
   given.layers, given.layer_count = lists:array("MienMixLayer", layers), #layers
   given.poses, given.pose_count = lists:array("MienMixPose", lists.poses), #lists.poses
@@ -134,6 +139,57 @@ function rigs.Rig:mix(fields)
   local desc = lists:held(object.desc("MienMixDesc", given))
   check_detail(lib.mien_mix_create(rig, desc, out, detail), "cannot create the mix")
   return object.new(Mix, out)
+end
+
+-- Pairs of raw controls that move the face in opposite directions, for Rig.mix.
+function rigs.Rig:antagonists()
+  local handle, count = open(self, rigs.Rig), ffi.new("size_t[1]")
+  check(lib.mien_mix_antagonists(handle, nil, 0, count), "antagonists")
+  local pairs_found = ffi.new("MienMixAntagonists[?]", math.max(tonumber(count[0]), 1))
+  check(lib.mien_mix_antagonists(handle, pairs_found, count[0], count), "antagonists")
+  local list = {}
+  for i = 1, tonumber(count[0]) do
+    local pair = pairs_found[i - 1]
+    list[i] = { first = pair.first, second = pair.second, stiffness = pair.stiffness }
+  end
+  return list
+end
+
+-- A C array with the counterpart of each curve in the other half of the face: raw controls, then `variable_count` pose
+-- variables. Measures the rig, which takes time.
+function rigs.Deformer:mirror(raw_control_count, variable_count)
+  local count = raw_control_count + (variable_count or 0)
+  local curves = ffi.new("uint16_t[?]", math.max(count, 1))
+  check_detail(lib.mien_mix_mirror(open(self, rigs.Deformer), curves, count, detail), "cannot find counterparts")
+  return curves
+end
+
+-- Measures how raw controls turn the eyes. options: left_eye and right_eye, names of joints.
+function rigs.Deformer:gaze(options)
+  local handle, out, given = open(self, rigs.Deformer), ffi.new("MienGaze*[1]"), options or {}
+  local desc = object.desc("MienGazeDesc", given)
+  check_detail(lib.mien_gaze_create(handle, desc, out, detail), "cannot create a gaze")
+  return object.new(Gaze, out)
+end
+
+-- A MienGazeInfo.
+function Gaze:info()
+  local info = object.info("MienGazeInfo")
+  check(lib.mien_gaze_info(open(self, Gaze), info), "info")
+  return info
+end
+
+local target, rest = ffi.new("MienGazeTarget"), ffi.new("MienGazeRest")
+
+-- Sets the raw controls of an instance so that both eyes look at a point: millimeters to the left, up and to the front,
+-- in the model space of the rig with its head in the neutral pose. Returns what the eyes cannot reach, for the head to
+-- turn: tangents of the angles to the left and up.
+function Gaze:look_at(left, up, front, instance)
+  local controls = open(instance, rigs.Instance) and instance.raw_controls
+  target.left, target.up, target.front = left, up, front
+  check(lib.mien_gaze_look_at(open(self, Gaze), target, controls.data, controls.count, rest),
+    "the target is not finite, or the instance is of another rig")
+  return rest.left, rest.up
 end
 
 -- Opens a mix, a file or its bytes, for a rig that has its controls.
@@ -256,6 +312,25 @@ function Mixer:event(index)
   local layer = ffi.new("uint32_t[1]")
   check(lib.mien_mixer_event(open(self, Mixer), index, event, layer), "no event " .. tostring(index))
   return { tick = tonumber(event.tick), name = object.text(event.name), value = event.value, layer = layer[0] }
+end
+
+-- The row after a stage of the last step, for a mixer with the option `stages`.
+function Mixer:stage(stage)
+  local handle = open(self, Mixer)
+  return object.view(self, "stage " .. tostring(stage), "MienFloatView", function(view)
+    return lib.mien_mixer_stage(handle, stage, view)
+  end)
+end
+
+-- What a guard did in the last step: the fields of MienGuardState as a table.
+function Mixer:guard(guard)
+  local state = object.info("MienGuardState")
+  check(lib.mien_mixer_guard(open(self, Mixer), guard, state), "no guard " .. tostring(guard))
+  local result = { name = object.text(state.name), controls = state.controls:list(), kind = state.kind }
+  for _, name in ipairs { "activation", "protected_distance", "wanted", "limit", "distance" } do
+    result[name] = state[name]
+  end
+  return result
 end
 
 -- The state as a string. `restore` takes one of a mixer of the same mix.

@@ -73,6 +73,25 @@ function Dna:bytes(options)
   end, "cannot write")
 end
 
+-- A field of a loaded layer, by its path ("desc.name", "defn.jointNames[3]"): a string, a number, or a C array of
+-- floats or int64_t and its count. docs/dna-format.md lists the fields.
+function Dna:read(path)
+  local handle, field = open(self, Dna), object.info("MienDnaField")
+  check_detail(lib.mien_dna_field_n(handle, path, #path, field, detail), path)
+  local count = tonumber(field.count)
+  if field.type == api.FieldType.STRING and field.is_array == 0 then
+    local view = ffi.new("MienStringView")
+    check_detail(lib.mien_dna_read_string_n(handle, path, #path, view, detail), path)
+    return object.text(view)
+  end
+  local floats = field.type == api.FieldType.F32
+  local values = ffi.new(floats and "float[?]" or "int64_t[?]", math.max(count, 1))
+  local read = floats and lib.mien_dna_read_floats_n or lib.mien_dna_read_integers_n
+  check_detail(read(handle, path, #path, 0, count, values, detail), path)
+  if field.is_array == 0 then return tonumber(values[0]) end
+  return values, count
+end
+
 -- ---- rigs -------------------------------------------------------------------------------------------
 
 -- Compiles a rig. The DNA may be closed afterwards. options: fields of MienRigDesc.
@@ -110,6 +129,18 @@ function Rig:find(kind, name)
   if status == api.Status.NAME then return nil end
   check(status, name)
   return out_number[0]
+end
+
+-- The raw controls that a name of ARKit, VRM, FACS and others stands for: a list of { control = index, weight = }, and
+-- how it was found, a mien.NameMatch. Nil if there is none.
+function Rig:match(name)
+  local shares, count = ffi.new("MienControlShare[?]", api.MOST_SHARES), ffi.new("size_t[1]")
+  local status = lib.mien_rig_match(open(self, Rig), name, #name, shares, api.MOST_SHARES, count, out_number)
+  if status == api.Status.NAME then return nil end
+  check(status, name)
+  local list = {}
+  for i = 1, tonumber(count[0]) do list[i] = { control = shares[i - 1].control, weight = shares[i - 1].weight } end
+  return list, out_number[0]
 end
 
 -- The parent of each joint; that of a root is itself.

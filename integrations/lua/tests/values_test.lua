@@ -167,6 +167,79 @@ test("a mix opens again, its mixer restores, events arrive", function()
   end
 end)
 
+test("fields of DNA files are numbers, strings and arrays", function()
+  local dna = mien.generate(mien.Preset.SMALL, { seed = 5 })
+  local rig = mien.rig(dna)
+  equal(dna:read("defn.jointNames[2]"), rig:name(mien.Kind.JOINT, 2), "name")
+  local xs, count = dna:read("defn.neutralJointTranslations.xs")
+  equal(count, rig:count(mien.Kind.JOINT), "joints")
+  for i = 0, count - 1 do equal(xs[i], rig:neutral_joint_values()[9 * i], "x") end
+  equal(type(dna:read("desc.lodCount")), "number", "type of a number")
+  local parents, parent_count = dna:read("defn.jointHierarchy")
+  for i = 0, tonumber(parent_count) - 1 do equal(tonumber(parents[i]), rig:joint_parents()[i], "parent") end
+end)
+
+test("players change speed and give events; bindings tell what they drive", function()
+  local rig = support.small()
+  local name = rig:name(mien.Kind.RAW_CONTROL, 3)
+  local clip = mien.build_clip { names = { name, "nobody" }, values = { 0, 0, 1, 0, 0, 0, 1, 0 }, rate_numerator = 1,
+    events = { { tick = mien.ticks(1), name = "one" }, { tick = mien.ticks(2), name = "two", value = 2 } } }
+  local player, found = clip:player(), clip:bind(rig):info()
+  equal(table.concat(found.controls, " "), "3", "controls")
+  equal(table.concat(found.missing_channels, " "), "1", "channels")
+  equal(#found.extra_controls, rig:count(mien.Kind.RAW_CONTROL) - 1, "other controls")
+  player:set_speed(2)
+  player:advance(mien.ticks(1))
+  equal(tonumber(player:info().tick), mien.ticks(2), "tick")
+  equal(player:next_event().name .. player:next_event().value, "one2", "events")
+  equal(player:next_event(), nil, "a third event")
+  equal(mien.build_clip({ names = { "eyeBlinkLeft" }, values = { 1 } }):bind(rig, mien.arkit_matrix()):info() ~= nil, true,
+    "a binding by the matrix")
+  assert(#mien.arkit_matrix() >= 52)
+end)
+
+test("tables measured on the generated head: names, antagonists, mirror, gaze, guards", function()
+  local dna = mien.generate(mien.Preset.HEAD)
+  local rig = mien.rig(dna)
+  local deformer, face = mien.deformer(dna, rig), rig:instance()
+  local left, right = rig:find(mien.Kind.RAW_CONTROL, "eyeBlinkLeft"), rig:find(mien.Kind.RAW_CONTROL, "eyeBlinkRight")
+  local shares, match = rig:match("eyeBlink_L")
+  equal(shares[1].control, left, "control")
+  equal(match, mien.NameMatch.SPELLING, "match")
+  equal(rig:match("no such expression"), nil, "shares")
+  local mirror = deformer:mirror(#face.raw_controls)
+  equal(mirror[left], right, "counterpart")
+  local gaze = deformer:gaze()
+  gaze:look_at(300, 0, 1000, face)
+  local to_left = face.raw_controls:list()
+  local rest = gaze:look_at(5000, 0, 1000, face)
+  assert(rest > 0, "the eyes reach a target far to the side")
+  local changed = 0
+  for i, value in ipairs(to_left) do changed = changed + math.abs(value - face.raw_controls[i - 1]) end
+  assert(changed > 0.1)
+  assert(gaze:info().left_eye.left > gaze:info().right_eye.left)
+
+  local clip = mien.build_clip { names = { "eyeBlinkLeft" }, values = { 0.5, 0.5 }, looping = mien.Looping.CLAMP }
+  local mixer = rig:mix({
+    layers = { { source = mien.LayerSource.CLIP, group = mien.LayerGroup.SPEECH } }, mirror = mirror, gaze = gaze,
+    antagonists = rig:antagonists(), guards = mien.Guard.LIPS, deformer = deformer,
+  }):mixer { stages = 1 }
+  mixer:play(0, clip, clip:bind(rig), { transition = mien.Transition.CUT, mirrored = true })
+  mixer:step(1)
+  equal(mixer.row[right], 0.5, "the other eye")
+  equal(mixer:stage(0)[right], 0.5, "the first stage")
+  equal(mixer.row[left], 0, "the eye of the clip")
+  local guard = mixer:guard(0)
+  equal(guard.kind, mien.Guard.LIPS, "kind")
+  assert(#guard.name > 0 and #guard.controls > 0)
+
+  local body, same = deformer:instance(), deformer:instance()
+  face:evaluate(0)
+  body:update(face)
+  same:update_from_values(face.joints.data, #face.joints, face.blend_shapes.data, #face.blend_shapes)
+  arrays_equal(same.joint_matrices, body.joint_matrices, "joint matrices")
+end)
+
 -- Bytes that frames of a mixer, an instance, a batch and a deformer leave to the garbage collector.
 local function garbage_of_frames(frames)
   local rig, deformer = support.small()
