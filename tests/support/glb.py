@@ -52,6 +52,7 @@ class Glb:
         binary_size, kind = struct.unpack_from("<I4s", data, 20 + size)
         assert kind == b"BIN\0" and 28 + size + binary_size == length
         self.binary = data[28 + size:]
+        self.known = {}  # accessors that were read, moves of targets, influences
         assert self.json["buffers"] == [{"byteLength": binary_size}]
 
     def numbers(self, view, offset, component, count, width=1):
@@ -70,7 +71,35 @@ class Glb:
         return values
 
     def accessor(self, index):
-        """One tuple per element, or one number."""
+        """One tuple per element, or one number. The list is kept, and is not to be changed."""
+        if index not in self.known:
+            self.known[index] = self.read_accessor(index)
+        return self.known[index]
+
+    def moves(self, index):
+        """Elements of an accessor that are not 0, with their numbers."""
+        if ("moves", index) not in self.known:
+            self.known["moves", index] = [(i, move) for i, move in enumerate(self.accessor(index)) if any(move)]
+        return self.known["moves", index]
+
+    def influences(self, attributes):
+        """Joint and weight of what each vertex follows."""
+        key = ("influences", attributes["JOINTS_0"])
+        if key not in self.known:
+            influences = [[] for _ in self.accessor(attributes["JOINTS_0"])]
+            for number in range(3):
+                if "JOINTS_%d" % number not in attributes:
+                    break
+                pairs = zip(self.accessor(attributes["JOINTS_%d" % number]),
+                            self.accessor(attributes["WEIGHTS_%d" % number]))
+                for influence, (joint, weight) in zip(influences, pairs):
+                    influence += [(j, w) for j, w in zip(joint, weight) if w != 0]
+            for influence in influences:
+                assert abs(sum(w for _, w in influence) - 1) < 1e-6, influence
+            self.known[key] = influences
+        return self.known[key]
+
+    def read_accessor(self, index):
         accessor = self.json["accessors"][index]
         width, count, component = SHAPES[accessor["type"]], accessor["count"], accessor["componentType"]
         if "bufferView" in accessor:
@@ -151,7 +180,7 @@ class Glb:
         node = nodes[number]
         primitive, = self.json["meshes"][node["mesh"]]["primitives"]
         attributes = primitive["attributes"]
-        points = self.accessor(attributes["POSITION"])
+        points = list(self.accessor(attributes["POSITION"]))
         used = node["weights"]
         if weights is not None:
             used = [weights.get(name, 0) for name in self.target_names(number)]
@@ -160,8 +189,9 @@ class Glb:
                 used[corrective["target"]] = math.prod(used[i] for i in corrective["product"])
         for target, weight in zip(primitive.get("targets", []), used):
             if weight != 0:
-                points = [tuple(a + weight * b for a, b in zip(point, move))
-                          for point, move in zip(points, self.accessor(target["POSITION"]))]
+                for v, (x, y, z) in self.moves(target["POSITION"]):
+                    p = points[v]
+                    points[v] = (p[0] + weight * x, p[1] + weight * y, p[2] + weight * z)
         if "skin" not in node:
             own = local_matrix(node)
             return [transform(own, point) for point in points]
@@ -172,19 +202,15 @@ class Glb:
             assert m[3::4] == (0, 0, 0, 1)
             rows = [m[c * 4 + r] for r in range(3) for c in range(4)]
             palette.append(multiply(world[joint], rows))
-        influences = [[] for _ in points]
-        for number_of_set in range(3):
-            joints = attributes.get("JOINTS_%d" % number_of_set)
-            if joints is None:
-                break
-            pairs = zip(self.accessor(joints), self.accessor(attributes["WEIGHTS_%d" % number_of_set]))
-            for influence, (joint, weight) in zip(influences, pairs):
-                influence += [(j, w) for j, w in zip(joint, weight) if w != 0]
         result = []
-        for point, influence in zip(points, influences):
-            assert abs(sum(w for _, w in influence) - 1) < 1e-6, influence
-            moved = [(w, transform(palette[j], point)) for j, w in influence]
-            result.append(tuple(sum(w * p[k] for w, p in moved) for k in range(3)))
+        for (x, y, z), influence in zip(points, self.influences(attributes)):
+            a = b = c = 0.0
+            for j, w in influence:
+                m = palette[j]
+                a += w * (m[0] * x + m[1] * y + m[2] * z + m[3])
+                b += w * (m[4] * x + m[5] * y + m[6] * z + m[7])
+                c += w * (m[8] * x + m[9] * y + m[10] * z + m[11])
+            result.append((a, b, c))
         return result
 
 

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: MIT
 """USD text as Python values: a small parser of the grammar, strict about what it knows."""
+import json
 import re
 
 TOKEN = re.compile(r'''(?:\s|\#[^\n]*)*(?P<token>"(?:[^"\\\n]|\\.)*"|<[^>\n]*>|@[^@\n]*@|[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?'''
                    r'''|[A-Za-z_][A-Za-z0-9_:.]*(?:\[\])?|[(){}\[\]=,;:])''')
+NUMBERS = re.compile(r"[-+0-9.eE,() \n]+")
 ESCAPE = re.compile(r"\\(x[0-9a-fA-F]{2}|.)")
 
 
@@ -54,6 +56,10 @@ class Parser:
             return ESCAPE.sub(lambda m: chr(int(m[1][1:], 16)) if m[1][0] == "x" else m[1], token[1:-1])
         if token[0] in "<@":
             return token
+        if token == "[" and NUMBERS.match(self.next):
+            values = self.numbers()
+            if values is not None:
+                return values
         if token in "([":
             close, values = {"(": ")", "[": "]"}[token], []
             while self.next != close:
@@ -81,6 +87,22 @@ class Parser:
             return float(token) if re.search(r"[.eE]", token) else int(token)
         assert token in ("true", "false"), token
         return token == "true"
+
+    def numbers(self):
+        """A list of numbers or tuples of them, which most of a file is, or None: by the parser of JSON, whose grammar
+        for them is a part of this one."""
+        begin = self.at - len(self.next)
+        end = self.text.find("]", begin)
+        part = self.text[begin:end]
+        if end < 0 or not NUMBERS.fullmatch(part):
+            return None
+        def as_tuple(value):
+            return tuple(map(as_tuple, value)) if isinstance(value, list) else value
+        values = list(map(as_tuple, json.loads("[" + part.replace("(", "[").replace(")", "]") + "]")))
+        self.at = end
+        self.step()
+        self.step()
+        return values
 
     def metadata(self):
         values = {}

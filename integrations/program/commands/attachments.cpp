@@ -58,7 +58,8 @@ uint32_t material_number(const std::string& name, gltf::Scene& scene) {
   return static_cast<uint32_t>(scene.materials.size() - 1);
 }
 
-void add_file(const std::string& path, bool rigid, gltf::Scene& scene, const Session& session) {
+void add_file(const std::string& path, bool rigid, gltf::Scene& scene,
+              std::vector<gltf::Attached>& all, const Session& session) {
   const MeshFile file = read_mesh_file(path);
   const std::string stem = std::filesystem::path(path).stem().string();
   std::vector<MeshObject> objects = file.objects;
@@ -72,23 +73,26 @@ void add_file(const std::string& path, bool rigid, gltf::Scene& scene, const Ses
     const std::string name = object.name.empty() ? stem : object.name;
     gltf::Attachment attachment = attachment_of(file, object, first_corner, name);
     attachment.rigid = rigid;
-    const gltf::Attached attached = gltf::attach(attachment, material_number(name, scene), scene);
+    gltf::Attached attached = gltf::attach(attachment, material_number(name, scene), scene);
     char text[160];
     std::snprintf(text, sizeof(text), ", %.2g mm from it on average, %.2g mm at most",
                   attached.mean * 1000, attached.max * 1000);
-    std::string line =
-        one_line(path) + ": " + one_line(name) + " follows " + one_line(attached.base) + text;
+    std::string line = one_line(path) + ": " + one_line(name) + " follows " +
+                       one_line(scene.meshes[attached.base].name) + text;
     if (rigid) line += "; " + std::to_string(attached.parts) + " rigid parts";
     note(session, line);
+    all.push_back(std::move(attached));
   }
 }
 
 }  // namespace
 
-void add_attachments(const AttachmentOptions& options, gltf::Scene& scene, const Session& session) {
+std::vector<gltf::Attached> add_attachments(const AttachmentOptions& options, gltf::Scene& scene,
+                                            const Session& session) {
+  std::vector<gltf::Attached> attached;
   const size_t first = scene.meshes.size();
-  for (const std::string& path : options.soft) add_file(path, false, scene, session);
-  for (const std::string& path : options.rigid) add_file(path, true, scene, session);
+  for (const std::string& path : options.soft) add_file(path, false, scene, attached, session);
+  for (const std::string& path : options.rigid) add_file(path, true, scene, attached, session);
   // In an animation they have the weights of what they follow, whose targets they have.
   gltf::Animation& animation = scene.animation;
   for (size_t m = first; m < scene.meshes.size(); ++m) {
@@ -104,6 +108,7 @@ void add_attachments(const AttachmentOptions& options, gltf::Scene& scene, const
       break;
     }
   }
+  return attached;
 }
 
 }  // namespace mien::cli

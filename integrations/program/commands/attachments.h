@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "integrations/program/gltf/scene.h"
+#include "integrations/program/gltf/attachment.h"
 #include "integrations/program/io/terminal.h"
 
 namespace mien::cli {
@@ -16,6 +16,7 @@ struct AttachmentOptions {
 
 /// Adds them to the scene, one mesh for each object of a file, and says in notes what they follow. The
 /// weights of their targets are those of the scene.
-void add_attachments(const AttachmentOptions& options, gltf::Scene& scene, const Session& session);
+std::vector<gltf::Attached> add_attachments(const AttachmentOptions& options, gltf::Scene& scene,
+                                            const Session& session);
 
 }  // namespace mien::cli

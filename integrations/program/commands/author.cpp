@@ -13,6 +13,7 @@
 
 #include "integrations/program/commands/author_images.h"
 #include "integrations/program/commands/author_input.h"
+#include "integrations/program/commands/author_materials.h"
 #include "integrations/program/commands/mesh_view.h"
 #include "integrations/program/commands/options.h"
 #include "integrations/program/io/input.h"
@@ -41,6 +42,7 @@ struct AuthorCommand {
   std::string up, front;  // empty: guessed
   std::string overlaps = "0", lod_triangles = "0.5";
   std::string report, images, crop, objects, names, preset;
+  bool copy_textures = false;
   bool paper = false, no_neck_cut = false, mask_from_shapes = false, area_density = false;
   OutputFile output;
 };
@@ -177,7 +179,8 @@ void keep_faces(const AuthorCommand& command, const Crop& crop, MeshFile& mesh) 
   size_t corner = 0, face = 0;
   for (size_t o = 0; o < mesh.objects.size(); ++o) {
     const MeshObject& object = mesh.objects[o];
-    MeshObject part = {object.name, static_cast<uint32_t>(kept.face_sizes.size()), 0};
+    MeshObject part = {object.name, static_cast<uint32_t>(kept.face_sizes.size()), 0,
+                       object.material};
     for (uint32_t f = 0; f < object.face_count; ++f) {
       const uint32_t size = mesh.face_sizes[face++];
       const uint32_t* corners = mesh.corners.data() + corner;
@@ -605,7 +608,10 @@ void run(AuthorCommand command, const Session& session) {
     images.push_back(std::make_unique<Output>(folder->file(made_image.name)));
     images.back()->write(render::to_png(made_image.image));
   }
+  AuthoredMaterials materials(file, made.dna.get(), command.output.path, command.copy_textures,
+                              session);
   write_dna(made.dna.get(), sized<MienWriteDesc>(), command.output.path, session);
+  materials.commit();
   if (report) report->commit();
   for (const std::unique_ptr<Output>& image : images) image->commit();
 }
@@ -701,6 +707,9 @@ Command add_author_command(CLI::App& app, const Session& session) {
           "Keep the faces within X0,X1,Y0,Y1,Z0,Z1, in the unit and\naxes of MESH; leave out "
           "numbers for no limit:\n-1,1,5,,,")
       ->type_name("BOX");
+  author->add_flag(
+      "--copy-textures", options->copy_textures,
+      "Copy the textures of MESH beside OUT.dna; otherwise\nOUT.materials.json has paths to them");
   author
       ->add_option("--threads", options->threads,
                    "Number of threads; 0 (default): as many as the machine has")

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "integrations/program/commands/attachments.h"
+#include "integrations/program/commands/bake_report.h"
 #include "integrations/program/commands/exported_rig.h"
 #include "integrations/program/gltf/bake_skeleton.h"
 #include "integrations/program/gltf/expression_bake.h"
@@ -35,7 +36,9 @@ struct ExportOptions {
   std::vector<std::string> settings;
   GlbOptions glb;
   AttachmentOptions attachments;
-  std::string morphs;  // at most so many, or empty
+  std::string morphs;    // at most so many, or empty
+  std::string textures;  // folder
+  bool link_textures = false;
   OutputFile residuals;
   bool correctives = false, point_cache = false;
 
@@ -48,6 +51,7 @@ constexpr const char* kCannotExport = "cannot export";
 constexpr double kDefaultRate = 30;
 constexpr uint64_t kMostMorphs = 65535;
 constexpr double kNotableClose = 0.005;  // of the size: a millimeter or two of a head
+constexpr double kUnseenError = 1e-5;    // of the size, by integers
 
 // Options -----------------------------------------------------------------------------------------
 
@@ -99,6 +103,14 @@ void check_format(const ExportOptions& options, Format format) {
   if (shapes && (format == Format::kObj || options.point_cache)) {
     fail_usage(shapes, "it is for files with morph targets", "write a .glb, .vrm or .usda file");
   }
+  if (options.link_textures && format != Format::kGlb) {
+    fail_usage("--link-textures",
+               format == Format::kVrm ? "a VRM holds its textures" : "this format always does that",
+               "leave it out");
+  }
+  if (!options.textures.empty() && options.glb.no_uvs) {
+    fail_usage("--textures", "textures need texture coordinates", "leave out --no-uvs");
+  }
   if (!options.morphs.empty()) parse_number("--morphs", options.morphs, kMostMorphs);
   if (!options.point_cache) return;
   if (format != Format::kUsda) {
@@ -143,80 +155,9 @@ void check_combination(const ExportOptions& options, Format format) {
   if (!options.residuals.path.empty() && options.bake.empty()) {
     fail_usage("--residuals", "nothing is baked", "add --bake arkit");
   }
-  if (!options.bake.empty() && !options.glb.influences.empty()) {
-    fail_usage("--influences " + options.glb.influences,
-               "a baked mesh follows head, neck and eyes only", "leave out --influences or --bake");
-  }
 }
 
 // GLB ---------------------------------------------------------------------------------------------
-
-/// What baking loses, for people: on standard output, unless that is the file.
-void print_report(const gltf::BakeReport& report, FILE* stream) {
-  std::fprintf(stream, "%-20s %14s %26s\n%-20s %14s %12s %13s\n", "expression", "largest move",
-               "off at one half", "", "mm", "rms mm", "max mm");
-  for (const gltf::BakeReport::Shape& expression : report.expressions) {
-    std::fprintf(stream, "%-20s %14.3f %12.4f %13.4f\n", expression.name.c_str(),
-                 expression.max_move * 1000, expression.halfway.rms * 1000,
-                 expression.halfway.max * 1000);
-  }
-  const auto print_combinations = [&](const char* who, const gltf::Residual& off) {
-    const double share = report.diagonal > 0 ? 100 / report.diagonal : 0;
-    std::fprintf(stream,
-                 "%s: off by %.4f mm rms, %.4f mm at most (%.3g %% and %.3g %% of the size)\n", who,
-                 off.rms * 1000, off.max * 1000, off.rms * share, off.max * share);
-  };
-  std::fprintf(stream, "%u random combinations against the full rig, %zu positions that move:\n",
-               report.combination_count, report.moved_positions);
-  print_combinations("in a viewer that adds targets", report.combinations);
-  if (report.corrective_count != 0) {
-    const std::string who = "with the " + std::to_string(report.corrective_count) +
-                            " correctives, driven as in the extras";
-    print_combinations(who.c_str(), report.corrected);
-  }
-  std::fprintf(stream, "at most in:");
-  for (size_t e = 0; e < report.worst.size(); ++e) {
-    if (report.worst[e] != 0)
-      std::fprintf(stream, " %s %.2f", report.expressions[e].name.c_str(), double{report.worst[e]});
-  }
-  std::fprintf(stream, "\n");
-}
-
-/// The same for programs: lengths in millimeters.
-void write_residuals(const gltf::BakeReport& report, const std::vector<std::string>& missing,
-                     const OutputFile& file) {
-  Output output(file.path);
-  JsonWriter json(output);
-  const auto residual = [&](const char* name, const gltf::Residual& off) {
-    json.key(name);
-    json.begin_object();
-    json.key("worst");
-    json.fixed(off.max * 1000, 4);
-    json.key("rms");
-    json.fixed(off.rms * 1000, 4);
-    json.end_object();
-  };
-  json.begin_object(JsonWriter::Layout::kLines);
-  json.key("shapes");
-  json.begin_object(JsonWriter::Layout::kLines);
-  for (const gltf::BakeReport::Shape& shape : report.expressions) {
-    residual(shape.name.c_str(), shape.halfway);
-  }
-  json.end_object();
-  json.key("combinations");
-  json.begin_object(JsonWriter::Layout::kLines);
-  json.member("count", report.combination_count);
-  residual("targets", report.combinations);
-  residual("with_correctives", report.corrected);
-  json.end_object();
-  json.key("missing");
-  json.begin_array(JsonWriter::Layout::kLines);
-  for (const std::string& name : missing) json.value(name);
-  json.end_array();
-  json.end_object();
-  json.finish();
-  output.commit();
-}
 
 /// The sets after --bake, one after the other.
 gltf::ExpressionSet parse_sets(const ExportOptions& options) {
@@ -295,14 +236,23 @@ void keep_morphs(gltf::Scene& scene, const ExportOptions& options, const Session
                     " morph targets are left out, which move vertices by " + off + ": " + names);
 }
 
-/// Of a scene in the format, with what is attached to it.
-std::string scene_bytes(gltf::Scene& scene, Format format, double rate,
+gltf::ImageOptions image_options(const ExportOptions& options, Format format) {
+  gltf::ImageOptions images;
+  images.embed = format != Format::kUsda && !options.link_textures;
+  if (options.output.path != "-") {
+    images.folder = std::filesystem::path(options.output.path).parent_path().string();
+  }
+  return images;
+}
+
+/// Of a scene in the format. With integers only where that loses nothing to see, unless it was asked for.
+std::string scene_bytes(const ExportedRig& face, gltf::Scene& scene, Format format, double rate,
                         const ExportOptions& options, const Session& session,
                         const gltf::Vrm* vrm = nullptr) {
-  add_attachments(options.attachments, scene, session);
   keep_morphs(scene, options, session);
-  if (format != Format::kUsda) return glb_bytes(scene, options.glb, vrm);
   apply_options(scene, options.glb);
+  add_materials(face, options.textures, image_options(options, format), scene, session);
+  if (format != Format::kUsda) return glb_bytes(scene, options.glb, vrm);
   gltf::UsdOptions usd;
   usd.rate = rate;
   return write_usda(scene, usd);
@@ -314,6 +264,8 @@ std::string cache_bytes(ExportedRig& face, const std::vector<Frame>& frames, dou
   gltf::RigScene scene = make_still_scene(*face.source, face.scene_options(options.glb));
   note_losses(face, scene.losses, session);
   apply_options(scene.scene, options.glb);
+  add_materials(face, options.textures, image_options(options, Format::kUsda), scene.scene,
+                session);
   Progress progress(session, "deforming", scene.rig_meshes.size() * frames.size());
   gltf::UsdOptions usd;
   usd.rate = rate;
@@ -338,10 +290,10 @@ std::string baked_bytes(ExportedRig& face, const Frame& still, const std::vector
          "leave out --bake, or --set and --animation");
   }
   gltf::RigScene scene = gltf::make_still_scene(*face.source, face.scene_options(options.glb));
-  note_losses(face, scene.losses, session);
   note_missing(face, set.missing, session);
   names.note_matched(face.file.shown, session);
-  gltf::add_bake_skeleton(*face.source, scene);
+  gltf::add_bake_skeleton(*face.source, face.scene_options(options.glb).influences, scene);
+  note_baked_losses(face, scene.losses, session);
   gltf::BakeReport report;
   {
     Progress progress(session, "baking expressions", 1);
@@ -374,10 +326,31 @@ std::string baked_bytes(ExportedRig& face, const Frame& still, const std::vector
     vrm = make_person(scene.scene.name, options.authors.empty() ? unknown : options.authors, scene);
     vrm.looks = measure_looks(*face.source, set);
   }
-  const std::string bytes = scene_bytes(scene.scene, format, rate, options, session,
+  const std::vector<gltf::Attached> attached =
+      add_attachments(options.attachments, scene.scene, session);
+  {
+    Progress progress(session, "measuring attached meshes", 1);
+    measure_attached(*face.source, set, scene, attached, report,
+                     [&](double share) { progress.at_share(share); });
+  }
+  ExportOptions encoded = options;
+  if (format == Format::kGlb && !options.glb.exact && !options.glb.no_quantize) {
+    encoded.glb.quantize = options.glb.quantize ||
+                           gltf::quantization_error(scene.scene) <= kUnseenError * report.diagonal;
+  }
+  const std::string bytes = scene_bytes(face, scene.scene, format, rate, encoded, session,
                                         format == Format::kVrm ? &vrm : nullptr);
-  if (!session.quiet) print_report(report, options.output.path == "-" ? stderr : stdout);
-  if (!options.residuals.path.empty()) write_residuals(report, set.missing, options.residuals);
+  FILE* const to = options.output.path == "-" ? stderr : stdout;
+  if (!session.quiet) print_bake_report(report, to);
+  if (!session.quiet && encoded.glb.quantize) {
+    std::fprintf(to, "stored in integers: off by %.4f mm more, at most\n",
+                 gltf::quantization_error(scene.scene) * 1000);
+  }
+  if (!options.residuals.path.empty()) {
+    Output residuals(options.residuals.path);
+    residuals.write(bake_report_json(report, set.missing));
+    residuals.commit();
+  }
   return bytes;
 }
 
@@ -410,6 +383,15 @@ std::vector<Frame> clip_frames(const ExportOptions& options, const MienRig* rig,
     frames.push_back(std::move(frame));
   });
   return frames;
+}
+
+Materials obj_materials(const ExportedRig& face, const ExportOptions& options,
+                        const Session& session) {
+  std::vector<std::string> meshes;
+  for (uint32_t m = 0; m < rig_count(face.rig.get(), MIEN_KIND_MESH); ++m) {
+    meshes.push_back(rig_name(face.rig.get(), MIEN_KIND_MESH, m));
+  }
+  return materials_of(face, options.textures, meshes, session);
 }
 
 void run(ExportOptions options, const Session& session) {
@@ -449,11 +431,13 @@ void run(ExportOptions options, const Session& session) {
     std::string bytes;
     if (format == Format::kObj) {
       face.apply(still);
+      const Materials of_meshes = obj_materials(face, options, session);
       bytes = gltf::write_obj(*face.source, face.pose.get(),
-                              std::filesystem::path(materials.path).filename().string());
+                              std::filesystem::path(materials.path).filename().string(), of_meshes);
       if (!materials.path.empty()) {
         Output library(materials.path);
-        library.write(gltf::write_mtl(*face.source));
+        library.write(
+            gltf::write_mtl(*face.source, of_meshes, image_options(options, format).folder));
         library.commit();
       }
     } else if (!options.bake.empty()) {
@@ -462,7 +446,8 @@ void run(ExportOptions options, const Session& session) {
       bytes = cache_bytes(face, frames, rate, options, session);
     } else {
       gltf::RigScene scene = rig_scene(face, still, frames, rate, options.glb, session);
-      bytes = scene_bytes(scene.scene, format, rate, options, session);
+      add_attachments(options.attachments, scene.scene, session);
+      bytes = scene_bytes(face, scene.scene, format, rate, options, session);
     }
     Output output(options.output.path);
     output.write(bytes);
@@ -500,6 +485,14 @@ Command add_export_command(CLI::App& app, const Session& session) {
       ->type_name("NAME=VALUE")
       ->allow_extra_args(false);
   add_glb_options(*command, options->glb);
+  command
+      ->add_option("--textures", options->textures,
+                   "Folder of PNG and JPEG textures for the meshes or materials of their names:\n"
+                   "head_basecolor.png, T_Teeth_Normal.jpg, skin_roughness.png")
+      ->type_name("DIR");
+  command->add_flag("--link-textures", options->link_textures,
+                    "A GLB names its textures by their paths instead of holding them, as USD and\n"
+                    "OBJ files always do");
   command
       ->add_option("--animation", options->animation,
                    "Write frames as an animation: JSON as for 'mien eval'; - reads standard input")
@@ -560,8 +553,9 @@ Command add_export_command(CLI::App& app, const Session& session) {
   command->footer(
       "A GLB holds the skeleton, the skin and the blend shape channels as morph targets, but not\n"
       "the rig logic that drives them. --set chooses the pose in which it opens, --animation adds\n"
-      "an animation. Units are meters, y is up, the face looks toward +z. Materials are chosen by\n"
-      "mesh name. A set of your own for --bake: {\"smile\": {\"mouthSmileLeft\": 1, ...}, ...}; a\n"
+      "an animation. Units are meters, y is up, the face looks toward +z. Materials are those\n"
+      "of RIG.materials.json beside RIG.dna, with its textures; otherwise they are chosen by mesh\n"
+      "name. A set of your own for --bake: {\"smile\": {\"mouthSmileLeft\": 1, ...}, ...}; a\n"
       "difference is {\"plus\": {...}, \"minus\": {...}}. --lod all puts each LOD into its own "
       "scene; viewers show the first one. The\n"
       "materials of an OBJ file are written to a file of the same name that ends in .mtl.\n\n"

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "integrations/program/commands/exported_rig.h"
 
+#include <algorithm>
 #include <cstdio>
 
 #include "integrations/program/gltf/glb_writer.h"
 #include "integrations/program/io/dna_fields.h"
 #include "integrations/program/io/text.h"
+#include "integrations/program/io/texture_folder.h"
 
 namespace mien::cli {
 
@@ -31,6 +33,7 @@ const char* GlbOptions::named() const {
   return !influences.empty() ? "--influences"
          : exact             ? "--exact"
          : quantize          ? "--quantize"
+         : no_quantize       ? "--no-quantize"
          : no_uvs            ? "--no-uvs"
          : no_morph_normals  ? "--no-morph-normals"
                              : nullptr;
@@ -39,8 +42,8 @@ const char* GlbOptions::named() const {
 void add_glb_options(CLI::App& command, GlbOptions& options, const std::string& group) {
   command
       .add_option("--influences", options.influences,
-                  "Joints per vertex: 4 (default), 8 or 12. Where the rig has more, weights are\n"
-                  "fitted to its expressions; the error is printed")
+                  "Joints per vertex: 1, 2, 4 (default), 8 or 12. Where the rig has more, weights\n"
+                  "are fitted to its expressions; the error is printed")
       ->type_name("N")
       ->group(group);
   CLI::Option* exact =
@@ -52,6 +55,12 @@ void add_glb_options(CLI::App& command, GlbOptions& options, const std::string& 
       .add_flag("--quantize", options.quantize,
                 "About half the size: integers of 8 and 16 bits (KHR_mesh_quantization)")
       ->excludes(exact)
+      ->group(group);
+  command
+      .add_flag("--no-quantize", options.no_quantize,
+                "Do not use that extension. It is the default for a baked GLB, where it moves\n"
+                "vertices by a hundred-thousandth of the size at most")
+      ->excludes("--quantize")
       ->group(group);
   command.add_flag("--no-uvs", options.no_uvs, "No texture coordinates")->group(group);
   command
@@ -72,6 +81,7 @@ ExportedRig::ExportedRig(const std::string& path, const std::string& lod, const 
     desc.lods = uint64_t{1} << first_lod;
   }
   file = open_rig_file(path, desc, session);
+  materials = read_materials_beside(path);
   // Plain C++ rounds alike on every machine, and so the files are the same.
   auto rig_desc = sized<MienRigDesc>();
   rig_desc.isa = MIEN_ISA_SCALAR;
@@ -133,8 +143,8 @@ gltf::SceneOptions ExportedRig::scene_options(const GlbOptions& options) const {
   scene.first_lod = first_lod;
   scene.exact = options.exact;
   if (!options.influences.empty()) {
-    scene.influences =
-        4 + 4 * static_cast<uint32_t>(parse_word("--influences", options.influences));
+    parse_word("--influences", options.influences);
+    scene.influences = static_cast<uint32_t>(std::stoul(options.influences));
   }
   return scene;
 }
@@ -143,6 +153,36 @@ void note_color_problems(const ExportedRig& face, const Session& session) {
   for (const std::string& problem : face.source->color_problems()) {
     note(session, face.file.shown + ": " + problem + "; exporting without these colors");
   }
+}
+
+namespace {
+
+void note_skin_and_meshes(const std::string& shown, const gltf::Losses& losses,
+                          const Session& session) {
+  if (losses.corrected_positions != 0) {
+    note(session, shown + ": skin weights of " + std::to_string(losses.corrected_positions) +
+                      " positions do not sum to 1 or are negative, which glTF forbids; they were "
+                      "corrected, by up to " +
+                      percent(losses.max_correction));
+  }
+  for (const std::string& mesh : losses.empty_meshes) {
+    note(session, shown + ": mesh " + one_line(mesh) + " has no faces: left out");
+  }
+}
+
+}  // namespace
+
+void note_baked_losses(const ExportedRig& face, const gltf::Losses& losses,
+                       const Session& session) {
+  if (losses.crowded_positions != 0) {
+    note(session, face.file.shown + ": " + std::to_string(losses.crowded_positions) + " of " +
+                      std::to_string(losses.positions) + " positions follow more than " +
+                      std::to_string(losses.places) +
+                      " bones, of which the heaviest stay: off by " +
+                      millimeters(losses.skin.residual.max) +
+                      " at most when one of them turns by 10 degrees");
+  }
+  note_skin_and_meshes(face.file.shown, losses, session);
 }
 
 void note_losses(const ExportedRig& face, const gltf::Losses& losses, const Session& session) {
@@ -162,15 +202,7 @@ void note_losses(const ExportedRig& face, const gltf::Losses& losses, const Sess
     }
     note(session, text);
   }
-  if (losses.corrected_positions != 0) {
-    note(session, shown + ": skin weights of " + std::to_string(losses.corrected_positions) +
-                      " positions do not sum to 1 or are negative, which glTF forbids; they were "
-                      "corrected, by up to " +
-                      percent(losses.max_correction));
-  }
-  for (const std::string& mesh : losses.empty_meshes) {
-    note(session, shown + ": mesh " + one_line(mesh) + " has no faces: left out");
-  }
+  note_skin_and_meshes(shown, losses, session);
 }
 
 gltf::RigScene rig_scene(ExportedRig& face, const Frame& still, const std::vector<Frame>& frames,
@@ -198,9 +230,43 @@ gltf::RigScene rig_scene(ExportedRig& face, const Frame& still, const std::vecto
   return scene;
 }
 
+Materials materials_of(const ExportedRig& face, const std::string& texture_folder,
+                       const std::vector<std::string>& meshes, const Session& session) {
+  Materials materials = face.materials;
+  if (texture_folder.empty()) return materials;
+  const TextureFolder found = add_texture_folder(texture_folder, meshes, materials);
+  std::string list;
+  for (const std::string& name : found.unused) list += (list.empty() ? "" : ", ") + one_line(name);
+  if (found.used == 0) {
+    fail(kInvalid, kCannotOpenExport, one_line(texture_folder),
+         found.unused.empty() ? "there are no PNG or JPEG files in it"
+                              : "no file in it is named as a texture of a mesh: " + list,
+         "name them by mesh or material and kind: head_basecolor.png, teeth_normal.png, "
+         "skin_roughness.png");
+  }
+  if (!list.empty()) {
+    note(session, one_line(texture_folder) + ": no mesh takes the textures " + list);
+  }
+  return materials;
+}
+
+void add_materials(const ExportedRig& face, const std::string& texture_folder,
+                   const gltf::ImageOptions& options, gltf::Scene& scene, const Session& session) {
+  std::vector<std::string> meshes;
+  for (const gltf::Mesh& mesh : scene.meshes) meshes.push_back(mesh.name);
+  const Materials materials = materials_of(face, texture_folder, meshes, session);
+  if (materials.list.empty()) return;
+  for (const std::string& mesh : apply_materials(materials, options, scene)) {
+    note(session, face.file.shown + ": mesh " + one_line(mesh) +
+                      " has no texture coordinates, so it gets no textures");
+  }
+}
+
 std::string rig_glb(ExportedRig& face, const Frame& still, const std::vector<Frame>& frames,
                     double rate, const GlbOptions& options, const Session& session) {
   gltf::RigScene scene = rig_scene(face, still, frames, rate, options, session);
+  apply_options(scene.scene, options);
+  add_materials(face, "", {}, scene.scene, session);
   return glb_bytes(scene.scene, options);
 }
 

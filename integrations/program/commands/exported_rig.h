@@ -4,6 +4,7 @@
 
 #include "integrations/program/commands/options.h"
 #include "integrations/program/gltf/rig_scene.h"
+#include "integrations/program/gltf/scene_materials.h"
 #include "integrations/program/io/frames.h"
 #include "integrations/program/scene/head_turn.h"
 
@@ -15,8 +16,9 @@ namespace mien::cli {
 
 /// Options of commands that write GLB files.
 struct GlbOptions {
-  std::string influences;  // 4, 8, 12 or empty
-  bool exact = false, quantize = false, no_uvs = false, no_morph_normals = false;
+  std::string influences;  // 1, 2, 4, 8, 12 or empty
+  bool exact = false, quantize = false, no_quantize = false, no_uvs = false,
+       no_morph_normals = false;
 
   /// One of them that was given, or null.
   const char* named() const;
@@ -43,6 +45,7 @@ class ExportedRig {
 
   uint32_t first_lod = 0;
   RigFile file;
+  Materials materials;  // of the file beside it
   Rig rig;
   Deformer deformer;
   Instance instance;
@@ -55,13 +58,22 @@ class ExportedRig {
 /// Notes for people: colors that are left out, and what glTF has no place for.
 void note_color_problems(const ExportedRig& face, const Session& session);
 void note_losses(const ExportedRig& face, const gltf::Losses& losses, const Session& session);
+/// The same of a baked face, whose vertices follow few bones.
+void note_baked_losses(const ExportedRig& face, const gltf::Losses& losses, const Session& session);
 
 /// Skeleton, skin and morph targets, in the pose `still`, with `frames` as an animation, if there are any.
 /// Throws gltf::ExportError.
 gltf::RigScene rig_scene(ExportedRig& face, const Frame& still, const std::vector<Frame>& frames,
                          double rate, const GlbOptions& options, const Session& session);
 
-/// The same as a GLB.
+/// Materials of the file beside the rig, and textures of a folder if one is named; notes tell what has no use.
+void add_materials(const ExportedRig& face, const std::string& texture_folder,
+                   const gltf::ImageOptions& options, gltf::Scene& scene, const Session& session);
+/// The same for an OBJ file.
+Materials materials_of(const ExportedRig& face, const std::string& texture_folder,
+                       const std::vector<std::string>& meshes, const Session& session);
+
+/// The same as a GLB, with textures embedded.
 std::string rig_glb(ExportedRig& face, const Frame& still, const std::vector<Frame>& frames,
                     double rate, const GlbOptions& options, const Session& session);
 

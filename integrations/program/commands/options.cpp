@@ -34,7 +34,7 @@ const OptionWords kOptionWords[] = {
     {"--format", {"glb", "obj", "vrm", "usda"}},
     {"eval --format", {"json", "jsonl", "csv", "npy"}},
     {"--mouth-close", {"alone", "jaw"}},
-    {"--influences", {"4", "8", "12"}},
+    {"--influences", {"1", "2", "4", "8", "12"}},
     {"--rotation-order", {"carried", "exact", "per-column"}},
     {"--names",
      {"gui", "raw", "ml", "rbf", "joints", "channels", "maps", "meshes", "regions", "solvers",

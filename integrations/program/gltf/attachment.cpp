@@ -41,7 +41,7 @@ struct Frame {
 
 /// At the point of the triangle. A triangle without area gets the axes of the world.
 Frame frame_at(const std::vector<Vec3d>& positions, const uint32_t* corners,
-               const double (&weights)[3]) {
+               const double* weights) {
   const Vec3d a = positions[corners[0]], b = positions[corners[1]], c = positions[corners[2]];
   Frame frame{a * weights[0] + b * weights[1] + c * weights[2], {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
   const Vec3d normal = cross(b - a, c - a);
@@ -176,7 +176,7 @@ MorphTarget target_of(const std::string& name, float weight, const std::vector<V
 }
 
 /// Of the corners' weights together, the heaviest.
-void add_skin(const Mesh& base, const uint32_t* corners, const double (&shares)[3], Mesh& mesh) {
+void add_skin(const Mesh& base, const uint32_t* corners, const double* shares, Mesh& mesh) {
   std::vector<std::pair<double, uint16_t>> influences;
   for (size_t k = 0; k < 3; ++k) {
     for (uint32_t i = 0; i < base.influences; ++i) {
@@ -235,33 +235,45 @@ uint32_t find_base(const Scene& scene, const std::vector<Vec3d>& points) {
 
 }  // namespace
 
+std::vector<Vec3d> Attached::follow(const std::vector<Vec3d>& base_positions) const {
+  std::vector<Vec3d> posed;
+  for (size_t v = 0; v < binding.locals.size(); ++v) {
+    const Frame frame =
+        frame_at(base_positions, binding.corners[v].data(), binding.weights[v].data());
+    posed.push_back(frame.origin + frame.turned(binding.locals[v]));
+  }
+  if (!binding.parts.empty()) make_rigid(binding.neutral, binding.parts, parts, posed);
+  return posed;
+}
+
 Attached attach(const Attachment& attachment, uint32_t material, Scene& scene) {
-  const std::vector<Vec3d> neutral = vectors(attachment.positions);
-  const uint32_t base_number = find_base(scene, neutral);
-  const Mesh base = scene.meshes[base_number];
+  Attached result;
+  Attached::Binding& binding = result.binding;
+  binding.neutral = vectors(attachment.positions);
+  const std::vector<Vec3d>& neutral = binding.neutral;
+  result.base = find_base(scene, neutral);
+  const Mesh base = scene.meshes[result.base];
   const std::vector<Vec3d> base_positions = vectors(base.positions);
   const Surface surface(base_positions, base.triangles);
-  Attached result{base.name, 0, 0, 0};
   size_t part_count = 0;
   const std::vector<uint32_t> parts = parts_of(attachment, part_count);
-  if (attachment.rigid) result.parts = part_count;
+  if (attachment.rigid) {
+    result.parts = part_count;
+    binding.parts = parts;
+  }
 
-  std::vector<SurfacePoint> bound;
-  std::vector<Vec3d> locals, middles(part_count);
+  std::vector<Vec3d> middles(part_count);
   std::vector<double> sizes(part_count);
   for (size_t v = 0; v < neutral.size(); ++v) {
     const SurfacePoint point = surface.nearest(neutral[v]);
     const uint32_t* corners = &base.triangles[size_t{3} * point.triangle];
-    locals.push_back(frame_at(base_positions, corners, point.weights).to_local(neutral[v]));
-    bound.push_back(point);
+    binding.locals.push_back(frame_at(base_positions, corners, point.weights).to_local(neutral[v]));
+    binding.corners.push_back({corners[0], corners[1], corners[2]});
+    binding.weights.push_back({point.weights[0], point.weights[1], point.weights[2]});
     result.mean += point.distance / double(neutral.size());
     result.max = std::max(result.max, point.distance);
     middles[parts[v]] += neutral[v];
     ++sizes[parts[v]];
-  }
-  std::vector<SurfacePoint> bound_parts;
-  for (size_t p = 0; p < part_count; ++p) {
-    bound_parts.push_back(surface.nearest(middles[p] * (1 / sizes[p])));
   }
 
   Mesh mesh;
@@ -272,30 +284,32 @@ Attached attach(const Attachment& attachment, uint32_t material, Scene& scene) {
   mesh.triangles = attachment.triangles;
   mesh.normals = normals_of(neutral, mesh.triangles);
   mesh.influences = base.influences;
+  std::vector<SurfacePoint> bound_parts;  // those of the middles, for the skin of rigid parts
+  for (size_t p = 0; p < part_count && attachment.rigid; ++p) {
+    bound_parts.push_back(surface.nearest(middles[p] * (1 / sizes[p])));
+  }
   for (size_t v = 0; v < neutral.size() && base.influences != 0; ++v) {
-    const SurfacePoint& point = attachment.rigid ? bound_parts[parts[v]] : bound[v];
-    add_skin(base, &base.triangles[size_t{3} * point.triangle], point.weights, mesh);
+    if (attachment.rigid) {
+      const SurfacePoint& point = bound_parts[parts[v]];
+      add_skin(base, &base.triangles[size_t{3} * point.triangle], point.weights, mesh);
+    } else {
+      add_skin(base, binding.corners[v].data(), binding.weights[v].data(), mesh);
+    }
   }
   for (const MorphTarget& target : base.targets) {
     std::vector<Vec3d> moved = base_positions;
     for (size_t i = 0; i < target.vertices.size(); ++i) {
       moved[target.vertices[i]] += vector(target.positions[i]);
     }
-    std::vector<Vec3d> posed;
-    for (size_t v = 0; v < neutral.size(); ++v) {
-      const uint32_t* corners = &base.triangles[size_t{3} * bound[v].triangle];
-      const Frame frame = frame_at(moved, corners, bound[v].weights);
-      posed.push_back(frame.origin + frame.turned(locals[v]));
-    }
-    if (attachment.rigid) make_rigid(neutral, parts, part_count, posed);
+    const std::vector<Vec3d> posed = result.follow(moved);
     mesh.targets.push_back(target_of(target.name, target.weight, neutral, posed, mesh.normals,
                                      normals_of(posed, mesh.triangles)));
   }
   mesh.correctives = base.correctives;
 
-  const auto number = static_cast<uint32_t>(scene.meshes.size());
+  result.mesh = static_cast<uint32_t>(scene.meshes.size());
   for (std::vector<uint32_t>& lod : scene.lods) {
-    if (std::find(lod.begin(), lod.end(), base_number) != lod.end()) lod.push_back(number);
+    if (std::find(lod.begin(), lod.end(), result.base) != lod.end()) lod.push_back(result.mesh);
   }
   scene.meshes.push_back(std::move(mesh));
   return result;

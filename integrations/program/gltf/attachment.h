@@ -15,11 +15,22 @@ struct Attachment {
   bool rigid = false;       // connected parts keep their shape
 };
 
-/// How far the attached vertices were from the surface that they follow.
+/// A mesh that was attached: what it follows, and how.
 struct Attached {
-  std::string base;          // the mesh that they follow
-  double mean = 0, max = 0;  // meters
-  size_t parts = 0;          // that move rigidly
+  uint32_t mesh = 0, base = 0;  // numbers in the scene
+  double mean = 0, max = 0;     // how far its vertices were from the surface, meters
+  size_t parts = 0;             // that move rigidly
+
+  /// Places of its vertices when the vertices of the base are here.
+  std::vector<math::Vec3d> follow(const std::vector<math::Vec3d>& base_positions) const;
+
+  struct Binding {
+    std::vector<math::Vec3d> neutral,
+        locals;  // of each vertex; locals in the frame of its triangle
+    std::vector<std::array<uint32_t, 3>> corners;  // of this triangle, in the base
+    std::vector<std::array<double, 3>> weights;    // of the corners
+    std::vector<uint32_t> parts;                   // of each vertex; empty unless rigid
+  } binding;
 };
 
 /// Adds a mesh to each LOD of the scene that shows its base: of the finest LOD, the mesh that is nearest to most of

@@ -44,7 +44,7 @@ std::vector<Joint> kept_joints(const std::vector<Joint>& joints, const std::vect
 
 }  // namespace
 
-void add_bake_skeleton(const RigSource& source, RigScene& scene) {
+void add_bake_skeleton(const RigSource& source, uint32_t influences, RigScene& scene) {
   const std::vector<Joint> joints = neutral_joints(source);
   std::vector<bool> kept(joints.size());
   for (size_t j = 0; j < joints.size(); ++j) {
@@ -63,7 +63,7 @@ void add_bake_skeleton(const RigSource& source, RigScene& scene) {
   std::vector<uint32_t> follows = nearest_kept(joints, kept);
   for (uint32_t& joint : follows) joint = new_number[joint];
   scene.scene.joints = kept_joints(joints, kept, new_number);
-  add_skin(source, follows, scene);
+  add_skin(source, follows, influences, scene);
 }
 
 }  // namespace mien::gltf

@@ -8,7 +8,7 @@ namespace mien::gltf {
 
 /// Gives a still scene the root, neck, head and eye joints of the rig, as far as it has joints of such
 /// names ("C_Head", "neck_01", "FACIAL_L_Eye"), and a skin: each position follows the kept joints that
-/// its own are, or hang from. A rig without such joints gets no skeleton.
-void add_bake_skeleton(const RigSource& source, RigScene& scene);
+/// its own are, or hang from, at most `influences` of them. A rig without such joints gets no skeleton.
+void add_bake_skeleton(const RigSource& source, uint32_t influences, RigScene& scene);
 
 }  // namespace mien::gltf

@@ -4,102 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "integrations/program/math/random.h"
+#include "integrations/program/gltf/bake_poses.h"
 
 namespace mien::gltf {
 
 namespace {
 
-constexpr uint32_t kCombinations = 200;
 constexpr double kLeastMove = 2e-6;  // of the diagonal
 constexpr double kLeastCorrective = 1e-3;
 constexpr size_t kMaxCorrectives = 128;
-
-using Weights = std::vector<double>;  // of the expressions
-
-/// Expressions in, deformed meshes out.
-class Face {
- public:
-  Face(const RigSource& source, const RigExpressions& set)
-      : source_(source), set_(set), pose_(make_deformer_instance(source)) {
-    MienInstance* made = nullptr;
-    auto error = sized<MienError>();
-    const MienStatus status = mien_instance_create(source.rig(), nullptr, &made, &error);
-    if (status != MIEN_OK) throw ExportError(status, "", error.message, "");
-    instance_.reset(made);
-  }
-
-  /// Leaves the positions of the mesh, and normals if wanted, in the pose. A difference counts with what it
-  /// adds to the pose that it is a difference to.
-  void deform(uint32_t rig_mesh, uint32_t lod, const Weights& weights, bool with_normals) {
-    std::vector<ControlValue> values;
-    for (size_t e = 0; e < weights.size(); ++e) {
-      if (weights[e] == 0) continue;
-      const auto weight = static_cast<float>(weights[e]);
-      for (const ControlValue& of : set_.expressions[e].plus) {
-        values.push_back({of.control, of.value * weight});
-      }
-      for (const ControlValue& of : set_.expressions[e].minus) {
-        values.push_back({of.control, -of.value * weight});
-      }
-    }
-    deform(rig_mesh, lod, values, with_normals);
-  }
-
-  void deform(uint32_t rig_mesh, uint32_t lod, const std::vector<ControlValue>& values,
-              bool with_normals) {
-    MienMutableFloatView raw{};
-    check(mien_instance_reset(instance_.get()), "cannot bake");
-    check(mien_instance_raw_controls(instance_.get(), &raw), "cannot bake");
-    const std::vector<float> initial(raw.data, raw.data + raw.count);
-    for (const ControlValue& of : values) raw.data[of.control] += of.value;
-    for (const ControlValue& of : values) {
-      float& value = raw.data[of.control];
-      value = std::max(initial[of.control], std::min(1.0f, value));
-    }
-    check(mien_rig_evaluate(source_.rig(), instance_.get(), lod), "cannot bake");
-    check(mien_deformer_instance_update(pose_.get(), instance_.get()), "cannot bake");
-    check(mien_deformer_instance_deform(pose_.get(), rig_mesh,
-                                        with_normals ? MIEN_NORMALS_RECOMPUTED : MIEN_NORMALS_NONE,
-                                        nullptr),
-          "cannot bake");
-  }
-
-  const MienDeformerInstance* pose() const { return pose_.get(); }
-
-  std::vector<float> positions(uint32_t rig_mesh) const {
-    MienFloatView view{};
-    check(mien_deformer_instance_positions(pose_.get(), rig_mesh, &view), "cannot bake");
-    return std::vector<float>(view.data, view.data + view.count);
-  }
-
-  std::vector<float> normals(uint32_t rig_mesh) const {
-    MienFloatView view{};
-    check(mien_deformer_instance_normals(pose_.get(), rig_mesh, &view), "cannot bake");
-    return std::vector<float>(view.data, view.data + view.count);
-  }
-
- private:
-  const RigSource& source_;
-  const RigExpressions& set_;
-  cli::DeformerInstance pose_;
-  cli::Instance instance_;
-};
-
-/// Sum of squares and maximum of distances.
-struct Distances {
-  double squares = 0, most = 0;
-  size_t count = 0;
-
-  void add(double squared) {
-    squares += squared;
-    most = std::max(most, std::sqrt(squared));
-    ++count;
-  }
-  Residual residual(double unit) const {
-    return {count == 0 ? 0 : std::sqrt(squares / static_cast<double>(count)) * unit, most * unit};
-  }
-};
 
 /// A mesh in neutral, and how far the expressions move its positions, in units of the file.
 struct BakedMesh {
@@ -137,13 +50,6 @@ struct BakedMesh {
   }
 };
 
-uint32_t finest_lod(const MienMesh& mesh) {
-  for (uint32_t lod = 0; lod < 64; ++lod) {
-    if (mesh.lods >> lod & 1) return lod;
-  }
-  return 0;
-}
-
 double diagonal_of(const RigSource& source) {
   math::Boxd box;
   for (uint32_t m = 0; m < source.count(MIEN_KIND_MESH); ++m) {
@@ -164,11 +70,6 @@ Shape shape_of(Face& face, uint32_t rig_mesh, uint32_t lod,
                const std::vector<ControlValue>& values) {
   face.deform(rig_mesh, lod, values, true);
   return {face.positions(rig_mesh), face.normals(rig_mesh)};
-}
-
-std::vector<ControlValue> times(std::vector<ControlValue> values, float factor) {
-  for (ControlValue& value : values) value.value *= factor;
-  return values;
 }
 
 std::vector<float> less(std::vector<float> a, const std::vector<float>& b) {
@@ -300,39 +201,6 @@ void add_correctives(const RigSource& source, Face& face, const RigExpressions& 
   }
 }
 
-constexpr size_t kNoBase = SIZE_MAX;
-
-/// For each expression that is a difference, the expression whose pose it is a difference to.
-std::vector<size_t> bases_of(const RigExpressions& set) {
-  const auto same = [](const std::vector<ControlValue>& a, const std::vector<ControlValue>& b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {
-      return x.control == y.control && x.value == y.value;
-    });
-  };
-  std::vector<size_t> bases(set.expressions.size(), kNoBase);
-  for (size_t e = 0; e < bases.size(); ++e) {
-    for (size_t other = 0; other < bases.size() && !set.expressions[e].minus.empty(); ++other) {
-      const RigExpression& base = set.expressions[other];
-      if (base.minus.empty() && same(base.plus, set.expressions[e].minus)) bases[e] = other;
-    }
-  }
-  return bases;
-}
-
-/// Weights of a random combination.
-void draw_weights(const RigExpressions& set, const std::vector<size_t>& bases, math::Random& random,
-                  Weights& weights) {
-  for (double& weight : weights) {
-    const bool is_on = random.unit() < 0.125;
-    const double value = random.unit();
-    weight = is_on ? value : 0;
-  }
-  for (size_t e = 0; e < weights.size(); ++e) {
-    if (set.expressions[e].minus.empty()) continue;
-    weights[e] = bases[e] == kNoBase ? 0 : std::min(weights[e], weights[bases[e]]);
-  }
-}
-
 /// Half of each target against the rig at half of its controls.
 void measure_halfway(Face& face, const RigExpressions& set, const BakedMesh& baked,
                      std::vector<Distances>& halfway) {
@@ -355,14 +223,13 @@ BakeReport bake_expressions(const RigSource& source, const RigExpressions& set, 
   const size_t count = set.expressions.size();
   BakeReport report;
   for (const RigExpression& expression : set.expressions) {
-    report.expressions.push_back({expression.name, 0, {}});
+    report.expressions.push_back({expression.name, 0, {}, {}});
   }
   report.worst.resize(count);
   report.diagonal = diagonal_of(source);
   report.combination_count = kCombinations;
   Face face(source, set);
-  const std::vector<size_t> bases = bases_of(set);
-  std::vector<Distances> halfway(count);
+  std::vector<Distances> halfway(count), combined(count);
   Distances together, corrected;
   for (size_t m = 0; m < scene.scene.meshes.size(); ++m) {
     const uint32_t rig_mesh = scene.rig_meshes[m];
@@ -375,23 +242,32 @@ BakeReport bake_expressions(const RigSource& source, const RigExpressions& set, 
     report.moved_positions +=
         static_cast<size_t>(std::count(baked.is_moved.begin(), baked.is_moved.end(), true));
     measure_halfway(face, set, baked, halfway);
-    math::Random random;
+    Combinations combinations(set);
     Weights weights(count);
     for (uint32_t i = 0; i < kCombinations; ++i) {
       // Most of the time goes here.
       const double part = double(i) / kCombinations;
       if (progress) progress((double(m) + part) / double(scene.scene.meshes.size()));
-      draw_weights(set, bases, random, weights);
-      const double most = together.most;
+      combinations.draw(weights);
       face.deform(rig_mesh, baked.lod, weights, false);
       const std::vector<float> posed = face.positions(rig_mesh);
-      baked.compare(posed, weights, false, together);
-      baked.compare(posed, weights, true, corrected);
-      if (together.most > most) std::copy(weights.begin(), weights.end(), report.worst.begin());
+      Distances off;
+      baked.compare(posed, weights, false, off);
+      if (off.most > together.most) {
+        std::copy(weights.begin(), weights.end(), report.worst.begin());
+      }
+      together.add(off);
+      add_to_active(off, weights, combined);
+      if (!baked.correctives.empty()) off = {};
+      if (!baked.correctives.empty()) baked.compare(posed, weights, true, off);
+      corrected.add(off);
     }
   }
   const double meters = source.meters_per_unit();
-  for (size_t e = 0; e < count; ++e) report.expressions[e].halfway = halfway[e].residual(meters);
+  for (size_t e = 0; e < count; ++e) {
+    report.expressions[e].halfway = halfway[e].residual(meters);
+    report.expressions[e].combined = combined[e].residual(meters);
+  }
   report.combinations = together.residual(meters);
   report.corrected = corrected.residual(meters);
   return report;

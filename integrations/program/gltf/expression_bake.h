@@ -4,6 +4,7 @@
 
 #include <functional>
 
+#include "integrations/program/gltf/attachment.h"
 #include "integrations/program/gltf/expression_set.h"
 #include "integrations/program/gltf/rig_scene.h"
 
@@ -14,8 +15,16 @@ struct BakeReport {
     std::string name;
     double max_move = 0;  // of a position, meters
     Residual halfway;     // half the target against the rig at half the controls
+    Residual combined;  // sums of targets against the rig, in the combinations with this expression
   };
   std::vector<Shape> expressions;
+  /// A mesh that follows another: its targets against following the mesh as the rig deforms it.
+  struct Follower {
+    std::string name;
+    std::vector<Residual> halfway, combined;  // by expression
+    Residual combinations, corrected;
+  };
+  std::vector<Follower> followers;
   Residual combinations;          // sums of targets against the rig
   Residual corrected;             // the same with correctives
   size_t corrective_count = 0;    // of all meshes
@@ -46,6 +55,12 @@ struct BakeReport {
 BakeReport bake_expressions(const RigSource& source, const RigExpressions& expressions,
                             bool correctives, RigScene& scene,
                             const std::function<void(double share)>& progress = {});
+
+/// Adds to the report the meshes that were attached to the baked scene, over all their vertices, in the same
+/// poses.
+void measure_attached(const RigSource& source, const RigExpressions& expressions,
+                      const RigScene& scene, const std::vector<Attached>& attached,
+                      BakeReport& report, const std::function<void(double share)>& progress = {});
 
 /// Weights of the expressions from raw controls named after them (RigExpressions::by_name).
 std::vector<float> expression_weights(const RigExpressions& expressions, const MienFloatView& raw);

@@ -118,6 +118,7 @@ size_t RigExpressions::find(const std::string& name) const {
 
 RigExpressions find_expressions(const ExpressionSet& set, cli::MatchedNames& names) {
   RigExpressions result;
+  std::vector<std::string> all_lacked;
   for (const Expression& expression : set) {
     std::vector<std::string> missing;  // of the first way
     RigExpression made;
@@ -132,6 +133,7 @@ RigExpressions find_expressions(const ExpressionSet& set, cli::MatchedNames& nam
       if (missing.empty()) missing = distinct(lacks);
     }
     if (!complete) {
+      all_lacked.insert(all_lacked.end(), missing.begin(), missing.end());
       std::string text = expression.name + " (";
       for (size_t i = 0; i < missing.size(); ++i) text += (i == 0 ? "" : ", ") + missing[i];
       result.missing.push_back(text + ")");
@@ -141,11 +143,23 @@ RigExpressions find_expressions(const ExpressionSet& set, cli::MatchedNames& nam
     made.control = own.is_one() ? own.shares[0].control : kNone;
     result.expressions.push_back(std::move(made));
   }
-  if (result.expressions.empty()) {
-    throw ExportError(MIEN_ERROR_NAME, "", "the rig has the controls of none of the expressions",
-                      "see 'mien info --names raw', or export without --bake");
+  // Silence is no expression: it has no controls to lack.
+  const bool any = std::any_of(result.expressions.begin(), result.expressions.end(),
+                               [](const RigExpression& of) { return !of.plus.empty(); });
+  if (any || (result.missing.empty() && !result.expressions.empty())) return result;
+  constexpr size_t kShown = 12;
+  std::string lacked;
+  all_lacked = distinct(all_lacked);
+  for (size_t i = 0; i < std::min(all_lacked.size(), kShown); ++i) {
+    lacked += (i == 0 ? "" : ", ") + all_lacked[i];
   }
-  return result;
+  if (all_lacked.size() > kShown) {
+    lacked += " and " + std::to_string(all_lacked.size() - kShown) + " more";
+  }
+  throw ExportError(
+      MIEN_ERROR_NAME, "",
+      "the rig has the controls of none of the expressions; it lacks " + lacked,
+      "name the rig of a face, see 'mien info --names raw', or export without --bake");
 }
 
 }  // namespace mien::gltf

@@ -2,7 +2,9 @@
 #include "integrations/program/gltf/glb_writer.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <nlohmann/json.hpp>
 
@@ -587,12 +589,52 @@ std::string version_text() {
 
 json material_json(const Material& material) {
   json result = {{"name", material.name}};
-  result["pbrMetallicRoughness"] = {{"baseColorFactor", material.color},
-                                    {"metallicFactor", 0},
-                                    {"roughnessFactor", material.roughness}};
-  if (material.color[3] < 1) result["alphaMode"] = "BLEND";
+  json surface = {{"baseColorFactor", material.color},
+                  {"metallicFactor", 0},
+                  {"roughnessFactor", material.roughness}};
+  // Texture i shows image i. Green is roughness; blue would be how metallic, times the factor.
+  if (material.color_image != kNone) surface["baseColorTexture"]["index"] = material.color_image;
+  if (material.roughness_image != kNone) {
+    surface["metallicRoughnessTexture"]["index"] = material.roughness_image;
+  }
+  result["pbrMetallicRoughness"] = std::move(surface);
+  if (material.normal_image != kNone) result["normalTexture"]["index"] = material.normal_image;
+  if (material.color[3] < 1 || material.see_through) result["alphaMode"] = "BLEND";
   if (material.double_sided) result["doubleSided"] = true;
   return result;
+}
+
+/// In the binary part, or by a path, in which all but plain letters are %XX.
+json image_json(Data& data, const Image& image) {
+  json result = {{"name", image.name}};
+  if (image.bytes.empty()) {
+    std::string uri;
+    for (const char c : image.path) {
+      const bool plain =
+          std::strchr("-._~/", c) != nullptr || std::isalnum(static_cast<unsigned char>(c)) != 0;
+      char hex[4];
+      std::snprintf(hex, sizeof(hex), "%%%02X",
+                    static_cast<unsigned>(static_cast<unsigned char>(c)));
+      uri += plain && c != 0 ? std::string(1, c) : hex;
+    }
+    result["uri"] = uri;
+    return result;
+  }
+  result["mimeType"] = image.mime_type;
+  data.begin_view();
+  result["bufferView"] = data.current_view();
+  data.bytes += image.bytes;
+  data.end_view(kOtherData);
+  return result;
+}
+
+void add_images(const std::vector<Image>& images, Data& data, json& root) {
+  for (size_t i = 0; i < images.size(); ++i) {
+    root["images"].push_back(image_json(data, images[i]));
+    root["textures"].push_back({{"sampler", 0}, {"source", i}});
+  }
+  // Smooth from near and from afar, and repeated, as readers do without a word about it.
+  if (!images.empty()) root["samplers"] = list_of({{"magFilter", 9729}, {"minFilter", 9987}});
 }
 
 /// Header, then chunks of whole words.
@@ -622,6 +664,10 @@ std::string pack(std::string text, const std::string& binary) {
 }
 
 }  // namespace
+
+double quantization_error(const Scene& scene) {
+  return packings_of(scene).positions.scale * std::sqrt(3.0) / (2 * 32767);
+}
 
 std::string write_glb(const Scene& scene, Encoding encoding, const Vrm* vrm) {
   Data data;
@@ -659,6 +705,7 @@ std::string write_glb(const Scene& scene, Encoding encoding, const Vrm* vrm) {
     scenes.push_back({{"name", scene.lod_names[lod]}, {"nodes", std::move(members)}});
   }
   for (const Material& material : scene.materials) materials.push_back(material_json(material));
+  add_images(scene.images, data, root);
   root["scenes"] = std::move(scenes);
   root["nodes"] = std::move(nodes);
   root["materials"] = std::move(materials);

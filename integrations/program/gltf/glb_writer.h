@@ -18,12 +18,16 @@ enum class Encoding {
                // for a head 5 micrometers), normals in 8, by KHR_mesh_quantization
 };
 
+/// By how much kQuantized moves a vertex at most, in meters, and again by as much for each target at 1.
+double quantization_error(const Scene& scene);
+
 /// A binary glTF 2.0 file; the same scene gives the same bytes everywhere.
 ///
 ///   nodes       first one that holds the skeleton (named as the scene), then the joints, then one
 ///               for each mesh
 ///   scenes      one per LOD, the finest first and shown first; all of them share the skeleton
 ///   skin        one for all meshes
+///   images      in the file where the scene has their bytes, otherwise by their paths
 ///   targets     sparse where that is smaller; names in mesh.extras.targetNames, those whose weight is
 ///               a product in mesh.extras.correctives: [{"target": 52, "product": [17, 23]}, ...]
 ///   animation   joint channels for what moves, weights for each mesh with targets

@@ -9,6 +9,7 @@
 
 #include "integrations/program/gltf/material.h"
 #include "integrations/program/gltf/rig_source.h"
+#include "integrations/program/gltf/scene_materials.h"
 #include "integrations/program/math/srgb.h"
 
 namespace mien::gltf {
@@ -79,12 +80,38 @@ struct Base {
 };
 
 /// Without the colors of positions, which stand in the OBJ file.
-Material material_of(const std::string& mesh) { return material_for(cli::mesh_class(mesh), false); }
+Material material_of(const std::string& mesh, const cli::Materials& materials) {
+  Material material = material_for(cli::mesh_class(mesh), false);
+  const cli::SurfaceMaterial* from = materials.find(mesh);
+  if (!from) return material;
+  material.name = word_of(from->name);
+  const bool has_image = !from->texture(cli::TextureKind::kBaseColor).empty();
+  if (from->has_color || has_image) material.color = from->color;
+  if (from->has_roughness) material.roughness = from->roughness;
+  return material;
+}
+
+/// Lines of the textures of a mesh's material.
+std::string texture_lines(const std::string& mesh, const cli::Materials& materials,
+                          const std::string& folder) {
+  const cli::SurfaceMaterial* from = materials.find(mesh);
+  std::string lines;
+  if (!from) return lines;
+  const std::pair<const char*, cli::TextureKind> keywords[] = {
+      {"map_Kd ", cli::TextureKind::kBaseColor},
+      {"map_Pr ", cli::TextureKind::kRoughness},
+      {"norm ", cli::TextureKind::kNormal}};
+  for (const auto& [keyword, kind] : keywords) {
+    const std::string& path = from->texture(kind);
+    if (!path.empty()) lines += keyword + path_from(folder, path) + "\n";
+  }
+  return lines;
+}
 
 bool has_faces(const MienMesh& mesh) { return mesh.vertex_count != 0 && mesh.triangle_count != 0; }
 
 void write_mesh(const RigSource& source, uint32_t number, const MienDeformerInstance* pose,
-                Base& base, bool with_material, std::string& text) {
+                Base& base, const cli::Materials* materials, std::string& text) {
   const MienMesh mesh = source.mesh(number);
   const std::string name = source.name(MIEN_KIND_MESH, number);
   MienFloatView positions{}, normals{};
@@ -93,7 +120,7 @@ void write_mesh(const RigSource& source, uint32_t number, const MienDeformerInst
   const std::vector<uint8_t>& colors = source.colors(number);
 
   text += "\no " + word_of(name) + "\ng " + word_of(name) + "\n";
-  if (with_material) text += "usemtl " + material_of(name).name + "\n";
+  if (materials) text += "usemtl " + material_of(name, *materials).name + "\n";
   for (size_t p = 0; p < mesh.position_count; ++p) {
     append(text, "v", source.point(positions.data + 3 * p), name);
     if (!colors.empty()) {
@@ -137,7 +164,7 @@ void write_mesh(const RigSource& source, uint32_t number, const MienDeformerInst
 }  // namespace
 
 std::string write_obj(const RigSource& source, MienDeformerInstance* pose,
-                      const std::string& material_library) {
+                      const std::string& material_library, const cli::Materials& materials) {
   std::string text = "# meters, y up, z to the front\n";
   if (!material_library.empty()) text += "mtllib " + material_library + "\n";
   Base base;
@@ -145,27 +172,28 @@ std::string write_obj(const RigSource& source, MienDeformerInstance* pose,
     if (!has_faces(source.mesh(m))) continue;
     check(mien_deformer_instance_deform(pose, m, MIEN_NORMALS_RECOMPUTED, nullptr),
           "cannot deform");
-    write_mesh(source, m, pose, base, !material_library.empty(), text);
+    write_mesh(source, m, pose, base, material_library.empty() ? nullptr : &materials, text);
   }
   return text;
 }
 
-std::string write_mtl(const RigSource& source) {
+std::string write_mtl(const RigSource& source, const cli::Materials& materials,
+                      const std::string& folder) {
   std::string text = "# sRGB colors\n";
   std::set<std::string> written;
   for (uint32_t m = 0; m < source.count(MIEN_KIND_MESH); ++m) {
     if (!has_faces(source.mesh(m))) continue;
-    const Material material = material_of(source.name(MIEN_KIND_MESH, m));
+    const std::string mesh = source.name(MIEN_KIND_MESH, m);
+    const Material material = material_of(mesh, materials);
     if (!written.insert(material.name).second) continue;
     char lines[256];
     const auto color = [&](size_t i) { return math::linear_to_srgb(material.color[i]); };
     // The exponent that is usual for a roughness in programs that convert these.
     const double smoothness = 1 - material.roughness;
     std::snprintf(lines, sizeof(lines),
-                  "\nnewmtl %s\nKd %.4f %.4f %.4f\nKs 0.2 0.2 0.2\nNs %.1f\nd %.2f\nillum 2\n",
-                  material.name.c_str(), color(0), color(1), color(2),
-                  1000 * smoothness * smoothness, material.color[3]);
-    text += lines;
+                  "Kd %.4f %.4f %.4f\nKs 0.2 0.2 0.2\nNs %.1f\nd %.2f\nillum 2\n", color(0),
+                  color(1), color(2), 1000 * smoothness * smoothness, material.color[3]);
+    text += "\nnewmtl " + material.name + "\n" + lines + texture_lines(mesh, materials, folder);
   }
   return text;
 }

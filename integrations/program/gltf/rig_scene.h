@@ -15,17 +15,18 @@ namespace mien::gltf {
 struct SceneOptions {
   std::string name;                            // of the scene
   uint32_t first_lod = 0;                      // number to show for the first LOD that was opened
-  uint32_t influences = 4;                     // per vertex, 4, 8 or 12
+  uint32_t influences = 4;                     // per vertex, at most: 1 to 12
   bool exact = false;                          // also moves that cannot be seen
   std::function<void(double share)> progress;  // called now and then; may be empty
 };
 
 /// Losses in glTF.
 struct Losses {
-  uint32_t places = 0;                    // for influences, per vertex
-  size_t positions = 0;                   // with influences
-  size_t crowded_positions = 0;           // with more influences than there is room for
-  SkinLoss skin;                          // of those
+  uint32_t places = 0;           // for influences, per vertex
+  size_t positions = 0;          // with influences
+  size_t crowded_positions = 0;  // with more influences than there is room for
+  SkinLoss skin;                 // of those; of a baked scene only the residual's maximum, when one
+                                 // of the bones turns by ten degrees
   size_t corrected_positions = 0;         // with negative weights, or weights that do not sum to 1
   double max_correction = 0;              // largest change of a sum
   std::vector<std::string> empty_meshes;  // left out

@@ -8,6 +8,8 @@ namespace mien::gltf {
 
 namespace {
 
+using math::Vec3d;
+
 /// Each joint once, the heaviest first.
 void merge(std::vector<Influence>& influences) {
   std::vector<Influence> merged;
@@ -117,17 +119,18 @@ std::vector<MeshInfluences> read_skins(const RigSource& source, RigScene& result
   return meshes;
 }
 
-void write_skins(const RigSource& source, std::vector<MeshInfluences>& meshes, size_t places,
+void write_skins(const RigSource& source, std::vector<MeshInfluences>& meshes, size_t influences,
                  RigScene& result) {
+  const size_t places = (influences + 3) / 4 * 4;  // as glTF stores them
   std::vector<Joint>& joints = result.scene.joints;
   const auto still = static_cast<uint16_t>(joints.size());
   bool needs_still = false;
   for (size_t m = 0; m < meshes.size(); ++m) {
     if (meshes[m].empty()) continue;
-    for (std::vector<Influence>& influences : meshes[m]) {
-      needs_still = needs_still || influences.empty();
-      if (influences.empty()) influences = {{still, 1}};
-      round_weights(influences);
+    for (std::vector<Influence>& position : meshes[m]) {
+      needs_still = needs_still || position.empty();
+      if (position.empty()) position = {{still, 1}};
+      round_weights(position);
     }
     write(source.mesh(result.rig_meshes[m]), meshes[m], places, result.scene.meshes[m]);
   }
@@ -139,6 +142,45 @@ void write_skins(const RigSource& source, std::vector<MeshInfluences>& meshes, s
   joints.back().name = "still";
 }
 
+/// Where the joints are in the bind pose. Parents may follow their children.
+std::vector<Vec3d> joint_origins(const std::vector<Joint>& joints) {
+  std::vector<Vec3d> origins;
+  for (const Joint& joint : joints) {
+    math::Transform place = joint.bind;
+    size_t depth = 0;
+    for (uint32_t j = joint.parent; j != kNone && depth < joints.size(); j = joints[j].parent) {
+      place = joints[j].bind * place;
+      ++depth;
+    }
+    origins.push_back(place.translation);
+  }
+  return origins;
+}
+
+/// Of sum 1.
+std::vector<Influence> heaviest(std::vector<Influence> influences, size_t most) {
+  double sum = 0;
+  influences.resize(most);
+  for (const Influence& influence : influences) sum += influence.weight;
+  for (Influence& influence : influences) influence.weight /= sum;
+  return influences;
+}
+
+/// By how much a position is off, at most, when one of the joints turns by ten degrees about any axis.
+double turn_error(const std::vector<Influence>& all, const std::vector<Influence>& kept,
+                  const std::vector<Vec3d>& origins, const Vec3d& position) {
+  constexpr double kChord = 0.17431;  // of ten degrees, for a radius of 1
+  double most = 0;
+  for (const Influence& influence : all) {
+    double lost = influence.weight;
+    for (const Influence& other : kept) {
+      if (other.joint == influence.joint) lost -= other.weight;
+    }
+    most = std::max(most, std::abs(lost) * kChord * length(position - origins[influence.joint]));
+  }
+  return most;
+}
+
 }  // namespace
 
 void add_skin(const RigSource& source, const SceneOptions& options, RigScene& result) {
@@ -148,22 +190,30 @@ void add_skin(const RigSource& source, const SceneOptions& options, RigScene& re
   write_skins(source, meshes, options.influences, result);
 }
 
-void add_skin(const RigSource& source, const std::vector<uint32_t>& joint_of, RigScene& result) {
-  constexpr size_t kPlaces = 4;
+void add_skin(const RigSource& source, const std::vector<uint32_t>& joint_of, uint32_t influences,
+              RigScene& result) {
   std::vector<MeshInfluences> meshes = read_skins(source, result);
-  for (MeshInfluences& mesh : meshes) {
-    for (std::vector<Influence>& influences : mesh) {
-      for (Influence& influence : influences) {
+  const std::vector<Vec3d> origins = joint_origins(result.scene.joints);
+  Losses& losses = result.losses;
+  losses.places = influences;
+  for (size_t m = 0; m < meshes.size(); ++m) {
+    const MienMesh from = source.mesh(result.rig_meshes[m]);
+    for (size_t p = 0; p < meshes[m].size(); ++p) {
+      std::vector<Influence>& all = meshes[m][p];
+      for (Influence& influence : all) {
         influence.joint = static_cast<uint16_t>(joint_of[influence.joint]);
       }
-      merge(influences);
-      double sum = 0;
-      if (influences.size() > kPlaces) influences.resize(kPlaces);
-      for (const Influence& influence : influences) sum += influence.weight;
-      for (Influence& influence : influences) influence.weight /= sum;
+      merge(all);
+      if (all.size() <= influences) continue;
+      const std::vector<Influence> kept = heaviest(all, influences);
+      ++losses.crowded_positions;
+      double& most = losses.skin.residual.max;
+      most =
+          std::max(most, turn_error(all, kept, origins, source.point(from.positions.data + 3 * p)));
+      all = kept;
     }
   }
-  write_skins(source, meshes, kPlaces, result);
+  write_skins(source, meshes, influences, result);
 }
 
 }  // namespace mien::gltf

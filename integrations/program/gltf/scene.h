@@ -36,7 +36,7 @@ constexpr uint32_t kNone = UINT32_MAX;
 
 /// Distances between two shapes of the same positions.
 struct Residual {
-  double rms = 0, max = 0;  // meters
+  double rms = 0, mean = 0, max = 0;  // meters
 };
 
 struct Joint {
@@ -71,7 +71,7 @@ struct Mesh {
   std::vector<Float3> normals;                  // may be empty; length 1
   std::vector<Float2> uvs;                      // may be empty; v points down, as in glTF
   std::vector<std::array<uint16_t, 4>> colors;  // may be empty; linear red, green, blue, alpha
-  uint32_t influences = 0;                      // per vertex: 0 (not skinned), 4, 8 or 12
+  uint32_t influences = 0;                      // places per vertex: 0 (not skinned), 4, 8 or 12
   std::vector<uint16_t> joints;                 // vertices x influences
   std::vector<float> weights;                   // the same; each vertex's sum to 1
   std::vector<uint32_t> triangles;              // three vertices each
@@ -79,11 +79,25 @@ struct Mesh {
   std::vector<Corrective> correctives;  // among the targets
 };
 
+/// PNG or JPEG. Formats with a place for bytes embed them; the others, and a GLB if there are none, have the path.
+struct Image {
+  std::string name;
+  std::string mime_type;
+  std::string bytes;
+  std::string path;  // from the folder of the file that is written
+};
+
 struct Material {
   std::string name;
-  std::array<double, 4> color = {1, 1, 1, 1};  // linear red, green, blue, alpha
-  double roughness = 1;
+  std::array<double, 4> color = {1, 1, 1, 1};  // linear red, green, blue, alpha; times the texture
+  double roughness = 1;                        // times the texture
   bool double_sided = false;
+  bool see_through = false;  // by the alpha of its texture
+  uint32_t color_image = kNone, normal_image = kNone, roughness_image = kNone;
+
+  bool has_textures() const {
+    return color_image != kNone || normal_image != kNone || roughness_image != kNone;
+  }
 };
 
 /// One sample for each of the animation's times.
@@ -111,6 +125,7 @@ struct Scene {
   std::string name;
   std::vector<Joint> joints;
   std::vector<Material> materials;
+  std::vector<Image> images;
   std::vector<Mesh> meshes;
   std::vector<std::string> lod_names;
   std::vector<std::vector<uint32_t>> lods;  // meshes of each

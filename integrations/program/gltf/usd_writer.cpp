@@ -312,30 +312,115 @@ void write_mesh(const Scene& scene, size_t m, const std::string& path, const std
 
 // Materials ----------------------------------------------------------------------------------------
 
-void write_material(const Material& material, bool with_colors, const std::string& path,
-                    UsdText& text) {
+/// Between @: paths with one in them take three.
+std::string asset_path(const std::string& path) {
+  for (const char c : path) {
+    if (static_cast<unsigned char>(c) >= 0x20) continue;
+    throw ExportError(MIEN_ERROR_DNA_VALUE, "texture", "its path has control characters in it",
+                      "rename the file");
+  }
+  const char* quote = path.find('@') == std::string::npos ? "@" : "@@@";
+  return quote + path + quote;
+}
+
+/// An image that the shader input `to` of the surface reads from `output`.
+struct UsdTexture {
+  const char* name;
+  uint32_t image;
+  const char* input;   // with its type
+  const char* output;  // with its type
+  bool is_color;
+  std::array<double, 4> scale, bias;
+};
+
+std::vector<UsdTexture> textures_of(const Material& material) {
+  const auto& c = material.color;
+  const double r = material.roughness;
+  const std::vector<UsdTexture> all = {
+      {"BaseColor",
+       material.color_image,
+       "color3f inputs:diffuseColor",
+       "float3 outputs:rgb",
+       true,
+       {c[0], c[1], c[2], c[3]},
+       {0, 0, 0, 0}},
+      {"Normal",
+       material.normal_image,
+       "normal3f inputs:normal",
+       "float3 outputs:rgb",
+       false,
+       {2, 2, 2, 1},
+       {-1, -1, -1, 0}},
+      // Green, as in glTF; gray images have the same in all channels.
+      {"Roughness",
+       material.roughness_image,
+       "float inputs:roughness",
+       "float outputs:g",
+       false,
+       {r, r, r, 1},
+       {0, 0, 0, 0}}};
+  std::vector<UsdTexture> used;
+  for (const UsdTexture& texture : all) {
+    if (texture.image != kNone) used.push_back(texture);
+  }
+  return used;
+}
+
+void write_texture(const UsdTexture& texture, const Image& image, const std::string& path,
+                   UsdText& text) {
+  text.begin_prim("Shader", texture.name);
+  text.line("uniform token info:id = \"UsdUVTexture\"");
+  text.line("asset inputs:file = " + asset_path(image.path));
+  text.line("float2 inputs:st.connect = <" + path + "/TextureCoordinates.outputs:result>");
+  text.line(std::string("token inputs:sourceColorSpace = ") +
+            (texture.is_color ? "\"sRGB\"" : "\"raw\""));
+  text.line("token inputs:wrapS = \"repeat\"");
+  text.line("token inputs:wrapT = \"repeat\"");
+  text.value("float4 inputs:scale", texture.scale);
+  text.value("float4 inputs:bias", texture.bias);
+  text.line(texture.output);
+  text.end_prim();
+}
+
+void write_primvar_reader(const char* name, const char* type, const char* primvar, UsdText& text) {
+  text.begin_prim("Shader", name);
+  text.line(std::string("uniform token info:id = \"UsdPrimvarReader_") + type + "\"");
+  text.line(std::string("string inputs:varname = \"") + primvar + "\"");
+  text.line(std::string(type) + " outputs:result");
+  text.end_prim();
+}
+
+void write_material(const Material& material, const std::vector<Image>& images, bool with_colors,
+                    const std::string& path, UsdText& text) {
+  const std::vector<UsdTexture> textures = textures_of(material);
+  const bool colors = with_colors && material.color_image == kNone;
   text.begin_prim("Material", path.substr(path.rfind('/') + 1),
                   {"displayName = " + usd_string(material.name)});
   text.line("token outputs:surface.connect = <" + path + "/Surface.outputs:surface>");
   text.begin_prim("Shader", "Surface");
   text.line("uniform token info:id = \"UsdPreviewSurface\"");
-  if (with_colors) {
+  for (const UsdTexture& texture : textures) {
+    const std::string output = texture.output;
+    text.line(std::string(texture.input) + ".connect = <" + path + "/" + texture.name + "." +
+              output.substr(output.find(' ') + 1) + ">");
+  }
+  if (colors) {
     text.line("color3f inputs:diffuseColor.connect = <" + path + "/Colors.outputs:result>");
-  } else {
+  } else if (material.color_image == kNone) {
     text.value("color3f inputs:diffuseColor",
                std::array<double, 3>{material.color[0], material.color[1], material.color[2]});
   }
-  text.value("float inputs:roughness", material.roughness);
+  if (material.roughness_image == kNone) {
+    text.value("float inputs:roughness", material.roughness);
+  }
   text.line("float inputs:metallic = 0");
   text.value("float inputs:opacity", material.color[3]);
   text.line("token outputs:surface");
   text.end_prim();
-  if (with_colors) {
-    text.begin_prim("Shader", "Colors");
-    text.line("uniform token info:id = \"UsdPrimvarReader_float3\"");
-    text.line("string inputs:varname = \"displayColor\"");
-    text.line("float3 outputs:result");
-    text.end_prim();
+  if (colors) write_primvar_reader("Colors", "float3", "displayColor", text);
+  if (!textures.empty()) write_primvar_reader("TextureCoordinates", "float2", "st", text);
+  for (const UsdTexture& texture : textures) {
+    write_texture(texture, images[texture.image], path, text);
   }
   text.end_prim();
 }
@@ -394,8 +479,8 @@ std::string write_usda(const Scene& scene, const UsdOptions& options) {
   }
   text.begin_prim("Scope", "Materials");
   for (size_t i = 0; i < materials.size(); ++i) {
-    write_material(scene.materials[i], has_colors(scene, i), root + "/Materials/" + materials[i],
-                   text);
+    write_material(scene.materials[i], scene.images, has_colors(scene, i),
+                   root + "/Materials/" + materials[i], text);
   }
   text.end_prim();
   text.end_prim();

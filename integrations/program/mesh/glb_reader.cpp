@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
-// GLB: every mesh of the scene where its node puts it, morph targets as shapes. Skins, materials and
-// animations are skipped. What is compressed or lies in other files is refused.
+// GLB: every mesh of the scene where its node puts it, morph targets as shapes, materials with base color,
+// roughness and normals. Skins and animations are skipped. What is compressed or lies in other files is refused.
+#include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -26,6 +29,22 @@ constexpr size_t kMaxTargets = 4096;  // each takes memory for all positions
 constexpr size_t kMaxNumbers = size_t{1} << 22, kMaxNumbersPerByte = 32;
 // What looking at one of them takes, in numbers that are read in the same time.
 constexpr size_t kNodeNumbers = 128, kPrimitiveNumbers = 256, kTargetNumbers = 64;
+
+constexpr size_t kMaxPathBytes = 4095, kMaxMaterialName = 200;
+
+/// %20 is a space.
+std::string unescaped(const std::string& uri) {
+  std::string path;
+  for (size_t i = 0; i < uri.size(); ++i) {
+    unsigned value = 0;
+    const char* from = uri.data() + i + 1;
+    const bool is_code = uri[i] == '%' && i + 2 < uri.size() &&
+                         std::from_chars(from, from + 2, value, 16).ptr == from + 2 && value != 0;
+    path += is_code ? static_cast<char>(value) : uri[i];
+    if (is_code) i += 2;
+  }
+  return path;
+}
 
 Matrix product(const Matrix& a, const Matrix& b) {
   Matrix out;
@@ -121,8 +140,18 @@ class Glb {
   void take_numbers(size_t count);
   Matrix local_matrix(const Json& node) const;
   void add_node(size_t index, const Matrix& parent, int depth);
+  /// Whether the positions are integers, whose scale is undone by the node or, if there is one, by the skin.
+  bool has_integers(const Json& primitive) const;
+  /// Where the first joint of the node's skin puts a mesh.
+  Matrix skin_place(const Json& node);
+  Matrix world_matrix(size_t node);
   std::string new_object_name(const Json& mesh);
   void add_primitive(const Json& mesh, const Json& primitive, const Matrix& place);
+  /// Number of a material in the result, which is read when it is first used.
+  uint32_t material_number(const Json& primitive);
+  void read_texture_of(const Json& holder, const char* key, TextureKind kind,
+                       MeshMaterial& material);
+  double share(const Json& value, const char* what) const;
 
   const std::string& path_;
   std::string_view binary_;
@@ -132,6 +161,9 @@ class Glb {
   std::set<std::string> object_names_;
   std::map<std::string, size_t> next_numbers_;  // of objects with the same name
   std::set<size_t> visited_;
+  std::map<size_t, uint32_t> materials_, images_;  // numbers in the result
+  std::map<size_t, Matrix> skin_places_;
+  std::set<std::string> material_names_;
   bool all_have_uvs_ = true;
   size_t numbers_left_;
 };
@@ -197,9 +229,10 @@ void Glb::copy(size_t view_index, size_t offset, size_t type, bool normalized, s
 std::vector<double> Glb::numbers(size_t index, size_t width, const char* what) {
   const Json& accessor = element("accessors", index);
   const char* const types[] = {"", "SCALAR", "VEC2", "VEC3"};
-  if (text(accessor, "type") != types[width]) {
+  const char* const wanted = width == 16 ? "MAT4" : types[width];
+  if (text(accessor, "type") != wanted) {
     fail("accessor " + std::to_string(index),
-         std::string(what) + " should have the type " + types[width]);
+         std::string(what) + " should have the type " + wanted);
   }
   const size_t count = whole(accessor, "count", 0), type = whole(accessor, "componentType", 0);
   take_numbers(count * width);
@@ -287,6 +320,52 @@ Matrix Glb::local_matrix(const Json& node) const {
   return out;
 }
 
+bool Glb::has_integers(const Json& primitive) const {
+  const auto attributes = primitive.find("attributes");
+  if (attributes == primitive.end() || !attributes->is_object()) return false;
+  const Json& positions = element("accessors", whole(*attributes, "POSITION", kMaxElements));
+  return whole(positions, "componentType", 0) != 5126;
+}
+
+Matrix Glb::world_matrix(size_t node) {
+  Matrix place = local_matrix(element("nodes", node));
+  const Json& nodes = list(root_, "nodes");
+  for (int depth = 0; depth < kMaxDepth; ++depth) {
+    size_t parent = 0;
+    for (; parent < nodes.size(); ++parent) {
+      const Json& children = list(nodes[parent], "children");
+      take_numbers(1 + children.size());
+      if (std::find(children.begin(), children.end(), Json(node)) != children.end()) break;
+    }
+    if (parent == nodes.size()) return place;
+    place = product(local_matrix(nodes[parent]), place);
+    node = parent;
+  }
+  fail("node " + std::to_string(node), "it has over 256 ancestors");
+}
+
+Matrix Glb::skin_place(const Json& node) {
+  const size_t number = whole(node, "skin", 0);
+  const auto known = skin_places_.find(number);
+  if (known != skin_places_.end()) return known->second;
+  const Json& skin = element("skins", number);
+  const Json& joints = list(skin, "joints");
+  if (joints.empty() || !joints[0].is_number_unsigned()) {
+    fail("skin " + std::to_string(number), "it has no joints");
+  }
+  Matrix place = world_matrix(joints[0].get<size_t>());
+  if (skin.contains("inverseBindMatrices")) {
+    const std::vector<double> m = numbers(whole(skin, "inverseBindMatrices", 0), 16, "a skin");
+    if (m.size() < 16) fail("skin " + std::to_string(number), "it has no matrices");
+    Matrix unbind;
+    for (size_t r = 0; r < 3; ++r) {
+      for (size_t c = 0; c < 4; ++c) unbind[4 * r + c] = m[4 * c + r];
+    }
+    place = product(place, unbind);
+  }
+  return skin_places_[number] = place;
+}
+
 /// The mesh's name, with a number if there is an object of this name.
 std::string Glb::new_object_name(const Json& mesh) {
   const std::string name = text(mesh, "name").empty() ? "mesh" : text(mesh, "name");
@@ -344,7 +423,10 @@ void Glb::add_primitive(const Json& mesh, const Json& primitive, const Matrix& p
     out_.corner_uvs.push_back(first_uv + corner);
   }
   out_.face_sizes.insert(out_.face_sizes.end(), face_count, 3);
-  if (face_count > 0) out_.objects.push_back({new_object_name(mesh), first_face, face_count});
+  if (face_count > 0) {
+    const uint32_t material = material_number(primitive);
+    out_.objects.push_back({new_object_name(mesh), first_face, face_count, material});
+  }
 
   const Json& targets = list(primitive, "targets");
   const Json& names =
@@ -377,6 +459,89 @@ void Glb::add_primitive(const Json& mesh, const Json& primitive, const Matrix& p
   }
 }
 
+double Glb::share(const Json& value, const char* what) const {
+  const double number = value.is_number() ? value.get<double>() : -1;
+  if (!(number >= 0 && number <= 1)) {
+    fail("", std::string(what) + " of a material is not a number from 0 to 1");
+  }
+  return number;
+}
+
+void Glb::read_texture_of(const Json& holder, const char* key, TextureKind kind,
+                          MeshMaterial& material) {
+  const auto info = holder.find(key);
+  if (info == holder.end()) return;
+  if (!info->is_object()) fail("", std::string(key) + " of a material is wrong");
+  if (whole(*info, "texCoord", 0) != 0) {
+    out_.material_problems.push_back("material " + one_line(material.surface.name) +
+                                     " has a texture for other texture coordinates");
+    return;
+  }
+  const Json& texture = element("textures", whole(*info, "index", 0));
+  if (!texture.contains("source")) return;  // of an extension
+  const size_t number = whole(texture, "source", 0);
+  const Json& image = element("images", number);
+  const std::string uri = text(image, "uri");
+  if (uri.compare(0, 5, "data:") == 0) {
+    out_.material_problems.push_back("image " + std::to_string(number) + " is a data: address");
+    return;
+  }
+  if (!uri.empty()) {
+    if (uri.size() > kMaxPathBytes) fail("", "the address of an image is longer than 4095 bytes");
+    const std::filesystem::path folder = std::filesystem::path(path_).parent_path();
+    material.surface.textures[size_t(kind)] = (folder / unescaped(uri)).lexically_normal().string();
+    return;
+  }
+  const auto known = images_.find(number);
+  if (known != images_.end()) {
+    material.images[size_t(kind)] = known->second;
+    return;
+  }
+  const Json& view = element("bufferViews", whole(image, "bufferView", kMaxElements));
+  const size_t begin = whole(view, "byteOffset", 0), length = whole(view, "byteLength", 0);
+  if (begin > binary_.size() || length > binary_.size() - begin) {
+    fail("image " + std::to_string(number), "it does not lie within the file");
+  }
+  take_numbers(length);
+  material.images[size_t(kind)] = static_cast<uint32_t>(out_.images.size());
+  images_[number] = material.images[size_t(kind)];
+  out_.images.push_back(texture_of(std::string(binary_.substr(begin, length)),
+                                   one_line(path_) + ", image " + std::to_string(number)));
+}
+
+uint32_t Glb::material_number(const Json& primitive) {
+  if (!primitive.contains("material")) return kNoMaterial;
+  const size_t index = whole(primitive, "material", 0);
+  const auto [it, is_new] = materials_.emplace(index, static_cast<uint32_t>(out_.materials.size()));
+  if (!is_new) return it->second;
+  const uint32_t number = it->second;
+  if (out_.materials.size() == kMaxMeshMaterials) fail("", "more than 4096 materials");
+  const Json& from = element("materials", index);
+  MeshMaterial material;
+  SurfaceMaterial& surface = material.surface;
+  surface.name = text(from, "name").substr(0, kMaxMaterialName);
+  if (surface.name.empty()) surface.name = "material_" + std::to_string(index);
+  while (!material_names_.insert(surface.name).second) surface.name += "_" + std::to_string(index);
+  // What is not said is 1 there.
+  surface.color = {1, 1, 1, 1};
+  surface.roughness = 1;
+  surface.has_color = surface.has_roughness = true;
+  read_texture_of(from, "normalTexture", TextureKind::kNormal, material);
+  const auto pbr = from.find("pbrMetallicRoughness");
+  if (pbr != from.end() && pbr->is_object()) {
+    const Json& color = list(*pbr, "baseColorFactor");
+    if (!color.empty() && color.size() != 4) fail("", "baseColorFactor of a material is wrong");
+    for (size_t i = 0; i < color.size(); ++i) surface.color[i] = share(color[i], "a color");
+    if (pbr->contains("roughnessFactor")) {
+      surface.roughness = share((*pbr)["roughnessFactor"], "the roughness");
+    }
+    read_texture_of(*pbr, "baseColorTexture", TextureKind::kBaseColor, material);
+    read_texture_of(*pbr, "metallicRoughnessTexture", TextureKind::kRoughness, material);
+  }
+  out_.materials.push_back(std::move(material));
+  return number;
+}
+
 void Glb::add_node(size_t index, const Matrix& parent, int depth) {
   const Json& node = element("nodes", index);
   take_numbers(kNodeNumbers);
@@ -390,7 +555,10 @@ void Glb::add_node(size_t index, const Matrix& parent, int depth) {
     // A skinned mesh is where its joints put it; its own node does not count.
     const Matrix identity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
     for (const Json& primitive : list(mesh, "primitives")) {
-      add_primitive(mesh, primitive, node.contains("skin") ? identity : place);
+      add_primitive(mesh, primitive,
+                    !node.contains("skin")    ? place
+                    : has_integers(primitive) ? skin_place(node)
+                                              : identity);
     }
   }
   for (const Json& child : list(node, "children")) {

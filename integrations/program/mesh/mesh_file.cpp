@@ -6,6 +6,7 @@
 #include <cstring>
 #include <filesystem>
 #include <set>
+#include <sstream>
 
 #include "integrations/program/io/failure.h"
 #include "integrations/program/io/input.h"
@@ -174,9 +175,37 @@ std::vector<MeshShape> read_mshp(const std::string& bytes, size_t position_count
   return shapes;
 }
 
+namespace {
+
+/// The files of an OBJ's mtllib lines. A name may have spaces, and a line several names.
+void read_libraries(const std::string& path, MeshFile& mesh) {
+  const fs::path folder = path == "-" ? fs::path() : fs::path(path).parent_path();
+  const auto add = [&](const std::string& name) {
+    std::error_code ignored;
+    const fs::path library = folder / name;
+    if (name.empty() || !fs::is_regular_file(library, ignored)) return false;
+    read_mtl(read_mesh_bytes(library.string(), "cannot read materials"), library.string(), mesh);
+    return true;
+  };
+  for (const std::string& line : mesh.material_libraries) {
+    if (add(line)) continue;
+    std::istringstream words(line);
+    std::string word;
+    bool any = false;
+    while (words >> word) {
+      any = true;
+      if (!add(word)) mesh.material_problems.push_back("there is no material library " + word);
+    }
+    if (!any) mesh.material_problems.push_back("a material library has no name");
+  }
+}
+
+}  // namespace
+
 MeshFile read_mesh_file(const std::string& path) {
   const std::string bytes = read_mesh_bytes(path, "cannot read mesh");
   MeshFile mesh = begins(bytes, "glTF") ? read_glb(bytes, path) : read_obj(bytes, path);
+  read_libraries(path, mesh);
   if (mesh.face_sizes.empty()) {
     fail_mesh(path, "", "there are no faces in it", "name an OBJ or GLB file with a surface");
   }

@@ -2,15 +2,29 @@
 // Meshes and expression shapes from files, as mien_author.h takes them.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "integrations/program/io/materials.h"
+
 namespace mien::cli {
+
+constexpr uint32_t kNoMaterial = UINT32_MAX;
+constexpr size_t kMaxMeshMaterials = 4096;
 
 struct MeshObject {
   std::string name;
   uint32_t first_face = 0, face_count = 0;
+  uint32_t material = kNoMaterial;
+};
+
+/// Textures are files, by their paths, or images that the mesh file holds.
+struct MeshMaterial {
+  SurfaceMaterial surface;
+  std::array<uint32_t, kTextureKinds> images = {kNoMaterial, kNoMaterial, kNoMaterial};
 };
 
 /// Displacements of some positions; or of all, if `vertices` is empty.
@@ -27,13 +41,24 @@ struct MeshFile {
   std::vector<uint32_t> corner_uvs;  // empty: not every corner has a UV
   std::vector<MeshObject> objects;   // in the order of their faces
   std::vector<MeshShape> shapes;
+  std::vector<MeshMaterial> materials;
+  std::vector<TextureFile> images;              // that materials name
+  std::vector<std::string> material_libraries;  // as an OBJ names them
+  std::set<std::string> lost_materials;         // of faces in objects that have another material
+  std::vector<std::string> material_problems;   // files and images that are missing, for notes
+
+  std::string material_name(uint32_t material) const {
+    return material == kNoMaterial ? "no material" : materials[material].surface.name;
+  }
 
   bool in_meters = false;  // as glTF says
 
   size_t position_count() const { return positions.size() / 3; }
 };
 
-/// A mesh, and with GLB its morph targets as shapes. Fails with kInvalid.
+/// A mesh, and with GLB its morph targets as shapes; with OBJ the materials of its libraries. An object whose parts
+/// have different materials and share no positions is one object for each; otherwise it has the material of
+/// most of its faces. Fails with kInvalid.
 MeshFile read_mesh_file(const std::string& path);
 
 /// Shapes for `mesh`: a folder of OBJ or .target files, each an expression of the file's name; an
@@ -48,6 +73,9 @@ double find_incoherence(const MeshFile& mesh, const MeshShape& shape);
 
 MeshFile read_obj(const std::string& bytes, const std::string& path);
 MeshFile read_glb(const std::string& bytes, const std::string& path);
+/// Fills in the materials of the mesh that an MTL file at `path` has: Kd, d, Tr, Ns, Pr, and the images map_Kd,
+/// map_Pr, norm and, if it is named as a normal map, map_Bump or bump.
+void read_mtl(const std::string& bytes, const std::string& path, MeshFile& mesh);
 /// Lines `index dx dy dz`, with comments after #.
 MeshShape read_target(const std::string& bytes, size_t position_count, const std::string& path);
 std::vector<MeshShape> read_mshp(const std::string& bytes, size_t position_count,

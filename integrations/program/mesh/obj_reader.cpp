@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
-// OBJ: positions, UVs, faces, objects and groups. Normals, lines, points and materials are skipped;
+// OBJ: positions, UVs, faces, objects, groups and names of materials. Normals, lines and points are skipped;
 // curves are refused.
-#include <charconv>
-#include <cmath>
-#include <cstdlib>
+#include <algorithm>
 #include <limits>
 #include <map>
+#include <numeric>
+#include <set>
 
-#include "integrations/program/io/failure.h"
-#include "integrations/program/io/text.h"
-#include "integrations/program/mesh/mesh_file.h"
+#include "integrations/program/mesh/text_lines.h"
 
 namespace mien::cli {
 
@@ -17,86 +15,11 @@ namespace {
 
 constexpr size_t kMaxPositions = size_t{1} << 26;
 constexpr size_t kMaxFaceCorners = 65535;
+constexpr size_t kMaxLibraries = 64;
 constexpr size_t kMaxNameBytes = 255;  // an object's comes back with each of its groups
 
-/// Goes through a file line by line, words separated by blanks. A backslash at the end continues a line.
-class Lines {
- public:
-  Lines(const std::string& bytes, const std::string& path) : bytes_(bytes), path_(path) {}
-
-  bool next() {
-    if (at_ >= bytes_.size()) return false;
-    ++number_;
-    line_.clear();
-    for (;;) {
-      size_t end = bytes_.find('\n', at_);
-      const bool last = end == std::string::npos;
-      if (last) end = bytes_.size();
-      std::string_view part(bytes_.data() + at_, end - at_);
-      at_ = last ? bytes_.size() : end + 1;
-      if (!part.empty() && part.back() == '\r') part.remove_suffix(1);
-      const bool goes_on = !part.empty() && part.back() == '\\' && !last;
-      if (goes_on) part.remove_suffix(1);
-      if (line_.size() + part.size() > kLongest) fail("the line is longer than a megabyte");
-      line_.append(part);
-      if (!goes_on) break;
-      line_ += ' ';
-      ++number_;
-    }
-    const size_t comment = line_.find('#');
-    if (comment != std::string::npos) line_.resize(comment);
-    rest_ = line_;
-    return true;
-  }
-
-  /// Empty at the end of the line.
-  std::string_view word() {
-    const size_t from = rest_.find_first_not_of(" \t");
-    if (from == std::string_view::npos) return rest_ = {};
-    const size_t to = rest_.find_first_of(" \t", from);
-    const std::string_view found = rest_.substr(from, to - from);
-    rest_ = to == std::string_view::npos ? std::string_view() : rest_.substr(to);
-    return found;
-  }
-
-  /// The rest of the line without blanks around it.
-  std::string name() const {
-    const size_t from = rest_.find_first_not_of(" \t");
-    if (from == std::string_view::npos) return "";
-    return std::string(rest_.substr(from, rest_.find_last_not_of(" \t") + 1 - from));
-  }
-
-  double number(const char* what) {
-    const std::string_view text = word();
-    if (text.empty()) fail(std::string(what) + " lacks a number");
-    double value = 0;
-    const char* from = text.data() + (text[0] == '+' ? 1 : 0);
-    const auto read = std::from_chars(from, text.data() + text.size(), value);
-    if (read.ec == std::errc::result_out_of_range && read.ptr == text.data() + text.size()) {
-      value = std::strtod(std::string(text).c_str(), nullptr);  // underflow is 0, overflow infinite
-    } else if (read.ec != std::errc() || read.ptr != text.data() + text.size()) {
-      fail("\"" + one_line(text.substr(0, 40)) + "\" is not a number");
-    }
-    if (!std::isfinite(value)) fail("\"" + one_line(text.substr(0, 40)) + "\" is not finite");
-    return value;
-  }
-
-  [[noreturn]] void fail(const std::string& why) const {
-    fail_mesh(path_, "line " + std::to_string(number_), why, "export the mesh again");
-  }
-
- private:
-  static constexpr size_t kLongest = size_t{1} << 20;
-
-  const std::string& bytes_;
-  const std::string& path_;
-  size_t at_ = 0, number_ = 0;
-  std::string line_;
-  std::string_view rest_;
-};
-
 /// A number of a position or UV, from 1 or from the end; -1 if there is none.
-int64_t read_index(std::string_view text, size_t count, const char* what, const Lines& lines) {
+int64_t read_index(std::string_view text, size_t count, const char* what, const TextLines& lines) {
   if (text.empty()) return -1;
   int64_t index = 0;
   const auto read = std::from_chars(text.data(), text.data() + text.size(), index);
@@ -115,18 +38,94 @@ int64_t read_index(std::string_view text, size_t count, const char* what, const 
 struct Faces {
   std::vector<uint32_t> sizes, corners;
   std::vector<int64_t> uvs;
+  std::vector<uint32_t> materials;  // of each face
 };
+
+/// Which materials of an object belong together: those whose faces share positions, directly or through others. For
+/// each one the number of the first of its group.
+std::map<uint32_t, uint32_t> material_groups(const Faces& faces) {
+  std::map<uint32_t, uint32_t> above;
+  const auto first_of = [&](uint32_t material) {
+    while (above[material] != material) material = above[material] = above[above[material]];
+    return material;
+  };
+  for (const uint32_t material : faces.materials) above.emplace(material, material);
+  if (above.size() > 1) {
+    std::map<uint32_t, uint32_t> owners;  // of positions
+    size_t corner = 0;
+    for (size_t f = 0; f < faces.sizes.size(); ++f) {
+      for (uint32_t k = 0; k < faces.sizes[f]; ++k) {
+        const uint32_t owner =
+            owners.emplace(faces.corners[corner++], faces.materials[f]).first->second;
+        const uint32_t a = first_of(owner), b = first_of(faces.materials[f]);
+        above[std::max(a, b)] = std::min(a, b);
+      }
+    }
+  }
+  for (auto& [material, first] : above) first = first_of(material);
+  return above;
+}
+
+/// The material of the most faces, among those of a group.
+uint32_t main_material(const Faces& faces, const std::map<uint32_t, uint32_t>& groups,
+                       uint32_t group) {
+  std::map<uint32_t, size_t> counts;
+  for (const uint32_t material : faces.materials) {
+    if (groups.at(material) == group) ++counts[material];
+  }
+  const auto fewer = [](const auto& a, const auto& b) { return a.second < b.second; };
+  return std::max_element(counts.begin(), counts.end(), fewer)->first;
+}
+
+/// Puts the faces of an object behind the others. Each group of materials that no position connects is an object of
+/// its own.
+void add_object(const std::string& name, const Faces& faces, std::set<std::string>& taken,
+                bool& all_have_uvs, MeshFile& mesh) {
+  const std::map<uint32_t, uint32_t> groups = material_groups(faces);
+  std::set<uint32_t> firsts;
+  for (const auto& entry : groups) firsts.insert(entry.second);
+  for (const uint32_t group : firsts) {
+    MeshObject object = {name, static_cast<uint32_t>(mesh.face_sizes.size()), 0,
+                         main_material(faces, groups, group)};
+    if (firsts.size() > 1 && object.material != kNoMaterial) {
+      object.name += "." + mesh.materials[object.material].surface.name;
+    }
+    while (!taken.insert(object.name).second) object.name += "_";
+    size_t corner = 0;
+    for (size_t f = 0; f < faces.sizes.size(); ++f) {
+      const size_t end = corner + faces.sizes[f];
+      if (groups.at(faces.materials[f]) != group) {
+        corner = end;
+        continue;
+      }
+      mesh.face_sizes.push_back(faces.sizes[f]);
+      ++object.face_count;
+      if (faces.materials[f] != object.material) {
+        mesh.lost_materials.insert(mesh.material_name(faces.materials[f]));
+      }
+      for (; corner < end; ++corner) {
+        const int64_t uv = faces.uvs[corner];
+        mesh.corners.push_back(faces.corners[corner]);
+        all_have_uvs = all_have_uvs && uv >= 0;
+        mesh.corner_uvs.push_back(static_cast<uint32_t>(uv < 0 ? 0 : uv));
+      }
+    }
+    mesh.objects.push_back(object);
+  }
+}
 
 }  // namespace
 
 MeshFile read_obj(const std::string& bytes, const std::string& path) {
   MeshFile mesh;
-  Lines lines(bytes, path);
+  TextLines lines(bytes, path);
   // An object may come back after others.
   std::vector<std::string> names;
   std::vector<Faces> objects;
   std::map<std::string, size_t> numbers;
   std::string object, group;
+  std::map<std::string, uint32_t> material_numbers;
+  uint32_t material = kNoMaterial;
   size_t current = std::numeric_limits<size_t>::max();
   const auto enter = [&] {
     std::string name = !object.empty() && !group.empty() && object != group ? object + "." + group
@@ -171,6 +170,24 @@ MeshFile read_obj(const std::string& bytes, const std::string& path) {
         lines.fail("the face has " + std::to_string(size) + " corners: at least 3 are needed");
       }
       faces.sizes.push_back(size);
+      faces.materials.push_back(material);
+    } else if (keyword == "usemtl") {
+      const std::string name = lines.name();
+      if (name.size() > kMaxNameBytes) lines.fail("the name is longer than 255 bytes");
+      const auto [it, added] =
+          material_numbers.emplace(name, static_cast<uint32_t>(mesh.materials.size()));
+      if (added && mesh.materials.size() == kMaxMeshMaterials) {
+        lines.fail("more than " + std::to_string(kMaxMeshMaterials) + " materials");
+      }
+      if (added) {
+        mesh.materials.emplace_back();
+        mesh.materials.back().surface.name = name.empty() ? "material" : name;
+      }
+      material = it->second;
+    } else if (keyword == "mtllib") {
+      if (mesh.material_libraries.size() == kMaxLibraries)
+        lines.fail("more than 64 lines of mtllib");
+      mesh.material_libraries.push_back(lines.name());
     } else if (keyword == "o" || keyword == "g") {
       std::string& name = keyword == "o" ? object : group;
       name = lines.name();
@@ -182,17 +199,9 @@ MeshFile read_obj(const std::string& bytes, const std::string& path) {
     }
   }
   bool all_have_uvs = true;
+  std::set<std::string> taken;
   for (size_t o = 0; o < objects.size(); ++o) {
-    const Faces& faces = objects[o];
-    if (faces.sizes.empty()) continue;
-    mesh.objects.push_back({names[o], static_cast<uint32_t>(mesh.face_sizes.size()),
-                            static_cast<uint32_t>(faces.sizes.size())});
-    mesh.face_sizes.insert(mesh.face_sizes.end(), faces.sizes.begin(), faces.sizes.end());
-    mesh.corners.insert(mesh.corners.end(), faces.corners.begin(), faces.corners.end());
-    for (const int64_t uv : faces.uvs) {
-      all_have_uvs = all_have_uvs && uv >= 0;
-      mesh.corner_uvs.push_back(static_cast<uint32_t>(uv < 0 ? 0 : uv));
-    }
+    if (!objects[o].sizes.empty()) add_object(names[o], objects[o], taken, all_have_uvs, mesh);
   }
   if (!all_have_uvs) {
     mesh.corner_uvs.clear();
@@ -203,7 +212,7 @@ MeshFile read_obj(const std::string& bytes, const std::string& path) {
 
 MeshShape read_target(const std::string& bytes, size_t position_count, const std::string& path) {
   MeshShape shape;
-  Lines lines(bytes, path);
+  TextLines lines(bytes, path);
   while (lines.next()) {
     const std::string_view first = lines.word();
     if (first.empty()) continue;

@@ -49,9 +49,8 @@ float highlight(const Fragment& f, const Lamp& lamp, const Material& material) {
   const float light_half = saturate(dot(lamp.direction, half));
   const float strength = material.reflectance + (1 - material.reflectance) * fresnel(light_half);
   // Two lobes: a sharp one on a soft one, as films on skin and eyes give.
-  const float sharp = glint(f.normal, half, light_half, material.roughness);
-  const float soft =
-      glint(f.normal, half, light_half, std::min(1.0f, material.roughness * 2 + 0.1f));
+  const float sharp = glint(f.normal, half, light_half, f.roughness);
+  const float soft = glint(f.normal, half, light_half, std::min(1.0f, f.roughness * 2 + 0.1f));
   return strength * (0.55f * sharp + 0.45f * soft) * cosine;
 }
 
@@ -113,7 +112,7 @@ Vec3 light(const Fragment& f, float openness, const Arriving& arriving) {
   }
   // The sky in a wet surface; what the key light does not reach, such as molars, sees little of it.
   shine +=
-      kSkyAbove * ((m.reflectance + (1 - m.reflectance) * fresnel(nv)) * (1 - m.roughness) *
+      kSkyAbove * ((m.reflectance + (1 - m.reflectance) * fresnel(nv)) * (1 - f.roughness) *
                    gloss_open * (0.25f + 0.75f * seen) * (0.35f + 0.65f * saturate(f.normal.y)));
   return f.color * diffuse + shine;
 }

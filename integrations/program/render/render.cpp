@@ -144,15 +144,16 @@ Fragment layer_fragment(const Scene& scene, const PixelLayer& layer, size_t pixe
           place,
           layer.normal[pixel],
           normalized(-place, {0, 0, 1}),
-          layer.color[pixel]};
+          layer.color[pixel],
+          layer.roughness[pixel]};
 }
 
 }  // namespace
 
 Image render_image(const std::vector<Surface>& surfaces, const Camera& camera,
                    const RenderOptions& options) {
-  const Scene scene(surfaces, camera);
   const Lens lens = make_lens(camera, options.width, options.height);
+  const Scene scene(surfaces, camera, 1 / lens.focal);
   const float scale = options.scale > 0 ? options.scale : scene.scale();
   const auto ray_at = [&](float x, float y) {
     return Vec3{(x - lens.center_x) / lens.focal, (lens.center_y - y) / lens.focal, -1};
@@ -165,10 +166,11 @@ Image render_image(const std::vector<Surface>& surfaces, const Camera& camera,
   const ShadowMap rims[kRimCount] = {{scene, rim_direction(0), kShadowSize},
                                      {scene, rim_direction(1), kShadowSize}};
 
-  PixelLayer layer{options.width, options.height, {}, {}, {}};
+  PixelLayer layer{options.width, options.height, {}, {}, {}, {}};
   layer.distance.resize(size_t(options.width) * size_t(options.height));
   layer.normal.resize(layer.distance.size());
   layer.color.resize(layer.distance.size());
+  layer.roughness.resize(layer.distance.size());
   PixelPatches patches(scene, seen, options.wireframe);
   for (int y = 0; y < options.height; ++y) {
     for (int x = 0; x < options.width; ++x) {
@@ -180,6 +182,7 @@ Image render_image(const std::vector<Surface>& surfaces, const Camera& camera,
       layer.distance[pixel] = -f.place.z;
       layer.normal[pixel] = f.normal;
       layer.color[pixel] = f.color;
+      layer.roughness[pixel] = f.roughness;
     }
   }
   const std::vector<float> openness = find_openness(layer, lens, scale * 0.055f);

@@ -18,6 +18,8 @@
 
 namespace mien::render {
 
+class Texture;
+
 /// How a surface takes light.
 struct Material {
   Color color = {205, 170, 150};
@@ -39,6 +41,11 @@ struct Surface {
   // Bit k of a triangle: a wireframe leaves out the edge from corner k to the next. Null: it has
   // all.
   const uint8_t* inner_edges = nullptr;
+  // u v of each vertex, (0, 0) at the lower left of the image; null: no textures.
+  const float* texture_coordinates = nullptr;
+  // Each may be null. The color (sRGB) is multiplied by that of the material, the roughness, which is
+  // green, takes the place of the material's; normals are tangent space, green towards larger v.
+  const Texture *color_texture = nullptr, *normal_texture = nullptr, *roughness_texture = nullptr;
   Material material;
 };
 

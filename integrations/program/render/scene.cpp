@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "integrations/program/render/scene.h"
 
+#include "integrations/program/render/texture.h"
+
 namespace mien::render {
 
 using namespace math;
@@ -33,6 +35,57 @@ std::vector<Vec3> make_normals(const Surface& s, const std::vector<Vec3>& positi
   return normals;
 }
 
+/// A place of a triangle on the image, and how the image lies on the triangle in view space.
+struct Painted {
+  float u, v;
+  Vec3 along_u, along_v;  // directions of growing coordinates, of length 1
+  float texels;  // pixels of an image of size 1 x 1 within one of the picture; times its size
+};
+
+Painted find_paint(const Surface& s, const uint32_t* corners, const Vec3 (&p)[3],
+                   const float (&w)[3], float footprint) {
+  float u[3], v[3];
+  Painted at{};
+  for (size_t k = 0; k < 3; ++k) {
+    u[k] = s.texture_coordinates[2 * size_t{corners[k]}];
+    v[k] = s.texture_coordinates[2 * size_t{corners[k]} + 1];
+    at.u += u[k] * w[k];
+    at.v += v[k] * w[k];
+  }
+  const Vec3 a = p[1] - p[0], b = p[2] - p[0];
+  const float du1 = u[1] - u[0], dv1 = v[1] - v[0], du2 = u[2] - u[0], dv2 = v[2] - v[0];
+  const float twice = du1 * dv2 - du2 * dv1;
+  const float turn = twice < 0 ? -1.0f : 1.0f;
+  at.along_u = normalized((a * dv2 - b * dv1) * turn, {});
+  at.along_v = normalized((b * du1 - a * du2) * turn, {});
+  const float area = length(cross(a, b));
+  if (area > 0) at.texels = std::sqrt(std::fabs(twice) / area) * footprint;
+  return at;
+}
+
+Vec3 linear(Vec3 stored) {
+  return to_linear(Color{uint8_t(std::lround(stored.x * 255)), uint8_t(std::lround(stored.y * 255)),
+                         uint8_t(std::lround(stored.z * 255))});
+}
+
+/// Colors, roughness and normal of the textures.
+void paint(const Surface& s, const Painted& at, Fragment& f) {
+  const auto look_up = [&](const Texture& texture) {
+    const float size = std::sqrt(float(texture.width()) * float(texture.height()));
+    return texture.at(at.u, at.v, at.texels * size);
+  };
+  if (s.color_texture) f.color = linear(look_up(*s.color_texture)) * to_linear(s.material.color);
+  if (s.roughness_texture) f.roughness = std::max(look_up(*s.roughness_texture).y, 0.05f);
+  if (!s.normal_texture) return;
+  const Vec3 stored = look_up(*s.normal_texture);
+  // Perpendicular to the smooth normal. Without an image on the triangle there is no direction.
+  const Vec3 u = normalized(at.along_u - f.normal * dot(at.along_u, f.normal), {});
+  const Vec3 v = normalized(at.along_v - f.normal * dot(at.along_v, f.normal), {});
+  const Vec3 turned = u * (2 * stored.x - 1) + v * (2 * stored.y - 1) +
+                      f.normal * std::max(2 * stored.z - 1, 0.05f);
+  f.normal = normalized(turned, f.normal);
+}
+
 }  // namespace
 
 TriangleList PlacedSurface::triangles() const {
@@ -45,7 +98,8 @@ Vec3 PlacedSurface::normal(size_t vertex) const {
                                                      : vertex];
 }
 
-Scene::Scene(const std::vector<Surface>& surfaces, const Camera& camera) : camera_(camera) {
+Scene::Scene(const std::vector<Surface>& surfaces, const Camera& camera, float pixel)
+    : camera_(camera), pixel_(pixel) {
   Box box;
   uint32_t number = 1;
   for (const Surface& s : surfaces) {
@@ -124,7 +178,12 @@ Fragment Scene::fragment(uint32_t number, Vec3 ray) const {
   f.normal = normal;
 
   f.color = on.color;
-  if (!on.colors.empty()) {
+  f.roughness = s.material.roughness;
+  if (s.texture_coordinates && (s.color_texture || s.normal_texture || s.roughness_texture)) {
+    const float slope = std::max(std::fabs(dot(flat, f.to_eye)), 0.1f);
+    paint(s, find_paint(s, corners, p, w, pixel_ * length(f.place) / slope), f);
+  }
+  if (!on.colors.empty() && !s.color_texture) {
     f.color = {};
     for (int k = 0; k < 3; ++k) {
       const uint32_t position =

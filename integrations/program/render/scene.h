@@ -27,11 +27,13 @@ struct Fragment {
   const PlacedSurface* on;
   uint32_t triangle;
   math::Vec3 place, normal, to_eye, color;
+  float roughness;
 };
 
 class Scene {
  public:
-  Scene(const std::vector<Surface>& surfaces, const Camera& camera);
+  /// `pixel` is the size of a pixel at a distance of 1.
+  Scene(const std::vector<Surface>& surfaces, const Camera& camera, float pixel);
 
   const std::vector<PlacedSurface>& surfaces() const { return surfaces_; }
   /// Triangles are numbered from 1 on.
@@ -43,6 +45,7 @@ class Scene {
 
  private:
   Camera camera_;
+  float pixel_;
   std::vector<PlacedSurface> surfaces_;
   float scale_ = 1;
 };

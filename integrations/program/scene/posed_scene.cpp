@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "integrations/program/scene/posed_scene.h"
 
+#include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "integrations/program/io/controls.h"
 #include "integrations/program/io/dna_fields.h"
 #include "integrations/program/io/input.h"
 #include "integrations/program/io/nearest_name.h"
+#include "integrations/program/io/text.h"
 #include "integrations/program/scene/mesh_material.h"
 
 namespace mien::cli {
@@ -35,7 +38,46 @@ std::vector<uint8_t> find_inner_edges(const RigFile& file, uint32_t mesh, size_t
   return inner;
 }
 
-SceneMesh make_mesh(const PosedScene& scene, uint32_t mesh, const std::string& name,
+/// Null for JPEG, which is not drawn; a note says so, once for each file.
+const render::Texture* find_texture(PosedScene& scene, const std::string& path,
+                                    const Session& session) {
+  if (path.empty()) return nullptr;
+  const auto [found, is_new] = scene.textures.try_emplace(path);
+  if (!is_new) return found->second.get();
+  const TextureFile file = read_texture(path);
+  if (!file.is_png) {
+    note(session, one_line(path) + ": JPEG textures are not drawn; convert it to PNG");
+    return nullptr;
+  }
+  try {
+    found->second = std::make_unique<render::Texture>(render::read_png(file.bytes));
+  } catch (const std::runtime_error& error) {
+    fail(kInvalid, "cannot read texture", one_line(path), error.what(), "write the image again");
+  }
+  return found->second.get();
+}
+
+/// Material and textures of the file beside the rig.
+void take_material(PosedScene& scene, SceneMesh& mesh, const Session& session) {
+  mesh.material = mesh_material(mesh.mesh_class);
+  const SurfaceMaterial* from = scene.materials.find(mesh.name);
+  if (!from) return;
+  if (mesh.neutral.texture_coordinates.count != 0) {
+    for (size_t k = 0; k < kTextureKinds; ++k) {
+      mesh.textures[k] = find_texture(scene, from->textures[k], session);
+    }
+  }
+  const bool has_image = mesh.textures[size_t(TextureKind::kBaseColor)] != nullptr;
+  if (from->has_color || has_image) {
+    const auto& c = from->color;
+    mesh.material.color = render::to_srgb({float(c[0]), float(c[1]), float(c[2])});
+    // A plain color would take the iris from an eye.
+    if (has_image || mesh.mesh_class != MeshClass::kEye) mesh.colors.clear();
+  }
+  if (from->has_roughness) mesh.material.roughness = std::max(float(from->roughness), 0.05f);
+}
+
+SceneMesh make_mesh(PosedScene& scene, uint32_t mesh, const std::string& name,
                     const PosedSceneOptions& options, const Session& session) {
   SceneMesh made{};
   made.mesh = mesh;
@@ -55,6 +97,7 @@ SceneMesh make_mesh(const PosedScene& scene, uint32_t mesh, const std::string& n
   if (made.colors.empty() && made.mesh_class == MeshClass::kEye) {
     made.colors = paint_eye(made.neutral.positions.data, positions, scene.axes.front);
   }
+  take_material(scene, made, session);
   if (options.wireframe && scene.file.dna) {
     made.inner_edges = find_inner_edges(scene.file, mesh, made.neutral.triangle_count);
   }
@@ -122,7 +165,11 @@ std::vector<render::Surface> PosedScene::surfaces() const {
     surface.triangle_count = mesh.neutral.triangle_count;
     if (!mesh.colors.empty()) surface.colors = mesh.colors.data();
     if (!mesh.inner_edges.empty()) surface.inner_edges = mesh.inner_edges.data();
-    surface.material = mesh_material(mesh.mesh_class);
+    surface.material = mesh.material;
+    surface.texture_coordinates = mesh.neutral.texture_coordinates.data;
+    surface.color_texture = mesh.textures[size_t(TextureKind::kBaseColor)];
+    surface.normal_texture = mesh.textures[size_t(TextureKind::kNormal)];
+    surface.roughness_texture = mesh.textures[size_t(TextureKind::kRoughness)];
     surfaces.push_back(surface);
   }
   return surfaces;
@@ -215,6 +262,7 @@ PosedScene open_scene(const PosedSceneOptions& options, const Session& session) 
   PosedScene scene;
   scene.shown = shown_name(options.rig);
   scene.lod = options.lod;
+  scene.materials = read_materials_beside(options.rig);
   if (is_baked_file(options.rig)) {
     map_scene(scene, options);
   } else {

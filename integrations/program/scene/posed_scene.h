@@ -2,16 +2,20 @@
 // A rig in a pose: the meshes of one LOD, deformed, with what the renderer needs to draw them.
 #pragma once
 
+#include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "integrations/program/io/baked_file.h"
 #include "integrations/program/io/frames.h"
+#include "integrations/program/io/materials.h"
 #include "integrations/program/io/mesh_appearance.h"
 #include "integrations/program/io/rig_file.h"
 #include "integrations/program/math/vector.h"
 #include "integrations/program/render/camera.h"
 #include "integrations/program/render/render.h"
+#include "integrations/program/render/texture.h"
 #include "integrations/program/scene/head_turn.h"
 
 namespace mien::cli {
@@ -23,6 +27,8 @@ struct SceneMesh {
   MienMesh neutral;
   std::vector<uint8_t> colors;       // r g b of each position, or empty
   std::vector<uint8_t> inner_edges;  // of each triangle, for wireframes
+  render::Material material;
+  std::array<const render::Texture*, kTextureKinds> textures;  // of the scene; null: none
 };
 
 struct PosedSceneOptions {
@@ -47,6 +53,8 @@ struct PosedScene {
   uint32_t rig_lod = 0;            // as the rig counts: of a DNA file, no other LOD is loaded
   std::vector<SceneMesh> meshes;
   render::Axes axes;
+  Materials materials;                                               // of the file beside the rig
+  std::map<std::string, std::unique_ptr<render::Texture>> textures;  // by path; null: not drawn
 
   std::string unit() const;
   /// Positions of a mesh in the current pose.

@@ -152,7 +152,7 @@ TEST(Render, SphereLooksLikeOneThatIsTraced) {
   const Image picture = render_image({surface}, camera, options);
 
   // Rays against the sphere; the background is where the picture shows it.
-  const Scene scene({surface}, camera);
+  const Scene scene({surface}, camera, 0.01f);
   const Vec3 center = camera.to_view({});
   const float focal = kSize / 2.0f / std::tan(camera.field_of_view * 0.00872664626f);
   Image traced(kSize, kSize, {});
@@ -178,6 +178,7 @@ TEST(Render, SphereLooksLikeOneThatIsTraced) {
         f.normal = f.place - center;
         f.to_eye = -ray;
         f.color = to_linear(surface.material.color);
+        f.roughness = surface.material.roughness;
         Arriving arriving;
         arriving.key = dot(f.normal, key_direction()) > 0 ? 1.0f : 0.0f;
         sum += tone(light(f, 1, arriving));
@@ -245,7 +246,7 @@ TEST(Render, ColorsAreInterpolatedInPerspective) {
   plane.positions = {-1, -1, -2, 1, -1, -2, 1, -1, -10, -1, -1, -10};
   plane.triangles = {0, 1, 2, 0, 2, 3};
   plane.colors = {0, 0, 0, 0, 0, 0, 255, 255, 255, 255, 255, 255};
-  const Scene scene({plane.surface()}, Camera{});
+  const Scene scene({plane.surface()}, Camera{}, 0.01f);
   for (const float distance : {2.5f, 4.0f, 6.0f, 9.0f}) {
     // Both triangles, left and right of their common edge.
     for (const uint32_t number : {1u, 2u}) {
