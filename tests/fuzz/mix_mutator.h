@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Changes mixes field by field. The fields are walked as the reader walks them (runtime/mix/mix_fields.h), and
+// Changes mixes field by field. The fields are visited as the reader visits them (runtime/mix/mix_fields.h), and
 // elements of lists, curves, names and rows come and go together with their counts, so most results open.
 #pragma once
 
@@ -49,7 +49,7 @@ struct MixPlaces {
 
   explicit MixPlaces(Span<const uint8_t> mix) : bytes(mix) {
     MixDesc desc;
-    walk(*this, desc);
+    visit_mix(*this, desc);
   }
 
   bool skip(size_t size) {
@@ -71,13 +71,17 @@ struct MixPlaces {
   }
 
   template <class T>
+  void value(mien::Field field, const Limits&, T& to) {
+    value(field.name, to);
+  }
+  template <class T>
   void value(const char*, T& to) {
     to = number<T>(0);
   }
   void value(const char*, bool& to) { to = number<uint8_t>(2) == 1; }
   void place(const char*, uint16_t& to) { to = number<uint16_t>(0); }
   template <class T, class Names>
-  void choice(const char*, T& to, const Names& names) {
+  void choice(mien::Field, const Names& names, T& to) {
     to = static_cast<T>(number<uint8_t>(static_cast<uint32_t>(std::size(names))));
   }
   void count(const char*, uint32_t& to, uint32_t most) { to = std::min(count_of(1), most); }
@@ -97,6 +101,9 @@ struct MixPlaces {
   }
   void curves(const char*, Span<const uint16_t>&) { add_curves(false); }
   void pairs(const char*, Span<const uint16_t>&, Span<const float>&) { add_curves(true); }
+  void mask(const char* name, Span<const float>& to) {
+    row(name, to, [](size_t) { return 0.0f; });
+  }
   template <class T, class Otherwise>
   void row(const char* name, Span<const T>&, Otherwise) {
     const size_t flag_at = at;
@@ -107,13 +114,13 @@ struct MixPlaces {
     if (!ended) rows.push_back({flag_at, curve_count, sizeof(T), exists});
   }
   template <class T, class Fields>
-  void list(const char* name, Span<const T>&, uint32_t, Fields walk_fields) {
+  void list(const char* name, Span<const T>&, uint32_t, Fields visit) {
     List found = {name, at, {}};
     const uint32_t count = count_of(1);
     found.starts.push_back(at);
     for (uint32_t i = 0; i < count && !ended; ++i) {
       T element = {};
-      walk_fields(element);
+      visit(element);
       found.starts.push_back(at);
     }
     if (!ended) lists.push_back(found);
