@@ -41,6 +41,21 @@ MienStatus read_projection(const MienProjectDesc* desc, author::Projection& out,
   return MIEN_OK;
 }
 
+/// `project` is project_mesh() with meshes or make_lod() with LODs.
+template <class Project>
+MienStatus projected(Project* project, MienDocument* document, uint32_t to, uint32_t from,
+                     const MienProjectDesc* desc, double* out_farthest, MienError* error) {
+  if (MienStatus status = clear_output(out_farthest, error)) return status;
+  if (MienStatus status = check_document(document, error)) return status;
+  author::Projection how;
+  if (MienStatus status = read_projection(desc, how, error)) return status;
+  Error detail;
+  author::ProjectionResult result;
+  const Status status = project(document->document, to, from, how, result, detail);
+  if (status == Status::kOk) *out_farthest = result.farthest;
+  return finish(status, detail, error);
+}
+
 }  // namespace
 
 MienStatus mien_document_copy_layers(MienDocument* document, const MienDocument* from,
@@ -82,29 +97,13 @@ MienStatus mien_document_split_joints(MienDocument* document, const MienDocument
 MienStatus mien_document_project(MienDocument* document, uint32_t mesh, uint32_t source,
                                  const MienProjectDesc* desc, double* out_farthest,
                                  MienError* error) {
-  if (MienStatus status = clear_output(out_farthest, error)) return status;
-  if (MienStatus status = check_document(document, error)) return status;
-  author::Projection how;
-  if (MienStatus status = read_projection(desc, how, error)) return status;
-  Error detail;
-  author::ProjectionResult result;
-  const Status status = author::project_mesh(document->document, mesh, source, how, result, detail);
-  if (status == Status::kOk) *out_farthest = result.farthest;
-  return finish(status, detail, error);
+  return projected(author::project_mesh, document, mesh, source, desc, out_farthest, error);
 }
 
 MienStatus mien_document_make_lod(MienDocument* document, uint32_t lod, uint32_t source_lod,
                                   const MienProjectDesc* desc, double* out_farthest,
                                   MienError* error) {
-  if (MienStatus status = clear_output(out_farthest, error)) return status;
-  if (MienStatus status = check_document(document, error)) return status;
-  author::Projection how;
-  if (MienStatus status = read_projection(desc, how, error)) return status;
-  Error detail;
-  author::ProjectionResult result;
-  const Status status = author::make_lod(document->document, lod, source_lod, how, result, detail);
-  if (status == Status::kOk) *out_farthest = result.farthest;
-  return finish(status, detail, error);
+  return projected(author::make_lod, document, lod, source_lod, desc, out_farthest, error);
 }
 
 MienStatus mien_document_conform(MienDocument* document, uint32_t mesh, const float* positions,

@@ -129,22 +129,30 @@ class JointRemoval {
     return true;
   }
 
+  /// Copies the lists of those meshes only whose weights change.
   bool hand_over_weights() {
     if (!copy_list(arena_, view_.geom.meshes)) return false;
     for (dna::Mesh& mesh : view_.geom.meshes) {
-      if (!copy_list(arena_, mesh.skin_weights)) return false;
-      for (dna::VertexSkinWeights& vertex : mesh.skin_weights) {
-        if (!hand_over(vertex)) return false;
+      bool copied = false;
+      for (uint32_t v = 0; v < mesh.skin_weights.count; ++v) {
+        if (stays(mesh.skin_weights[v])) continue;
+        if (!copied && !copy_list(arena_, mesh.skin_weights)) return false;
+        copied = true;
+        if (!hand_over(mesh.skin_weights[v])) return false;
       }
     }
     return true;
   }
 
+  bool stays(const dna::VertexSkinWeights& vertex) const {
+    bool same = true;
+    for (uint32_t i = 0; i < vertex.joint_indices.count; ++i)
+      same = same && keep_[vertex.joint_indices[i]];
+    return same;
+  }
+
   bool hand_over(dna::VertexSkinWeights& vertex) {
     const uint32_t count = vertex.joint_indices.count;
-    bool same = true;
-    for (uint32_t i = 0; i < count; ++i) same = same && keep_[vertex.joint_indices[i]];
-    if (same) return true;
     const NewArray<uint16_t> joints = dna::new_array<uint16_t>(arena_, count);
     const NewArray<float> weights = dna::new_array<float>(arena_, count);
     if (!joints.data || !weights.data) return false;
