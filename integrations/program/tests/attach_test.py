@@ -4,6 +4,7 @@
 
     attach_test.py path/to/mien [unittest options]      (or MIEN_BIN=path/to/mien)
 """
+import json
 import os
 import sys
 
@@ -91,6 +92,25 @@ class Attach(ProgramTest):
         self.assertGreater(moved, 0.005)
         for weights in out.skin("beard"):
             self.assertAlmostEqual(sum(weights.values()), 1, 5)
+
+    def test_their_errors_are_measured(self):
+        """Those of a copy of some skin are no larger than those of all of it."""
+        vertices, triangles = self.patch()
+        places = self.plain.positions(self.base)
+        write("copy.obj", obj("copy", [places[v] for v in vertices], triangles))
+        done = self.ok("export", path("head.dna"), "-o", path("measured.glb"), "--bake", "arkit", "--lod", "4", "--force",
+                       "--attach", path("copy.obj"), "--residuals", path("loss.json"))
+        self.assertIn("copy, attached, in combinations: off by", done.stdout.decode())
+        loss = json.loads(read("loss.json"))
+        copy = loss["attached"]["copy"]
+        self.assertEqual(list(copy["shapes"]), list(loss["shapes"]))
+        for own, all_ in ((copy["shapes"]["jawOpen"], loss["shapes"]["jawOpen"]),
+                          (copy["shapes"]["jawOpen"]["combined"], loss["shapes"]["jawOpen"]["combined"]),
+                          (copy["combinations"]["targets"], loss["combinations"]["targets"])):
+            self.assertGreater(own["mean"], 0)
+            self.assertLessEqual(own["mean"], own["rms"])
+            self.assertLessEqual(own["rms"], own["worst"])
+            self.assertLessEqual(own["worst"], all_["worst"] + 0.01)
 
     def test_cards_above_the_skin_keep_their_distance(self):
         vertices, triangles = self.patch()
