@@ -4,7 +4,7 @@
 
 #include "capi/handles.h"
 #include "runtime/load/dna/dna_file.h"
-#include "runtime/load/validate/report.h"
+#include "runtime/load/report/dna_report.h"
 
 namespace mien::capi {
 

@@ -35,7 +35,7 @@ GRAPH = {
                          "runtime/load/dna/convert"],
     "runtime/load/compile": ["runtime/base", "simd", "runtime/load/dna/format", "runtime/rig",
                              "runtime/deform"],
-    "runtime/load/validate": ["runtime/base", "runtime/load/dna", "runtime/load/compile"],
+    "runtime/load/report": ["runtime/base", "runtime/load/dna", "runtime/load/compile"],
     # libmien-author makes DNA files: generated ones, and from a mesh to a rig. What its stages hand to
     # each other; bones; weights; motion; the file.
     "author/base": ["runtime/base", "runtime/load/dna/format"],
@@ -64,7 +64,7 @@ GRAPH = {
     "solve": ["capi/include", "capi/arguments", "runtime/base"],
     "capi": ["capi/arguments", "runtime/base", "simd", "runtime/eval", "runtime/anim", "runtime/mix",
              "runtime/solve", "runtime/deform", "runtime/derive", "runtime/probe", "runtime/baked", "runtime/load/dna/format",
-             "runtime/load/dna/check", "runtime/load/dna", "runtime/load/compile", "runtime/load/validate"],
+             "runtime/load/dna/check", "runtime/load/dna", "runtime/load/compile", "runtime/load/report"],
 }
 PUBLIC_HEADERS = ("capi/include/mien.h", "capi/include/mien_author.h", "capi/include/mien_solve.h")
 

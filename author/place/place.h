@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Bones for a head: root, neck, head, face, and facial bones at the means of groups of the face
+// place_bones(): the joints of a head: root, neck, head, face, and facial bones at the means of groups of the face
 // mask. docs/authoring.md says what follows the published method and what was added.
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Time -> values: a clip being played.
+// Time -> values: a clip being played. seek_clip() and advance_clip() move, sample_clip() gives the values there.
 //
 // The position is a whole number of ticks, plus the fraction of a tick that a speed leaves. So loops are
 // exact, and the position does not depend on the step size. Moving decodes nothing. Sampling decodes

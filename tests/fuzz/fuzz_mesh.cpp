@@ -22,6 +22,8 @@ extern "C" size_t LLVMFuzzerMutate(uint8_t* data, size_t size, size_t max_size);
 
 // Files are not read here.
 std::string mien::cli::read_mesh_bytes(const std::string&, const std::string&) { return {}; }
+std::string mien::cli::read_json(const std::string&, const std::string&) { return {}; }
+bool mien::cli::is_stream(const std::string&) { return false; }
 
 namespace {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/load/validate/report.h"
+#include "runtime/load/report/dna_report.h"
 
 #include "runtime/base/mapped_file.h"
 #include "runtime/load/compile/compile_rig.h"
