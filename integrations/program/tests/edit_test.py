@@ -334,7 +334,7 @@ class Arrays(EditTest):
         mesh = self.names(SMALL, "meshes")[0]
         for name, content, says in (
                 ("short.json", "[[1, 2, 3]]", "1 rows"), ("flat.json", "[1, 2, 3]", "row 0"),
-                ("text.json", '[["a", 2, 3]]', "not a number"), ("object.json", "{}", "not a list"),
+                ("text.json", '[["a", 2, 3]]', "not a finite float"), ("object.json", "{}", "not a list"),
                 ("huge.json", "[[1e300, 0, 0]]", "row 0"), ("broken.json", "[[1, 2", "byte"),
                 ("short.npy", b"\x93NUMPY\x01\x00\xff\xff{", "begin"), ("cut.npy", b"\x93NUMPY\x01\x00\xff\xff{   ", "cut"),
                 ("a.txt", "1 2 3", ".npy"), ("few.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "3 positions")):
