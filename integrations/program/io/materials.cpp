@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::basic_json<MemberList>;
 
 constexpr const char* kCannotUse = "cannot use materials";
-constexpr const char* kExample =
+constexpr const char* kMaterialsExample =
     R"(write {"materials": [{"name": "skin", "textures": {"base_color": "skin.png"}}], )"
     R"("meshes": {"head_lod0_mesh": "skin"}})";
 constexpr size_t kMaxFileBytes = size_t{16} << 20;
@@ -30,27 +30,27 @@ constexpr uint64_t kMaxTextureBytes = uint64_t{256} << 20;
 constexpr TextureKind kKinds[] = {TextureKind::kBaseColor, TextureKind::kNormal,
                                   TextureKind::kRoughness};
 
-[[noreturn]] void wrong(const std::string& where, const std::string& why) {
-  fail(kInvalid, kCannotUse, where, why, kExample);
+[[noreturn]] void wrong_materials(const std::string& where, const std::string& why) {
+  fail(kInvalid, kCannotUse, where, why, kMaterialsExample);
 }
 
 std::string text_of(const Json& value, const std::string& where, size_t most) {
-  if (!value.is_string()) wrong(where, "expected a text");
+  if (!value.is_string()) wrong_materials(where, "expected a text");
   const std::string text = value.get<std::string>();
-  if (text.empty()) wrong(where, "it is empty");
-  if (text.size() > most) wrong(where, "longer than " + std::to_string(most) + " bytes");
-  if (text.find('\0') != std::string::npos) wrong(where, "it has a NUL in it");
+  if (text.empty()) wrong_materials(where, "it is empty");
+  if (text.size() > most) wrong_materials(where, "longer than " + std::to_string(most) + " bytes");
+  if (text.find('\0') != std::string::npos) wrong_materials(where, "it has a NUL in it");
   return text;
 }
 
 double share_of(const Json& value, const std::string& where) {
   const double number = value.is_number() ? value.get<double>() : -1;
-  if (!(number >= 0 && number <= 1)) wrong(where, "expected a number from 0 to 1");
+  if (!(number >= 0 && number <= 1)) wrong_materials(where, "expected a number from 0 to 1");
   return number;
 }
 
 const Json& object_of(const Json& value, const std::string& where) {
-  if (!value.is_object()) wrong(where, "expected an object");
+  if (!value.is_object()) wrong_materials(where, "expected an object");
   return value;
 }
 
@@ -65,7 +65,7 @@ void read_textures(const Json& object, const std::string& where, const fs::path&
       const fs::path given = text_of(path, place, kMaxPathBytes);
       material.textures[size_t(kind)] = (folder / given).lexically_normal().string();
     }
-    if (!known) wrong(place, "textures are base_color, normal and roughness");
+    if (!known) wrong_materials(place, "textures are base_color, normal and roughness");
   }
 }
 
@@ -76,7 +76,7 @@ SurfaceMaterial material_of(const Json& object, const std::string& where, const 
     if (key == "name") {
       material.name = text_of(value, place, kMaxNameBytes);
     } else if (key == "base_color") {
-      if (!value.is_array() || value.size() != 4) wrong(place, "expected four numbers");
+      if (!value.is_array() || value.size() != 4) wrong_materials(place, "expected four numbers");
       for (size_t i = 0; i < 4; ++i) material.color[i] = share_of(value[i], place);
       material.has_color = true;
     } else if (key == "roughness") {
@@ -85,32 +85,32 @@ SurfaceMaterial material_of(const Json& object, const std::string& where, const 
     } else if (key == "textures") {
       read_textures(value, place, folder, material);
     } else {
-      wrong(place, "a material has name, base_color, roughness and textures");
+      wrong_materials(place, "a material has name, base_color, roughness and textures");
     }
   }
-  if (material.name.empty()) wrong(where, "it has no name");
+  if (material.name.empty()) wrong_materials(where, "it has no name");
   return material;
 }
 
 Materials parse(const std::string& text, const std::string& shown, const fs::path& folder) {
-  const Json document = parse_json<Json>(text, kCannotUse, shown, kExample);
+  const Json document = parse_json<Json>(text, kCannotUse, shown, kMaterialsExample);
   Materials materials;
   std::map<std::string, size_t> numbers;
   for (const auto& [key, value] : object_of(document, shown).items()) {
     if (key != "materials" && key != "meshes") {
-      wrong(shown + ", " + one_line(key), "the file has materials and meshes");
+      wrong_materials(shown + ", " + one_line(key), "the file has materials and meshes");
     }
     if (key == "meshes") continue;
-    if (!value.is_array()) wrong(shown + ", materials", "expected a list");
+    if (!value.is_array()) wrong_materials(shown + ", materials", "expected a list");
     if (value.size() > kMaxMaterials) {
-      wrong(shown, "more than " + std::to_string(kMaxMaterials) + " materials");
+      wrong_materials(shown, "more than " + std::to_string(kMaxMaterials) + " materials");
     }
     for (const Json& object : value) {
       const std::string where =
           shown + ", materials[" + std::to_string(materials.list.size()) + "]";
       SurfaceMaterial material = material_of(object, where, folder);
       if (!numbers.emplace(material.name, materials.list.size()).second) {
-        wrong(where, "another one is named \"" + one_line(material.name) + "\", too");
+        wrong_materials(where, "another one is named \"" + one_line(material.name) + "\", too");
       }
       materials.list.push_back(std::move(material));
     }
@@ -120,7 +120,7 @@ Materials parse(const std::string& text, const std::string& shown, const fs::pat
   for (const auto& [mesh, value] : object_of(*meshes, shown + ", meshes").items()) {
     const std::string where = shown + ", meshes." + one_line(mesh.substr(0, kMaxNameBytes));
     const auto found = numbers.find(text_of(value, where, kMaxNameBytes));
-    if (found == numbers.end()) wrong(where, "there is no such material in the file");
+    if (found == numbers.end()) wrong_materials(where, "there is no such material in the file");
     materials.of_mesh[mesh] = found->second;
   }
   return materials;

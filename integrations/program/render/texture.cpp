@@ -14,7 +14,7 @@ using namespace math;
 
 namespace {
 
-constexpr uint64_t kMaxPixels = uint64_t{1} << 26;
+constexpr uint64_t kMaxTexturePixels = uint64_t{1} << 26;
 
 /// Each pixel is the mean of four; at an odd edge, of two.
 Image halved(const Image& from) {
@@ -77,7 +77,8 @@ Image read_png(const std::string& bytes) {
   if (!png_image_begin_read_from_memory(&head, bytes.data(), bytes.size())) {
     fail(std::string("libpng: ") + head.message);
   }
-  if (head.width == 0 || head.height == 0 || uint64_t{head.width} * head.height > kMaxPixels) {
+  if (head.width == 0 || head.height == 0 ||
+      uint64_t{head.width} * head.height > kMaxTexturePixels) {
     fail(std::to_string(head.width) + " x " + std::to_string(head.height) +
          " pixels are more than 2^26");
   }
