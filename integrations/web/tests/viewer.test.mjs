@@ -269,6 +269,9 @@ test("poses are recorded over time, in a form that the page and the program play
       window.viewer.pose();
       await new Promise(requestAnimationFrame);
     }
+    // The last pose is drawn, too.
+    const shown = window.viewer.stage.drawn;
+    while (window.viewer.stage.drawn < shown + 2) await new Promise(requestAnimationFrame);
   });
   const bytes = await downloaded("record");
   assert.equal(await text("record"), "Record");
