@@ -229,6 +229,15 @@ Status map_curves(const Mix& mix, MixDesc& desc, Arena& arena, CurveMap& map, Er
   std::fill(map.file_curve_of.begin(), map.file_curve_of.end(), kNowhere);
   CurveFinder finder(map.file_curve_of);
   visit_mix(finder, desc);
+  // A layer lists as many curves as there are, at most. One that repeats some takes names of others with it.
+  size_t longest = 0, count = mix.variable_count;
+  for (const LayerDesc& layer : mix.layers) longest = std::max(longest, layer.curves.count);
+  for (uint16_t l = 0; l < mix.raw_count; ++l) count += map.file_curve_of[l] != kNowhere;
+  for (uint16_t l = 0; l < mix.raw_count && count < longest; ++l) {
+    if (map.file_curve_of[l] != kNowhere) continue;
+    map.file_curve_of[l] = 0;
+    ++count;
+  }
   for (uint16_t l = 0; l < mix.raw_count; ++l) {
     if (map.file_curve_of[l] != kNowhere) map.curve_of[map.name_count++] = l;
   }

@@ -121,6 +121,18 @@ TEST(MixFile, GivesBackItsBytes) {
   EXPECT_EQ(written(*opened(written(*make_mix(empty)))), written(*make_mix(empty)));
 }
 
+TEST(MixFile, OfALayerThatRepeatsACurveOpensAgain) {
+  const NamedRig named(numbered(5));
+  const uint16_t curves[] = {3, 3, 3, 3};
+  MixInput input(5);
+  LayerDesc& layer = input.add(BlendMode::kAdd, LayerSource::kStream);
+  layer.curves = {curves, 4};
+  layer.stream_frames = 8;
+  input.desc.names = named.rig.names[static_cast<size_t>(Kind::kRawControl)];
+  const Bytes bytes = written(*make_mix(input));
+  EXPECT_EQ(written(*opened(bytes)), bytes);
+}
+
 TEST(MixFile, MixesLikeTheOriginal) {
   const MixScene scene(24);
   MixScene other(24);
