@@ -44,7 +44,8 @@ class Skeleton : public ::testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
     made_ = std::make_unique<SkeletonRig>(GetParam());
-    if (!made_->there) GTEST_SKIP() << "NOT TESTED: no $MIEN_SHARED/data/meshes";
+    if (!made_->there)
+      GTEST_SKIP() << "NOT TESTED: skeletons of real heads; there is no $MIEN_SHARED/data/meshes";
   }
   const Rigging& rig() const { return made_->rigging; }
   const AuthorMesh& mesh() const { return made_->rigging.read.mesh; }
