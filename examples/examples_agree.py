@@ -3,9 +3,10 @@
 """The examples of all languages do the same job: they have to print the same.
 
 Usage: examples_agree.py --python INTERPRETER --cargo CARGO_OR_NOTHING --luajit LUAJIT_OR_NOTHING
-                         --programs DIRECTORY
+                         --mcs MCS_OR_NOTHING --mono MONO_OR_NOTHING --programs DIRECTORY
 The programs in C and C++ are DIRECTORY/example_c, _cpp, _mix_c and _mix_cpp.
-The library is found by the environment: MIEN_LIBRARY (Python, Lua), MIEN_LIB_DIR (Rust).
+The library is found by the environment: MIEN_LIBRARY (Python, Lua), MIEN_LIB_DIR (Rust),
+LD_LIBRARY_PATH (C#).
 """
 import argparse
 import os
@@ -41,12 +42,22 @@ def mixes_differ(programs):
     return len(set(printed.values())) != 1
 
 
+def csharp(mcs, mono, name, directory):
+    """The command of an example in C#, which is compiled to `directory`."""
+    sources = sorted((HERE.parent / "integrations" / "csharp" / "Mien").glob("*.cs"))
+    program = directory / f"{name}.exe"
+    subprocess.run([mcs, "-unsafe", "-langversion:latest", f"-out:{program}", *sources, HERE / f"{name}.cs"], check=True)
+    return [mono, program]
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--programs", type=Path, required=True)
     parser.add_argument("--python", default=sys.executable)
     parser.add_argument("--cargo", default="")
     parser.add_argument("--luajit", default="")
+    parser.add_argument("--mcs", default="")
+    parser.add_argument("--mono", default="")
     args = parser.parse_args()
 
     programs = {"C": ["example_c"], "C++": ["example_cpp"]}
@@ -71,6 +82,13 @@ def main():
         os.environ["LUA_PATH"] = f"{HERE.parent / 'integrations' / 'lua'}/?.lua"
         programs["Lua"] = [args.luajit, HERE / "evaluate.lua"]
         mixing["Lua"] = [args.luajit, HERE / "mix.lua"]
+
+    compiled = tempfile.TemporaryDirectory()
+    if not args.mcs or not args.mono:
+        print("NOT TESTED: the example in C#; there is no mcs and mono")
+    else:
+        programs["C#"] = csharp(args.mcs, args.mono, "evaluate", Path(compiled.name))
+        mixing["C#"] = csharp(args.mcs, args.mono, "mix", Path(compiled.name))
 
     code = (HERE / "evaluate.c").read_text(encoding="utf-8").split("\n", 1)[1]
     if code not in (HERE.parent / "README.md").read_text(encoding="utf-8"):

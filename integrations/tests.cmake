@@ -135,13 +135,16 @@ endforeach()
 if(NOT MIEN_SANITIZE AND NOT CMAKE_CROSSCOMPILING)
   find_program(MIEN_CARGO cargo)
   find_program(MIEN_LUAJIT luajit)
+  find_program(MIEN_MCS mcs)
+  find_program(MIEN_MONO mono)
   add_test(NAME examples_agree
     COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/examples/examples_agree.py --python ${MIEN_PYTHON}
       --cargo "$<$<BOOL:${MIEN_CARGO}>:${MIEN_CARGO}>"
       --luajit "$<$<BOOL:${MIEN_LUAJIT}>:${MIEN_LUAJIT}>"
+      --mcs "$<$<BOOL:${MIEN_MCS}>:${MIEN_MCS}>" --mono "$<$<BOOL:${MIEN_MONO}>:${MIEN_MONO}>"
       --programs $<TARGET_FILE_DIR:example_c>)
   set_tests_properties(examples_agree PROPERTIES LABELS abi TIMEOUT 600
-    ENVIRONMENT "${python_environment};MIEN_LIB_DIR=$<TARGET_FILE_DIR:mien>;CARGO_TARGET_DIR=${PROJECT_BINARY_DIR}/rust/target/shared")
+    ENVIRONMENT "${python_environment};MIEN_LIB_DIR=$<TARGET_FILE_DIR:mien>;LD_LIBRARY_PATH=$<TARGET_FILE_DIR:mien>;CARGO_TARGET_DIR=${PROJECT_BINARY_DIR}/rust/target/shared")
 endif()
 
 # ---- types of the Python package --------------------------------------------------------------------
@@ -178,6 +181,25 @@ elseif(MIEN_LUAJIT)
   endforeach()
 else()
   message(STATUS "NOT TESTED: the Lua binding; there is no luajit")
+endif()
+
+# ---- C# ---------------------------------------------------------------------------------------------
+
+add_test(NAME csharp_api
+  COMMAND Python3::Interpreter ${integrations}/csharp/generate_api.py --check)
+set_tests_properties(csharp_api PROPERTIES LABELS guard)
+if(MIEN_SANITIZE OR CMAKE_CROSSCOMPILING)
+  # Mono is neither built with sanitizers nor for other machines.
+elseif(MIEN_MCS AND MIEN_MONO)
+  add_test(NAME csharp_build COMMAND ${MIEN_MCS} -unsafe -langversion:latest -warnaserror -nowarn:219
+    -out:${PROJECT_BINARY_DIR}/csharp_tests.exe
+    -recurse:${integrations}/csharp/Mien/*.cs -recurse:${integrations}/csharp/tests/*.cs)
+  set_tests_properties(csharp_build PROPERTIES LABELS abi FIXTURES_SETUP csharp)
+  add_test(NAME csharp_test COMMAND ${MIEN_MONO} --debug ${PROJECT_BINARY_DIR}/csharp_tests.exe)
+  set_tests_properties(csharp_test PROPERTIES LABELS abi FIXTURES_REQUIRED csharp TIMEOUT 120
+    ENVIRONMENT "LD_LIBRARY_PATH=$<TARGET_FILE_DIR:mien>")
+else()
+  message(STATUS "NOT TESTED: the C# binding; there is no mcs and mono")
 endif()
 
 # ---- JavaScript -------------------------------------------------------------------------------------

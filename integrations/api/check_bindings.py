@@ -8,6 +8,7 @@ What a language does without, for good or for now, is named in WITHOUT with the 
 Usage: check_bindings.py [--self-test]
 """
 import copy
+import functools
 import json
 import re
 import sys
@@ -23,24 +24,30 @@ SOURCES = {
     "Rust": ["rust/mien/src/**/*.rs"],
     "JavaScript": ["web/mien/*.js"],
     "Lua": ["lua/mien/*.lua"],
+    "C#": ["csharp/Mien/*.cs"],
 }
 GENERATED = {"Python": "python/mien/_api.py", "Rust": "rust/mien/src/generated.rs",
-             "JavaScript": "web/mien/api.js", "Lua": "lua/mien/api.lua"}
+             "JavaScript": "web/mien/api.js", "Lua": "lua/mien/api.lua",
+             "C#": "csharp/Mien/Native.cs"}
 
 # "mien_noun_verb", "MienDesc.field", "MienEnum" or, of a field of all structs, "field": {language: why}
 WITHOUT = {
-    "allocator": {"Lua": "memory is that of the library, released by the garbage collector",
+    "allocator": {"C#": "memory is that of the library, released by handles",
+                  "Lua": "memory is that of the library, released by the garbage collector",
                   "Python": "memory of the library is not Python's",
                   "JavaScript": "memory is the module's",
                   "Rust": "an allocator is given where objects are many: instances, batches, reports"},
-    "MienClipDesc.frame_stride": {"Python": "rows are arrays", "Rust": "rows are a slice"},
+    "mien_rig_evaluate": {"C#": "Evaluate() takes stages"},
+    "MienBatchDesc.tasks": {"C#": "callbacks from C are not offered"},
+    "MienClipDesc.frame_stride": {"C#": "rows are arrays", "Python": "rows are arrays", "Rust": "rows are a slice"},
     "MienClipPlayerDesc.speed_numerator": {"Rust": "ClipPlayer::set_speed()"},
     "MienClipPlayerDesc.speed_denominator": {"Rust": "ClipPlayer::set_speed()"},
     "MienClipPlayerDesc.start_tick": {"Rust": "ClipPlayer::seek()"},
     "MienAuthorDesc.progress_user": {"Python": "functions keep what they need"},
     "MienVertexFormat": {"Python": "the type of an array says it"},
     "file_access": {"JavaScript": "there is no file system"},
-    **{name: {"Lua": "callbacks from C into Lua cost more than reading the bytes"} for name in (
+    **{name: {"C#": "callbacks from C are not offered",
+              "Lua": "callbacks from C into Lua cost more than reading the bytes"} for name in (
         "mien_dna_open_stream", "mien_baked_open_stream", "mien_clip_open_stream")},
     **{name: {"JavaScript": "there is no file system"} for name in (
         "mien_dna_open_file", "mien_dna_write_file", "mien_dna_validate_file", "mien_bake_file",
@@ -62,23 +69,29 @@ WITHOUT = {
     **{name: {"JavaScript": "one by one, each on several threads if it is large"} for name in (
         "mien_deformer_instance_deform_batch", "mien_deformer_instance_write_vertices_batch")},
 }
-# Families of names that a language has not yet: what they begin with. Users of Lua call these by the FFI.
-LATER = {"Lua": (
+# Families of names that languages have not yet: what they begin with. Users call these by the C interface, which Lua has
+# by its FFI, C# as Mien.Native.Functions, and Go as cgo.
+LATER_IN_ALL = (
     "MienAuthorDesc", "MienAuthorMesh", "MienDerivatives", "MienDocument", "MienJacobian", "MienPlacement",
     "MienProject", "MienPrune", "MienSolver", "MienTransplant", "MienValidate", "mien_author_", "mien_batch_bytes",
     "mien_clip_binding_snaps", "mien_clip_channel", "mien_clip_event", "mien_clip_find_", "mien_clip_verify",
-    "mien_control_name", "mien_coordinate_system_name", "mien_deformer_bind_", "mien_deformer_influences",
-    "mien_deformer_instance_deform_batch", "mien_deformer_instance_local_",
-    "mien_deformer_instance_write_vertices_batch", "mien_deformer_inverse_", "mien_deformer_target",
-    "mien_derivatives_", "mien_dna_child_", "mien_dna_layer", "mien_dna_validate_", "mien_document_",
-    "mien_instance_ml_controls", "mien_instance_psd_", "mien_instance_rbf_", "mien_instance_statistics",
-    "mien_isa_", "mien_mix_glare", "mien_mix_guard", "mien_mix_mask", "mien_mixer_step_batch", "mien_report_",
-    "mien_rig_evaluate_joint_group", "mien_rig_evaluate_rbf_", "mien_rig_evaluate_twist_", "mien_rig_initial_",
-    "mien_rig_psd_", "mien_rig_statistics", "mien_rig_variable_", "mien_solver_")}
+    "mien_control_name", "mien_coordinate_system_name", "mien_deformer_instance_deform_batch",
+    "mien_deformer_instance_write_vertices_batch", "mien_derivatives_", "mien_dna_child_", "mien_dna_layer",
+    "mien_dna_validate_", "mien_document_", "mien_instance_ml_controls", "mien_instance_psd_", "mien_instance_rbf_",
+    "mien_instance_statistics", "mien_isa_", "mien_mix_glare", "mien_mix_guard", "mien_mix_mask",
+    "mien_mixer_step_batch", "mien_report_", "mien_rig_evaluate_joint_group", "mien_rig_evaluate_rbf_",
+    "mien_rig_evaluate_twist_", "mien_rig_initial_", "mien_rig_psd_", "mien_rig_statistics", "mien_rig_variable_",
+    "mien_solver_")
+LATER = {
+    "Lua": LATER_IN_ALL + ("mien_deformer_bind_", "mien_deformer_influences", "mien_deformer_instance_local_",
+                           "mien_deformer_inverse_", "mien_deformer_target"),
+    "C#": LATER_IN_ALL + ("MienCoordinateSystem.", "MienMixDesc.custom_"),
+}
 # Functions whose own statuses cannot reach a user, who finds no list of them either.
 SILENT = {
     "mien_coordinate_system_name": {"Python", "Rust"},
-    "mien_clip_event": {"Python"}, "mien_mixer_event": {"Python"}, "mien_dna_layer": {"Python"}, "mien_report_finding": {"Python"},
+    "mien_clip_event": {"Python"}, "mien_mixer_event": {"Python"}, "mien_dna_layer": {"Python"},
+    "mien_report_finding": {"Python"},
     "mien_deformer_instance_local_transforms": {"Python"},
     "mien_rig_map_gui_to_raw": {"Python"}, "mien_rig_map_raw_to_gui": {"Python"},
     # Documented where the same method calls another function too.
@@ -109,11 +122,17 @@ class Binding:
 
     def __init__(self, language, text, generated=""):
         self.language, self.text, self.generated = language, text, generated
+        self.without_underscores = generated.replace("_", "")
         self.names = set(re.findall(r"\bmien_\w+\b", text))
+        if language == "C#":  # handles are released by generated classes; fields have names such as RawControlCount
+            for handle in re.findall(r"new (\w+)Handle\(taken", text):
+                released = re.search(rf"class {handle}Handle : .*?Functions\.(\w+)\(taken\)", generated, re.DOTALL)
+                self.names.add(released.group(1))
         # Lua releases handles of classes by a generated table.
         for handle in re.findall(r'object\.class\("\w+", "(\w+)"\)', text):
             self.names |= set(re.findall(rf'^  {handle} = "(\w+)"', generated, re.MULTILINE))
 
+    @functools.lru_cache(maxsize=None)
     def fields_of(self, struct):
         """Names of the fields that are set, or None for all of them."""
         if self.language == "C++":
@@ -125,6 +144,13 @@ class Binding:
             return self.javascript_fields(struct)
         if self.language == "Lua":  # tables of users name the fields
             return None if f'"{struct}"' in self.text else set()
+        if self.language == "C#":  # parameters are whole structs; else fields are set one by one
+            if f"default({struct})" in self.text:
+                return None
+            if not re.search(rf"\b{struct}\b", self.text):
+                return set()
+            return {re.sub("(?<!^)([A-Z])", r"_\1", field).lower()
+                    for field in re.findall(r"\b([A-Z]\w+) = ", self.text)}
         found = set(re.findall(r"\.(\w+) = ", self.text))
         for match in re.finditer(rf"\b{struct}(?:\(| \{{)", self.text):
             inside = braced(self.text, match.end())
@@ -151,22 +177,28 @@ class Binding:
             return f"export const {name} =" in self.generated
         if self.language == "Lua":
             return f"\napi.{name} = {{" in self.generated
+        if self.language == "C#":
+            return f"public enum {name} : " in self.generated
         if not re.search(rf"\bclass {name}\(|\bstruct {name}\(", self.generated):
             return False
         if self.language == "Rust":
             return "pub use generated::*" in self.text
         return f'"{name}"' in self.text
 
-    def has_value(self, enum, value):
-        short = value["short_name"]
-        if enum["name"] == "MienStatusCode":
+    @functools.lru_cache(maxsize=None)
+    def has_value(self, enum_name, short, number):
+        """Whether the generated enum has the value, which the header calls MIEN_..._SHORT."""
+        if enum_name == "MienStatusCode":
             short = re.sub("^ERROR_", "", short)
+        if self.language == "C#":
+            short = "".join(part.capitalize() for part in short.split("_"))
+            return f" {short} = {number}," in self.without_underscores
         return self.language == "C++" or \
-            re.search(rf"\b_?{short}\b.*\b{value['value']}\b", self.generated) is not None
+            re.search(rf"\b_?{short}\b.*\b{number}\b", self.generated) is not None
 
     def documents(self, function):
-        if self.language in ("JavaScript", "Lua") or self.language in SILENT.get(function, ()):
-            return True  # api.d.ts and api.lua have the comments of the header
+        if self.language in ("JavaScript", "Lua", "C#") or self.language in SILENT.get(function, ()):
+            return True  # api.d.ts, api.lua and Native.cs have the comments of the header
         if self.language == "Python":
             return re.search(rf'@raises\([^)]*"{function}(_n)?"', self.text) is not None
         return self.language != "Rust" or f"errors!({function})" in self.text
@@ -219,7 +251,7 @@ def problems_of(api, binding):
         there = binding.has_enum(name, enum)
         yield from missing(enum["name"], f"enum {name}", there)
         for value in enum["values"]:
-            if there and not binding.has_value(enum, value):
+            if there and not binding.has_value(enum["name"], value["short_name"], value["value"]):
                 yield f"{language} has no {value['name']}"
 
 
@@ -263,7 +295,7 @@ def self_test(api, found):
         enum["values"].append({"name": "MIEN_ISA_ADDED", "short_name": "ADDED", "value": 77})
 
     both = ["Python", "Rust"]
-    all_others = both + ["JavaScript", "Lua"]
+    all_others = both + ["JavaScript", "Lua", "C#"]
     for change, languages, what in (
             (lambda new: None, [], ""),
             (add_function, ["C++"] + all_others, "has no binding of mien_added"),
