@@ -10,7 +10,7 @@ namespace mien::gltf {
 
 namespace {
 
-constexpr double kLeastMove = 2e-6;  // of the diagonal
+constexpr double kLeastDelta = 2e-6;  // of the diagonal
 constexpr double kLeastCorrective = 1e-3;
 constexpr size_t kMaxCorrectives = 128;
 
@@ -135,13 +135,13 @@ BakedMesh bake_mesh(const RigSource& source, Face& face, const RigExpressions& s
         expression.minus.empty() ? neutral : shape_of(face, rig_mesh, baked.lod, expression.minus);
     const Shape shape = shape_of(face, rig_mesh, baked.lod, expression.plus);
     mesh.targets.push_back(difference(source, rig_mesh, face.pose(), base.positions, base.normals,
-                                      kLeastMove * diagonal));
+                                      kLeastDelta * diagonal));
     mesh.targets.back().name = expression.name;
     baked.moves.push_back(less(shape.positions, base.positions));
     baked.turns.push_back(less(shape.normals, base.normals));
     for (size_t p = 0; p < baked.is_moved.size(); ++p) {
       const double length = length_at(source, baked.moves[e], p);
-      if (length > kLeastMove * diagonal) baked.is_moved[p] = true;
+      if (length > kLeastDelta * diagonal) baked.is_moved[p] = true;
       double& most = report.expressions[e].max_move;
       most = std::max(most, length);
     }
@@ -192,7 +192,7 @@ void add_correctives(const RigSource& source, Face& face, const RigExpressions& 
     const std::vector<float> positions = sum(baked.neutral, baked.moves[a], baked.moves[b]);
     MorphTarget target = difference(source, baked.rig_mesh, face.pose(), positions,
                                     sum(baked.neutral_normals, baked.turns[a], baked.turns[b]),
-                                    kLeastMove * diagonal);
+                                    kLeastDelta * diagonal);
     target.name = set.expressions[a].name + "+" + set.expressions[b].name;
     mesh.correctives.push_back({static_cast<uint32_t>(mesh.targets.size()),
                                 {static_cast<uint32_t>(a), static_cast<uint32_t>(b)}});

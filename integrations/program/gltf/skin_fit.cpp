@@ -13,7 +13,7 @@ namespace {
 using math::Vec3d;
 
 // A joint whose skin matrix is off the identity by less does not move.
-constexpr float kLeastMove = 1e-6f;
+constexpr float kLeastJointMove = 1e-6f;
 // Share of the mean of the diagonal that pulls weights to those of the file: where the expressions do
 // not tell joints apart, weights stay in proportion.
 constexpr double kPull = 1e-6;
@@ -49,7 +49,7 @@ class Expressions {
     for (size_t j = 0; j < moves_.size(); ++j) {
       moves_[j] = false;
       for (size_t i = 0; i < 16; ++i) {
-        moves_[j] = moves_[j] || std::abs(skin_.data[16 * j + i] - (i % 5 == 0)) > kLeastMove;
+        moves_[j] = moves_[j] || std::abs(skin_.data[16 * j + i] - (i % 5 == 0)) > kLeastJointMove;
       }
       any = any || moves_[j];
     }

@@ -92,11 +92,11 @@ void quaternion_joints(const PlainGroup& group, const std::vector<double>& contr
                        Outputs& out) {
   const LayerRig& rig = out.rig;
   const size_t columns = group.inputs.size();
-  struct Row {
+  struct JointRow {
     size_t row;
     uint32_t joint, axis;
   };
-  std::vector<Row> rows;
+  std::vector<JointRow> rows;
   std::vector<size_t> row_counts(rig.base.lod_count);
   for (size_t r = 0; r < group.lods[0]; ++r) {
     const uint32_t joint = group.outputs[r] / 9, k = group.outputs[r] % 9;
@@ -135,7 +135,7 @@ void quaternion_joints(const PlainGroup& group, const std::vector<double>& contr
   for (size_t i = 0; i < rows.size(); ++i) {
     if (i < row_counts[lod]) turned[rows[i].joint];
   }
-  for (const Row& row : rows) {
+  for (const JointRow& row : rows) {
     if (turned.count(row.joint)) turned[row.joint][row.axis] = row.row + 1;
   }
   for (const auto& [joint, axis_rows] : turned) {
