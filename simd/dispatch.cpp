@@ -40,7 +40,9 @@ constexpr Isa kBestFirst[] = {Isa::kAvx512, Isa::kAvx2, Isa::kNeon, Isa::kSse2};
 
 const KernelTable* kernels_for(Isa isa, [[maybe_unused]] const CpuFeatures& cpu) {
   switch (isa) {
+#if defined(MIEN_BUILT_SCALAR)
     case Isa::kScalar: return &scalar::kTable;
+#endif
 #if defined(MIEN_BUILT_SSE2)
     case Isa::kSse2: return cpu.sse2 ? &sse2::kTable : nullptr;
 #endif
@@ -67,7 +69,7 @@ const KernelTable* kernels_for(Isa isa) {
   for (Isa better : kBestFirst) {
     if (const KernelTable* kernels = kernels_for(better, cpu)) return kernels;
   }
-  return &scalar::kTable;
+  return kernels_for(Isa::kScalar, cpu);
 }
 
 const KernelTable* kernels_from_environment() {

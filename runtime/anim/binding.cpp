@@ -28,8 +28,8 @@ size_t most_matched(const Clip& clip) {
   return 2 * size_t{clip.channel_count} + kMostOfExpressions;
 }
 
-/// Scratch memory of binding. Targets are raw controls, then GUI controls.
-struct Scratch {
+/// BindingScratch memory of binding. Targets are raw controls, then GUI controls.
+struct BindingScratch {
   Allocator allocator;
   size_t block_size = 0;
   Span<uint16_t> raw_order, gui_order, channel_order;
@@ -79,7 +79,7 @@ struct Binder {
   const Clip& clip;
   const Rig& rig;
   Span<const MatrixEntry> matrix;
-  Scratch& scratch;
+  BindingScratch& scratch;
   Binding& binding;
 
   void find_targets() {
@@ -239,7 +239,7 @@ struct Binder {
 };
 
 void fill_binding(const Clip& clip, const Rig& rig, Span<const MatrixEntry> matrix,
-                  Scratch& scratch, Binding& binding) {
+                  BindingScratch& scratch, Binding& binding) {
   binding.raw_count = rig.raw_count;
   binding.channel_count = clip.channel_count;
   binding.closures = find_closures(clip);
@@ -251,7 +251,7 @@ void fill_binding(const Clip& clip, const Rig& rig, Span<const MatrixEntry> matr
 }
 
 /// NaN becomes 0.
-float clamp01(float value) { return value > 0.0f ? (value < 1.0f ? value : 1.0f) : 0.0f; }
+float clamped(float value) { return value > 0.0f ? (value < 1.0f ? value : 1.0f) : 0.0f; }
 
 }  // namespace
 
@@ -263,9 +263,9 @@ Status bind_clip(const Clip& clip, const Rig& rig, Span<const MatrixEntry> matri
     return fail(error, Status::kInvalidArgument, kNoOffset,
                 "entry %zu of the matrix: the weight is not a finite number", e);
   }
-  auto* const scratch = create_block<Scratch>(allocator, [&](Placer& placer, Scratch& lists) {
-    lists.place(placer, clip, rig, matrix.count);
-  });
+  auto* const scratch = create_block<BindingScratch>(
+      allocator,
+      [&](Placer& placer, BindingScratch& lists) { lists.place(placer, clip, rig, matrix.count); });
   out = create_object<Binding>(allocator, [&](Placer& placer, Binding& binding) {
     place_binding(placer, clip, rig, matrix.count, binding);
   });
@@ -317,7 +317,7 @@ void apply_binding(const Binding& binding, Span<const float> values, Span<float>
     r = fires ? row.run_end : r + 1;
   }
   for (uint16_t control : binding.mapped_controls) {
-    raw_controls[control] = clamp01(raw_controls[control]);
+    raw_controls[control] = clamped(raw_controls[control]);
   }
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr uint32_t kKnownFlags = kClipWraps | kClipSnapped | kClipHalfRate | kClipIsDelta;
 
-Status damaged(Error& error, uint64_t offset, const char* what) {
+Status damaged_clip(Error& error, uint64_t offset, const char* what) {
   return fail(error, Status::kClipStructure, offset,
               "%s: counts or values contradict each other, the clip is damaged; build it again",
               what);
@@ -35,7 +35,7 @@ Status read_header(const uint8_t* bytes, size_t size, Clip& clip, Error& error) 
                 "the clip ends after %zu of %" PRIu64 " bytes; fetch or build it again", size,
                 stated);
   }
-  if (stated < size) return damaged(error, stated, "bytes after the end");
+  if (stated < size) return damaged_clip(error, stated, "bytes after the end");
 
   for (const ClipField& field : kClipFields) {
     clip.*field.member = load_little_endian<uint32_t>(bytes + field.at);
@@ -48,7 +48,7 @@ Status read_header(const uint8_t* bytes, size_t size, Clip& clip, Error& error) 
       clip.changing_count > clip.channel_count || clip.changing_count > kMaxChangingChannels ||
       clip.name_count < clip.channel_count || clip.has(kClipSnapped) != (clip.snap != kNoSnap) ||
       (clip.snap != kNoSnap && (clip.snap < kMinSnap || clip.snap > kMaxSnap))) {
-    return damaged(error, kClipFields[0].at, "header");
+    return damaged_clip(error, kClipFields[0].at, "header");
   }
   return Status::kOk;
 }
@@ -58,22 +58,22 @@ Status check_names(const Clip& clip, Error& error) {
   for (uint32_t i = 0; i < clip.name_count; ++i) {
     const uint64_t at = clip.at.name_ends + uint64_t{i} * sizeof(uint32_t);
     const uint32_t next = load_little_endian<uint32_t>(clip.bytes + at);
-    if (next <= end || next > clip.name_bytes) return damaged(error, at, "names");
+    if (next <= end || next > clip.name_bytes) return damaged_clip(error, at, "names");
     end = next;
   }
-  return end == clip.name_bytes ? Status::kOk : damaged(error, clip.at.name_ends, "names");
+  return end == clip.name_bytes ? Status::kOk : damaged_clip(error, clip.at.name_ends, "names");
 }
 
 Status check_channels(const Clip& clip, Error& error) {
   for (uint32_t c = 0; c < clip.channel_count; ++c) {
     const uint64_t at = clip.at.rests + uint64_t{c} * sizeof(float);
-    if (!std::isfinite(clip.rest(c))) return damaged(error, at, "rest values");
+    if (!std::isfinite(clip.rest(c))) return damaged_clip(error, at, "rest values");
   }
   for (uint32_t i = 0; i < clip.changing_count; ++i) {
     const uint64_t at = clip.at.changing + uint64_t{i} * sizeof(uint16_t);
     const bool ascends = i == 0 || clip.changing(i - 1) < clip.changing(i);
     if (!ascends || clip.changing(i) >= clip.channel_count) {
-      return damaged(error, at, "changing channels");
+      return damaged_clip(error, at, "changing channels");
     }
   }
   return Status::kOk;
@@ -88,7 +88,7 @@ Status check_events(const Clip& clip, Error& error) {
     const uint32_t name = load_little_endian<uint32_t>(clip.bytes + at + 8);
     const float value = load_little_endian<float>(clip.bytes + at + 12);
     if (!in_order || name >= clip.name_count || !std::isfinite(value)) {
-      return damaged(error, at, "events");
+      return damaged_clip(error, at, "events");
     }
     previous = tick;
   }
@@ -138,14 +138,14 @@ Status open_clip(const uint8_t* bytes, size_t size, Clip& out, Error& error) {
   clip.bytes = bytes;
   clip.size = size;
   clip.at = clip_layout(clip);
-  if (clip.at.blocks > size) return damaged(error, kClipFields[0].at, "size of the tables");
+  if (clip.at.blocks > size) return damaged_clip(error, kClipFields[0].at, "size of the tables");
   uint64_t end = clip.at.blocks;
   if (clip.block_count() > 0) {
     const uint64_t last = clip.at.block_ends + (clip.block_count() - 1) * sizeof(uint32_t);
     end += load_little_endian<uint32_t>(bytes + last);
   }
   if (((end + kClipPadding + 7) & ~uint64_t{7}) != size) {
-    return damaged(error, clip.at.block_ends, "size of the blocks");
+    return damaged_clip(error, clip.at.block_ends, "size of the blocks");
   }
   if ((status = check_names(clip, error)) != Status::kOk) return status;
   if ((status = check_channels(clip, error)) != Status::kOk) return status;

@@ -38,26 +38,26 @@ struct Build {
   }
 };
 
-Status wrong(Error& error, const char* what) {
+Status wrong_clip(Error& error, const char* what) {
   return fail(error, Status::kInvalidArgument, kNoOffset, "%s", what);
 }
 
 Status check_desc(const ClipDesc& desc, Error& error) {
   const size_t channels = desc.names.count;
   if (ticks_per_frame(desc.rate_numerator, desc.rate_denominator) == 0) {
-    return wrong(error, "the frame rate is out of range");
+    return wrong_clip(error, "the frame rate is out of range");
   }
-  if (desc.frame_count == 0) return wrong(error, "a clip has at least one frame");
-  if (channels != 0 && !desc.values) return wrong(error, "there are channels and no values");
+  if (desc.frame_count == 0) return wrong_clip(error, "a clip has at least one frame");
+  if (channels != 0 && !desc.values) return wrong_clip(error, "there are channels and no values");
   if (desc.frame_stride != 0 && desc.frame_stride < channels) {
-    return wrong(error, "the frame stride is shorter than a frame");
+    return wrong_clip(error, "the frame stride is shorter than a frame");
   }
   if (!desc.snaps.empty() && desc.snaps.count != channels) {
-    return wrong(error, "snaps: not one for each channel");
+    return wrong_clip(error, "snaps: not one for each channel");
   }
   for (uint8_t n : desc.snaps) {
     if (n != kNoSnap && (n < kMinSnap || n > kMaxSnap)) {
-      return wrong(error, "snaps: a step is 1 / 2^9 to 1 / 2^16");
+      return wrong_clip(error, "snaps: a step is 1 / 2^9 to 1 / 2^16");
     }
   }
   if (desc.frame_count > kMaxClipFrames || channels > kMaxClipChannels ||
@@ -269,7 +269,7 @@ Status build_clip(const ClipDesc& desc, const Allocator& allocator, Span<Channel
   const Status status = check_desc(desc, error);
   if (status != Status::kOk) return status;
   if (!reports.empty() && reports.count != desc.names.count) {
-    return wrong(error, "reports: not one for each channel");
+    return wrong_clip(error, "reports: not one for each channel");
   }
   auto* const build = create_block<Build>(allocator, [&](Placer& placer, Build& made) {
     made.desc = desc;

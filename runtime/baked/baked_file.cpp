@@ -6,7 +6,7 @@
 namespace mien {
 namespace {
 
-Status damaged(Error& error, uint64_t at, const char* what) {
+Status damaged_baked_file(Error& error, uint64_t at, const char* what) {
   return fail(error, Status::kBakedStructure, at, "%s: the baked file is damaged; bake it again",
               what);
 }
@@ -39,13 +39,13 @@ Status check_header(const SharedBytes& file, Error& error) {
                 static_cast<unsigned long long>(header.file_size));
   }
   if (header.file_size < file.size) {
-    return damaged(error, header.file_size, "bytes after the end");
+    return damaged_baked_file(error, header.file_size, "bytes after the end");
   }
   for (uint8_t zero : header.zeros) {
-    if (zero) return damaged(error, offsetof(BakedHeader, zeros), "header");
+    if (zero) return damaged_baked_file(error, offsetof(BakedHeader, zeros), "header");
   }
   if (header.part_count > (file.size - sizeof(header)) / sizeof(BakedPart)) {
-    return damaged(error, offsetof(BakedHeader, part_count), "header");
+    return damaged_baked_file(error, offsetof(BakedHeader, part_count), "header");
   }
   return Status::kOk;
 }
@@ -78,7 +78,7 @@ uint64_t baked_checksum(const uint8_t* bytes, size_t size) {
 
 namespace {
 
-constexpr char kWhat[] = "a baked file";
+constexpr char kBakedFile[] = "a baked file";
 
 Status read_baked(Baked& baked, Error& error) {
   const uint8_t* bytes = baked.data;
@@ -103,11 +103,11 @@ Status read_baked(Baked& baked, Error& error) {
     const BakedPart** known = part.kind == uint32_t(PartKind::kRig)        ? &baked.rig
                               : part.kind == uint32_t(PartKind::kDeformer) ? &baked.deformer
                                                                            : nullptr;
-    if (!good || (known && *known)) return damaged(error, entry, "table of parts");
+    if (!good || (known && *known)) return damaged_baked_file(error, entry, "table of parts");
     if (known) *known = &part;
     at += part.size;
   }
-  if (at != size) return damaged(error, at, "end of the file");
+  if (at != size) return damaged_baked_file(error, at, "end of the file");
   return Status::kOk;
 }
 
@@ -126,8 +126,8 @@ Status finish(Status created, BakedCheck check, Baked*& baked, Error& error) {
 
 Status open_baked_file(const char* path, FileAccess access, BakedCheck check,
                        const Allocator& allocator, Baked*& out, Error& error) {
-  return finish(create_from_file(path, access, {kBakedMagic, sizeof(kBakedMagic)}, kWhat, allocator,
-                                 out, error),
+  return finish(create_from_file(path, access, {kBakedMagic, sizeof(kBakedMagic)}, kBakedFile,
+                                 allocator, out, error),
                 check, out, error);
 }
 
@@ -135,7 +135,7 @@ Status open_baked_memory(Span<const uint8_t> bytes, FileAccess access, BakedChec
                          const Allocator& allocator, Baked*& out, Error& error) {
   const bool aligned = reinterpret_cast<uintptr_t>(bytes.data) % kBlockAlignment == 0;
   const size_t copied = aligned && access == FileAccess::kMap ? 0 : bytes.count;
-  const Status created = create_with_bytes(copied, kWhat, allocator, out, error);
+  const Status created = create_with_bytes(copied, kBakedFile, allocator, out, error);
   if (created == Status::kOk && copied != 0) {
     memcpy(const_cast<uint8_t*>(out->data), bytes.data, copied);
   } else if (created == Status::kOk) {
@@ -147,7 +147,7 @@ Status open_baked_memory(Span<const uint8_t> bytes, FileAccess access, BakedChec
 
 Status open_baked_stream(const Stream& stream, BakedCheck check, const Allocator& allocator,
                          Baked*& out, Error& error) {
-  return finish(create_from_stream(stream, kWhat, allocator, out, error), check, out, error);
+  return finish(create_from_stream(stream, kBakedFile, allocator, out, error), check, out, error);
 }
 
 }  // namespace mien

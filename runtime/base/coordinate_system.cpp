@@ -6,7 +6,7 @@
 namespace mien {
 namespace {
 
-enum Direction : uint32_t { kLeft, kRight, kUp, kDown, kFront, kBack };
+enum Direction : uint32_t { kLeft, kRight, kUp, kDown, kFront, kRear };
 enum Length : uint32_t { kCentimeters, kMeters };
 enum Angle : uint32_t { kDegrees, kRadians };
 enum Sequence : uint32_t { kXyz, kXzy, kYxz, kYzx, kZxy, kZyx };
@@ -63,9 +63,9 @@ const NamedSystem kNamedSystems[kNamedSystemCount] = {
     {"unreal-mesh", {{kLeft, kFront, kUp}, kCentimeters, kDegrees, kCarried, kXyz, {-1, -1, 1}, 1}},
     {"unity", {{kRight, kUp, kFront}, kMeters, kDegrees, kCarried, kZxy, {1, 1, 1}, 0}},
     {"godot", {{kLeft, kUp, kFront}, kMeters, kRadians, kCarried, kZxy, {1, 1, 1}, 1}},
-    {"blender", {{kLeft, kBack, kUp}, kMeters, kRadians, kCarried, kXyz, {1, 1, 1}, 0}},
+    {"blender", {{kLeft, kRear, kUp}, kMeters, kRadians, kCarried, kXyz, {1, 1, 1}, 0}},
     {"gltf", {{kLeft, kUp, kFront}, kMeters, kRadians, kCarried, kXyz, {1, 1, 1}, 0}},
-    {"opengl", {{kRight, kUp, kBack}, kMeters, kRadians, kCarried, kXyz, {1, 1, 1}, 0}},
+    {"opengl", {{kRight, kUp, kRear}, kMeters, kRadians, kCarried, kXyz, {1, 1, 1}, 0}},
     {"directx", {{kRight, kUp, kFront}, kMeters, kRadians, kCarried, kZxy, {1, 1, 1}, 0}},
     {"houdini", {{kLeft, kUp, kFront}, kMeters, kDegrees, kCarried, kXyz, {1, 1, 1}, 0}},
 };
@@ -73,7 +73,7 @@ const NamedSystem kNamedSystems[kNamedSystemCount] = {
 bool spans_space(const uint32_t axes[3]) {
   uint32_t lines = 0;
   for (int i = 0; i < 3; ++i) {
-    if (axes[i] > kBack) return false;
+    if (axes[i] > kRear) return false;
     lines |= 1u << line_of(axes[i]);
   }
   return lines == 7;

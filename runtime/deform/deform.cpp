@@ -11,7 +11,6 @@
 namespace mien {
 namespace {
 
-constexpr float kMinChannelWeight = 1e-5f;
 constexpr uint32_t kMinParallelPositions = 16384;
 constexpr uint32_t kTaskPositions = 1024;  // or faces, or vertices
 constexpr uint32_t kTaskBlocks = kTaskPositions / kBlockPositions;

@@ -9,6 +9,9 @@
 
 namespace mien {
 
+/// Channels of less weight move no vertex.
+constexpr float kMinChannelWeight = 1e-5f;
+
 /// Deforms one mesh of several instances. They must be distinct instances of this deformer, with memory for
 /// the mesh. `normals` must not be kDefault.
 void deform(const Deformer& deformer, Span<DeformerInstance* const> instances, uint32_t mesh,

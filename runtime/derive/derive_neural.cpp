@@ -77,17 +77,6 @@ void run_layer(Derivatives& d, const NetworkLayer& layer, const float* in, float
   for (uint32_t i = 0; i < layer.output_count; ++i) slopes[i] = slope_of(layer, out[i]);
 }
 
-float mask_of(const Rig& rig, const Instance& instance, const MlStep& step) {
-  if (step.mask == kNoMask) return 1.0f;
-  const float mask = instance.masks[step.mask];
-  if (!rig.ml.blend_masks) return mask == 0.0f ? 0.0f : 1.0f;
-  return mask > 0.0f ? (mask < 1.0f ? mask : 1.0f) : 0.0f;
-}
-
-uint32_t scatter_count(const Rig& rig, const MlStep& step, uint32_t lod) {
-  return std::min({step.scatter_count, step.output_count, rig.ml.limits[step.first_limit + lod]});
-}
-
 /// Calls f(lane of a dependency's value, i) for the inputs of a step that are not gathered, or gathered:
 /// f(where the input comes from, number).
 template <uint32_t L, class F>

@@ -9,14 +9,13 @@
 #include <cmath>
 #include <cstring>
 
+#include "runtime/deform/deform.h"
 #include "runtime/derive/derive_stages.h"
 #include "simd/deform_kernels.h"
 #include "simd/derivative_kernels.h"
 
 namespace mien {
 namespace {
-
-constexpr float kMinChannelWeight = 1e-5f;  // as in deformation
 
 /// Calls f(run, first sorted position, count) for the parts of skin runs in a block.
 template <class F>

@@ -41,7 +41,7 @@ uint32_t split(const double* q, bool swing, Part* parts) {
 }
 
 /// The scratch of a solver: arrays of doubles.
-struct Scratch {
+struct RbfScratch {
   double* compared;     // [number]
   double* parts;        // [number][4]: by the controls of its rotation
   double* by_compared;  // [pose][number]: of weights, then of results
@@ -71,7 +71,7 @@ double weight_of(const RbfSolverPlan& plan, double distance, double& slope) {
 }
 
 /// Weight of each pose, and its derivatives by the compared numbers.
-void weigh(const RbfTable& rbf, const RbfSolverPlan& plan, const Scratch& s) {
+void weigh(const RbfTable& rbf, const RbfSolverPlan& plan, const RbfScratch& s) {
   const uint32_t count = compared_count(plan);
   const size_t stride = align_up(plan.pose_count, kBlockLanes);
   const uint32_t each = plan.angle_inputs;
@@ -115,7 +115,7 @@ void weigh(const RbfTable& rbf, const RbfSolverPlan& plan, const Scratch& s) {
 }
 
 /// The inverse times the weights, clamped.
-void interpolate(const RbfTable& rbf, const RbfSolverPlan& plan, const Scratch& s) {
+void interpolate(const RbfTable& rbf, const RbfSolverPlan& plan, const RbfScratch& s) {
   const uint32_t count = compared_count(plan), poses = plan.pose_count;
   for (uint32_t t = 0; t < poses; ++t) {
     const float* column = rbf.inverses.data + plan.first_inverse +
@@ -140,7 +140,7 @@ void interpolate(const RbfTable& rbf, const RbfSolverPlan& plan, const Scratch& 
 
 /// Results of the poses. A weight below the threshold has the result 0, but the derivative that it would have
 /// without a threshold, so that a solver sees where to go.
-void normalize(const RbfTable& rbf, const RbfSolverPlan& plan, const Scratch& s) {
+void normalize(const RbfTable& rbf, const RbfSolverPlan& plan, const RbfScratch& s) {
   const uint32_t count = compared_count(plan);
   double sum = 0;
   std::fill(s.sums, s.sums + count, 0.0);
@@ -169,7 +169,7 @@ void linearize_solver(Derivatives& d, uint32_t index) {
   const RbfTable& rbf = d.rig->rbf;
   const RbfSolverPlan& plan = rbf.plans[index];
   const uint32_t inputs = rbf_input_count(plan), count = compared_count(plan);
-  Scratch s;
+  RbfScratch s;
   s.compared = d.rbf_scratch.data;
   s.parts = s.compared + count;
   s.by_compared = s.parts + size_t{count} * 4;

@@ -148,17 +148,6 @@ void add_weighted(const Rig& rig, Instance& instance, const MlStep& step) {
   }
 }
 
-float mask_of(const Rig& rig, const Instance& instance, const MlStep& step) {
-  if (step.mask == kNoMask) return 1.0f;
-  const float mask = instance.masks[step.mask];
-  if (!rig.ml.blend_masks) return mask == 0.0f ? 0.0f : 1.0f;
-  return mask > 0.0f ? (mask < 1.0f ? mask : 1.0f) : 0.0f;
-}
-
-uint32_t scatter_count(const Rig& rig, const MlStep& step, uint32_t lod) {
-  return std::min({step.scatter_count, step.output_count, rig.ml.limits[step.first_limit + lod]});
-}
-
 /// Whether controls are consecutive, as those of most networks are.
 bool are_neighbors(const uint16_t* controls, uint32_t count) {
   uint32_t elsewhere = 0;

@@ -3,6 +3,7 @@
 // already at `lod`. Stages read Instance::stale only where a comment says so.
 #pragma once
 
+#include <algorithm>
 #include <cstring>
 
 #include "runtime/eval/instance.h"
@@ -26,6 +27,19 @@ inline void note_written_psds(Instance& instance, Uses uses) {
 }
 
 // Networks (evaluate_neural.cpp) and RBF solvers (evaluate_rbf.cpp) -------------------------------
+
+/// The share of a network that its mask leaves.
+inline float mask_of(const Rig& rig, const Instance& instance, const MlStep& step) {
+  if (step.mask == kNoMask) return 1.0f;
+  const float mask = instance.masks[step.mask];
+  if (!rig.ml.blend_masks) return mask == 0.0f ? 0.0f : 1.0f;
+  return mask > 0.0f ? (mask < 1.0f ? mask : 1.0f) : 0.0f;
+}
+
+/// The outputs of a step that the LOD has.
+inline uint32_t scatter_count(const Rig& rig, const MlStep& step, uint32_t lod) {
+  return std::min({step.scatter_count, step.output_count, rig.ml.limits[step.first_limit + lod]});
+}
 
 // Both evaluate all instances of the packet.
 void evaluate_ml(const InstancePacket& packet);

@@ -10,7 +10,7 @@
 namespace mien {
 namespace {
 
-Status damaged(Error& error, uint64_t offset, const char* what) {
+Status damaged_mix(Error& error, uint64_t offset, const char* what) {
   return fail(error, Status::kMixStructure, offset,
               "%s: the mix is damaged or was not written by Mien; write it again", what);
 }
@@ -31,7 +31,7 @@ struct MixReader {
     if (status == Status::kOk) status = why;
   }
   void refuse(const char* what) {
-    if (status == Status::kOk) status = damaged(error, at, what);
+    if (status == Status::kOk) status = damaged_mix(error, at, what);
   }
   template <class T>
   Span<T> room(size_t count) {
@@ -203,7 +203,7 @@ Status check_header(Span<const uint8_t> bytes, Error& error) {
                 "the mix ends after %zu of %" PRIu64 " bytes; fetch or write it again", bytes.count,
                 size);
   }
-  if (size < bytes.count) return damaged(error, size, "bytes after the end");
+  if (size < bytes.count) return damaged_mix(error, size, "bytes after the end");
   const auto sum = load_little_endian<uint32_t>(bytes.data + kAtChecksum);
   if (sum == clip_checksum(bytes.data, bytes.count)) return Status::kOk;
   return fail(error, Status::kMixChecksum, kAtChecksum,

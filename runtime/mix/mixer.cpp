@@ -10,7 +10,7 @@
 namespace mien {
 namespace {
 
-constexpr uint32_t kNone = ~uint32_t{0};
+constexpr uint32_t kNoCurve = ~uint32_t{0};
 constexpr int64_t kMaxStreamTick = INT64_MAX / 4;  // differences do not overflow
 
 void place_state(Placer& placer, const Mix& mix, Mixer& mixer) {
@@ -72,7 +72,7 @@ uint32_t find_free_player(const Mixer& mixer) {
   for (uint32_t i = 0; i < mixer.players.count; ++i) {
     if (!mixer.players[i].used) return i;
   }
-  return kNone;
+  return kNoCurve;
 }
 
 void set_cover(Mixer& mixer, Player& player) {
@@ -199,9 +199,9 @@ Status play_clip(Mixer& mixer, uint32_t index, const ClipSource& source, const L
   const uint32_t unused = find_free_player(mixer);
   const uint32_t after_release = layer.previous != kNoPlayer ? layer.previous : unused;
   const bool crosses = desc.transition == Transition::kCrossfade && shown && ticks > 0 &&
-                       (unused != kNone || after_release != kNone);
+                       (unused != kNoCurve || after_release != kNoCurve);
   uint32_t target = unused;
-  if (occupied) target = crosses ? (unused != kNone ? unused : after_release) : layer.current;
+  if (occupied) target = crosses ? (unused != kNoCurve ? unused : after_release) : layer.current;
   Player& player = mixer.players[target];
   keep_shown(mixer, index);
   status = start_player(mixer, player, source, desc.play, desc.mirrored, error);

@@ -178,13 +178,13 @@ void mix_generator(Mixer& mixer, uint32_t index, int64_t ticks) {
 }
 
 /// In a form that compilers vectorize.
-void add_scaled(const float* __restrict from, float scale, size_t count, float* __restrict to) {
+void add_curves(const float* __restrict from, float scale, size_t count, float* __restrict to) {
   for (size_t i = 0; i < count; ++i) to[i] += scale * from[i];
 }
 
 void add_pose(const Mix& mix, uint32_t pose, float weight, float* row) {
   const Span<float> whole = mix.pose_rows[pose];
-  if (!whole.empty()) return add_scaled(whole.data, weight, whole.count, row);
+  if (!whole.empty()) return add_curves(whole.data, weight, whole.count, row);
   const uint16_t* const curves = mix.poses[pose].curves.data;
   const Span<const float> values = mix.poses[pose].values;
   for (size_t k = 0; k < values.count; ++k) row[curves[k]] += weight * values[k];

@@ -28,7 +28,7 @@ struct SnapshotHeader {
 
 constexpr char kOutOfRange[] = "has a number out of range: it is damaged";
 
-Status wrong(Error& error, const char* what) {
+Status wrong_snapshot(Error& error, const char* what) {
   return fail(error, Status::kInvalidArgument, kNoOffset, "the snapshot %s", what);
 }
 
@@ -101,8 +101,9 @@ Status check_player(const Mixer& mixer, const PlayerState& player, uint32_t laye
       player.wraps <= 1 && player.mirrored <= 1 && player.fresh <= 1 && player.backward <= 1 &&
       player.interpolation <= static_cast<uint8_t>(Interpolation::kCatmullRom) &&
       (!player.mirrored || !mixer.mix->mirror.empty());
-  return possible ? Status::kOk
-                  : wrong(error, "has a player in a state that none can be in: it is damaged");
+  return possible
+             ? Status::kOk
+             : wrong_snapshot(error, "has a player in a state that none can be in: it is damaged");
 }
 
 bool valid(const ReactionState& reaction) {
@@ -137,12 +138,12 @@ bool all_valid(const SavedState& saved, Span<T> in_mixer) {
 Status check_state(const Mixer& mixer, const SavedState& saved, const ClipFinder& clips,
                    Error& error) {
   const int64_t now = saved.read(*mixer.header).now;
-  if (now < 0 || now > kMaxMixerTime) return wrong(error, "has a time out of range");
+  if (now < 0 || now > kMaxMixerTime) return wrong_snapshot(error, "has a time out of range");
   uint64_t players = 0;
   for (uint32_t i = 0; i < mixer.layers.count; ++i) {
     if (!is_layer(mixer, saved, i, players)) {
-      return wrong(error,
-                   "has a layer in a state that none can be in: it is damaged, take another");
+      return wrong_snapshot(
+          error, "has a layer in a state that none can be in: it is damaged, take another");
     }
     const LayerState layer = saved.read(mixer.layers[i]);
     const uint16_t used[2] = {layer.current, layer.previous};
@@ -160,14 +161,14 @@ Status check_state(const Mixer& mixer, const SavedState& saved, const ClipFinder
     const int64_t next = saved.read(mixer.generators[i]).next;
     // A step goes through all blinks since then.
     if (next < 0 || !is_time(next) || (blinks && now - next > kMaxFadeTicks)) {
-      return wrong(error, kOutOfRange);
+      return wrong_snapshot(error, kOutOfRange);
     }
   }
   bool all = all_valid(saved, mixer.pose_weights) && all_valid(saved, mixer.reactions) &&
              all_valid(saved, mixer.strokes) && all_valid(saved, mixer.variables) &&
              all_valid(saved, mixer.guard_overrides);
   for (const GazeState& gaze : mixer.gazes) all = all && valid(saved.read(gaze), now);
-  return all ? Status::kOk : wrong(error, kOutOfRange);
+  return all ? Status::kOk : wrong_snapshot(error, kOutOfRange);
 }
 
 PlayerState saved_player(const Player& player) {
@@ -231,11 +232,11 @@ Status restore_snapshot(Mixer& mixer, Span<const uint8_t> bytes, const ClipFinde
                         Error& error) {
   SnapshotHeader header;
   if (bytes.count < snapshot_size(*mixer.mix))
-    return wrong(error, "is truncated or of another mix");
+    return wrong_snapshot(error, "is truncated or of another mix");
   memcpy(&header, bytes.data, sizeof(header));
   if (memcmp(header.magic, kMagic, sizeof(kMagic)) != 0 || header.version != kVersion ||
       header.size != mixer.state.count || header.fingerprint != mixer.mix->fingerprint) {
-    return wrong(error, "is none, or of another version or mix");
+    return wrong_snapshot(error, "is none, or of another version or mix");
   }
   const SavedState saved = {mixer, bytes.data + sizeof(header)};
   const Status status = check_state(mixer, saved, clips, error);

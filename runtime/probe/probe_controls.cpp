@@ -9,7 +9,7 @@
 namespace mien {
 namespace {
 
-Status no_memory(Error& error) {
+Status no_memory_to_probe(Error& error) {
   return fail(error, Status::kMemory, kNoOffset, "no memory to try the controls");
 }
 
@@ -189,13 +189,13 @@ int driven_half(const ControlTable& table, size_t row) {
 uint32_t find_antagonists(const Rig& rig, Span<AntagonistPair> out) {
   const ControlTable& table = rig.gui_to_raw;
   // [raw control] the first row that drives it, if all its rows are of one half of one GUI control.
-  constexpr uint32_t kNoRow = ~uint32_t{0}, kMixed = kNoRow - 1;
+  constexpr uint32_t kNone = ~uint32_t{0}, kMixed = kNone - 1;
   uint32_t first_rows[kMaxCurves];
-  std::fill(first_rows, first_rows + kMaxCurves, kNoRow);
+  std::fill(first_rows, first_rows + kMaxCurves, kNone);
   for (uint32_t r = 0; r < table.inputs.count; ++r) {
     if (table.outputs[r] >= kMaxCurves) continue;
     uint32_t& first = first_rows[table.outputs[r]];
-    if (first == kNoRow) {
+    if (first == kNone) {
       first = r;
     } else if (first != kMixed && (table.inputs[r] != table.inputs[first] ||
                                    driven_half(table, r) != driven_half(table, first))) {
@@ -237,9 +237,9 @@ Status find_mirror(const Deformer& deformer, const Allocator& allocator, Span<ui
   }
   Arena arena(allocator);
   RigProbe probe(deformer, allocator);
-  if (!probe.ready()) return no_memory(error);
+  if (!probe.ready()) return no_memory_to_probe(error);
   Mirror mirror(deformer, probe, arena);
-  if (!mirror.ready()) return no_memory(error);
+  if (!mirror.ready()) return no_memory_to_probe(error);
   mirror.measure();
   for (uint16_t c = 0; c < out.count; ++c) out[c] = mirror.find(c);
   // Only pairs that name each other: a map that is not its own inverse would lose controls.
@@ -257,7 +257,7 @@ Status mask_of_groups(const Rig& rig, Span<const uint32_t> groups, float otherwi
                 rig.joints.group_count);
   }
   Instance* instance = create_instance(rig, allocator);
-  if (!instance) return no_memory(error);
+  if (!instance) return no_memory_to_probe(error);
   const uint32_t attributes = rig.joint_attributes;
   const double millimeters = rig.units.translation == 0 ? 10 : 1000;
   const double degrees = rig.quaternion_outputs ? 114.6 : rig.units.rotation == 0 ? 1 : 57.3;

@@ -10,12 +10,12 @@
 namespace mien {
 namespace {
 
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; }
+char lower_letter(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; }
 
 bool same_name(Span<const char> a, const char* b) {
   if (a.count != strlen(b)) return false;
   for (size_t i = 0; i < a.count; ++i) {
-    if (lower(a[i]) != lower(b[i])) return false;
+    if (lower_letter(a[i]) != lower_letter(b[i])) return false;
   }
   return true;
 }

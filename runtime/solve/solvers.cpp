@@ -12,8 +12,8 @@ using namespace solve;
 
 namespace {
 
-Vec3 vector(const float* v) { return {v[0], v[1], v[2]}; }
-Vec3 origin_of(const float* model) { return vector(model + 12); }
+Vec3 vector3(const float* v) { return {v[0], v[1], v[2]}; }
+Vec3 origin_of(const float* model) { return vector3(model + 12); }
 
 /// Of column vectors.
 Vec3 transformed(const float* m, Vec3 v, double w) {
@@ -24,7 +24,7 @@ Vec3 transformed(const float* m, Vec3 v, double w) {
 
 /// Solves m * x = v, without the translation of m. Zero if m is flat.
 Vec3 solved(const float* m, Vec3 v) {
-  const Vec3 x = vector(m), y = vector(m + 4), z = vector(m + 8);
+  const Vec3 x = vector3(m), y = vector3(m + 4), z = vector3(m + 8);
   const double volume = dot(x, cross(y, z));
   if (volume == 0) return {};
   return Vec3{dot(v, cross(y, z)), dot(v, cross(z, x)), dot(v, cross(x, y))} * (1 / volume);
@@ -118,18 +118,18 @@ void solve_aim(const SolverArgs& args) {
     const bool has_target = p.target_joint != kNoSolverJoint || pose.row;
     if (!has_target || !(p.weight > 0)) continue;
     const Vec3 target = p.target_joint != kNoSolverJoint ? origin_of(model(pose, p.target_joint))
-                                                         : vector(pose.row + p.target_curve);
+                                                         : vector3(pose.row + p.target_curve);
     const float* now = model(pose, p.joint);
     Vec3 wanted = normalized(target - origin_of(now));
     if (is_zero(wanted)) continue;
     const Rotation before = rotation_of(now);
     const Rotation parent = parent_rotation(args.skeleton, pose, p.joint);
     if (p.cone_cosine > -1) {
-      wanted = within_cone(wanted, turn(parent, vector(p.cone_axis)), double{p.cone_cosine});
+      wanted = within_cone(wanted, turn(parent, vector3(p.cone_axis)), double{p.cone_cosine});
     }
-    Rotation move = between(turn(before, vector(p.axis)), wanted);
-    if (!is_zero(vector(p.up_axis))) {
-      const Vec3 has = turn(move * before, vector(p.up_axis)), wants = vector(p.up);
+    Rotation move = between(turn(before, vector3(p.axis)), wanted);
+    if (!is_zero(vector3(p.up_axis))) {
+      const Vec3 has = turn(move * before, vector3(p.up_axis)), wants = vector3(p.up);
       const Vec3 from = normalized(has - wanted * dot(has, wanted));
       const Vec3 to = normalized(wants - wanted * dot(wants, wanted));
       if (!is_zero(from) && !is_zero(to)) {
@@ -168,7 +168,7 @@ void solve_space(const SolverArgs& args) {
     float* out = local(pose, p.joint);
     Rotation carrier;
     Vec3 target;
-    const Vec3 offset = vector(out);
+    const Vec3 offset = vector3(out);
     const float* bind = matrix(skeleton.bind.data, skeleton.parents[p.joint]);
     const bool root = is_root(skeleton, p.joint);
     const Vec3 in_bind = root ? offset : transformed(bind, offset, 1);
@@ -255,7 +255,7 @@ void solve_spring(const SolverArgs& args) {
   for (uint32_t i = 0; i < args.count; ++i) {
     const SolverPose& pose = args.poses[i];
     SpringState& s = *static_cast<SpringState*>(pose.state);
-    const Vec3 goal = origin_of(model(pose, p.joint)) + vector(p.rest_offset);
+    const Vec3 goal = origin_of(model(pose, p.joint)) + vector3(p.rest_offset);
     if (pose.reset || length(goal - s.goal) > double{p.teleport}) s = {goal, {}, goal};
     const Vec3 x = s.place - goal, v = s.velocity;
     Vec3 off = x * step.xx + v * step.xv;
@@ -279,7 +279,7 @@ void solve_spring(const SolverArgs& args) {
 
 void solve_twist(const SolverArgs& args) {
   const TwistSolver& p = *static_cast<const TwistSolver*>(args.params);
-  const Vec3 axis = vector(p.axis);
+  const Vec3 axis = vector3(p.axis);
   const Rotation from_neutral = inverse(neutral_rotation(args.skeleton, p.source));
   for (uint32_t i = 0; i < args.count; ++i) {
     const SolverPose& pose = args.poses[i];
@@ -307,13 +307,13 @@ void solve_copy(const SolverArgs& args) {
   const Rotation axes = bind_parent_rotation(skeleton, p.joint);
   const Rotation source_neutral = neutral_rotation(skeleton, p.source);
   const Rotation neutral = neutral_rotation(skeleton, p.joint);
-  const Vec3 across = vector(p.mirror_axis);
+  const Vec3 across = vector3(p.mirror_axis);
   for (uint32_t i = 0; i < args.count; ++i) {
     const SolverPose& pose = args.poses[i];
     const float* from = local(pose, p.source);
     // What moved, along the axes of model space in the neutral pose.
     Rotation q = source_axes * rotation(from) * inverse(source_neutral) * inverse(source_axes);
-    Vec3 shift = turn(source_axes, vector(from) - neutral_place(skeleton, p.source));
+    Vec3 shift = turn(source_axes, vector3(from) - neutral_place(skeleton, p.source));
     if (p.mirrored) {
       shift = shift - across * (2 * dot(shift, across));
       Vec3 v = {q.x, q.y, q.z};
@@ -324,7 +324,7 @@ void solve_copy(const SolverArgs& args) {
     const Rotation wanted = unit(inverse(axes) * q * axes * neutral);
     const Rotation before = rotation(out);
     const Vec3 place = neutral_place(skeleton, p.joint) + turn(inverse(axes), shift);
-    const Vec3 start = vector(out);
+    const Vec3 start = vector3(out);
     set_place(out, start + (place - start) * double{p.weight});
     set_rotation(out, unit(before * part_of(unit(inverse(before) * wanted), double{p.weight})));
   }
@@ -335,7 +335,7 @@ void solve_copy(const SolverArgs& args) {
 SolverDesc describe(const Skeleton& skeleton, AimSolver& s) {
   const bool valid = exists(skeleton, s.joint);
   set_place(s.cone_axis,
-            valid ? turn(neutral_rotation(skeleton, s.joint), vector(s.axis)) : Vec3{0, 0, 1});
+            valid ? turn(neutral_rotation(skeleton, s.joint), vector3(s.axis)) : Vec3{0, 0, 1});
   s.reads[0] = s.joint;
   s.reads[1] = parent_of(skeleton, s.joint);
   s.reads[2] = s.target_joint;
