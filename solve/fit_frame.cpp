@@ -19,6 +19,7 @@ constexpr double kEnoughStep = 1e-6;      // of a control
 /// The sums over the data at some controls.
 struct Cost {
   double total = 0, joints = 0, points = 0, joint_weight = 0, point_weight = 0;
+  double joint_worst = 0, point_worst = 0;  // the latter squared
 };
 
 struct Frame {
@@ -157,6 +158,7 @@ Cost find_cost(Frame& f, bool with_gradients) {
       const double r = present ? double{fit.joints[i]} - f.in.joints[i] : 0;
       cost.joints += weight * r * r;
       cost.joint_weight += weight;
+      if (weight > 0) cost.joint_worst = std::max(cost.joint_worst, std::fabs(r));
       if (with_gradients) fit.joint_gradient[i] = static_cast<float>(weight * r);
     }
   }
@@ -175,6 +177,7 @@ Cost find_cost(Frame& f, bool with_gradients) {
       const double squared = point_residual(f, i, gradient);
       cost.points += fit.weights[i] * robust(squared, f.in.robust_scale, weight);
       cost.point_weight += fit.weights[i];
+      cost.point_worst = std::max(cost.point_worst, squared);
       if (!with_gradients) continue;
       const MienSolvePoint& point = fit.points[i];
       for (size_t n = 0; n < 3; ++n) {
@@ -400,6 +403,8 @@ MienStatus mien_fit_solve(MienFit* fit, const MienFitFrame* frame, float* out_ra
   };
   told.joint_residual = root_mean(cost.joints, cost.joint_weight);
   told.point_residual = root_mean(cost.points, cost.point_weight);
+  told.joint_worst = cost.joint_worst;
+  told.point_worst = std::sqrt(cost.point_worst);
   told.missing_points = f.missing;
   for (int k = 0; k < 9; ++k) told.rotation[k] = static_cast<float>(f.rotation[k]);
   for (int k = 0; k < 3; ++k) told.translation[k] = static_cast<float>(f.translation[k]);

@@ -88,7 +88,7 @@ PROGRAM_GRAPH = {
     "tests/gltf": ["gltf"],
     "tests/render": ["render"],
     "view": ["io"],                    # the page of the viewer, served on this machine
-    "commands": ["mien.h", "mien_author.h", "accept", "math", "io", "render", "gltf", "scene", "mesh", "play", "live",
+    "commands": ["mien.h", "mien_author.h", "mien_solve.h", "accept", "math", "io", "render", "gltf", "scene", "mesh", "play", "live",
                  "view", "edit", "diff", "baseline"],
     "": ["mien.h", "mien_author.h", "io", "commands"],  # main.cpp, without_author.cpp
 }

@@ -62,8 +62,8 @@ MIEN_DEFAULT(MienFitDesc, mien_fit_desc_default)
 /* Creates a fit. `desc` is required. `rig` must outlive the fit; the deformer may be destroyed. Measures
  * the effect of each control, which takes up to some seconds for large rigs. Destroy with
  * mien_fit_destroy().
- * Fails with MIEN_ERROR_INDEX if a control, position or mesh does not exist, MIEN_ERROR_LOD,
- * MIEN_ERROR_MISMATCH if the deformer belongs to another rig, MIEN_ERROR_INVALID_ARGUMENT if controls are
+ * Fails with MIEN_ERROR_INDEX if a control, position or mesh does not exist, MIEN_ERROR_LOD if the rig has no
+ * such LOD, MIEN_ERROR_MISMATCH if the deformer belongs to another rig, MIEN_ERROR_INVALID_ARGUMENT if controls are
  * not ascending, a lower bound is above its upper one, a weight is not finite, or points are on several
  * meshes. */
 MIEN_SOLVE_CHECKED MienStatus mien_fit_create(const MienRig* rig, const MienFitDesc* desc, MienFit** out_fit,
@@ -127,6 +127,8 @@ typedef struct MienFitResult {
     uint32_t reserved;
     float rotation[9];       /* rows: points of the target = rotation * model + translation, if rigid */
     float translation[3];
+    double joint_worst;      /* largest difference of a joint value that counts */
+    double point_worst;      /* largest distance of a point that counts */
 } MienFitResult;
 MIEN_DEFAULT(MienFitResult, mien_fit_result_default)
 
@@ -140,8 +142,17 @@ MIEN_SOLVE_CHECKED MienStatus mien_fit_solve(MienFit* fit, const MienFitFrame* f
 
 /* Writes for each raw control how well the data determines it at the initial pose: 0 if it moves nothing
  * that has a target, or if other controls have the same effect; up to 1 for the best determined one.
- * `count` is the number of raw controls. */
+ * `count` is the number of raw controls.
+ * Fails with MIEN_ERROR_INVALID_ARGUMENT if `count` is another number. */
 MIEN_SOLVE_CHECKED MienStatus mien_fit_observability(const MienFit* fit, float* out_values, size_t count);
+
+/* Chooses keys of a curve: straight lines between them are within `tolerance` of all values. `out_keys` gets
+ * the frame numbers, ascending, the first and the last frame among them; `out_key_count` gets how many. `count`
+ * is the number of values and the capacity of `out_keys`.
+ * Fails with MIEN_ERROR_INVALID_ARGUMENT if a value is not finite, or the tolerance is negative or not
+ * finite. */
+MIEN_SOLVE_CHECKED MienStatus mien_fit_keys(const float* values, size_t count, float tolerance,
+                                            uint32_t* out_keys, size_t* out_key_count);
 
 #ifdef __cplusplus
 }

@@ -96,27 +96,17 @@ int run(int argument_count, char** arguments, Session& session) {
       "4 out of memory or internal error.");
 
   const std::vector<Command> commands = {
-      add_info_command(app, session),
-      add_validate_command(app, session),
-      add_accept_command(app, session),
-      add_eval_command(app, session),
-      add_convert_command(app, session),
-      add_edit_command(app, session),
-      add_diff_command(app, session),
-      add_extract_command(app, session),
-      add_gen_command(app, session),
-      add_demo_head_command(app, session),
-      add_author_command(app, session),
-      add_export_command(app, session),
-      add_render_command(app, session),
-      add_inspect_command(app, session),
-      add_bake_command(app, session),
-      add_clip_command(app, session),
-      add_play_command(app, session),
-      add_view_command(app, session),
-      add_bench_command(app, session),
-      add_completion_command(app),
-      add_help_command(app),
+      add_info_command(app, session),    add_validate_command(app, session),
+      add_accept_command(app, session),  add_eval_command(app, session),
+      add_convert_command(app, session), add_edit_command(app, session),
+      add_diff_command(app, session),    add_extract_command(app, session),
+      add_gen_command(app, session),     add_demo_head_command(app, session),
+      add_author_command(app, session),  add_export_command(app, session),
+      add_render_command(app, session),  add_inspect_command(app, session),
+      add_bake_command(app, session),    add_clip_command(app, session),
+      add_play_command(app, session),    add_solve_command(app, session),
+      add_view_command(app, session),    add_bench_command(app, session),
+      add_completion_command(app),       add_help_command(app),
   };
   for (const Command& command : commands) {
     for_each_command(command.app, [&session](CLI::App* one) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// For a build without libmien-author: `mien gen`, `mien demo-head`, `mien author` and `mien edit` say so.
+// For a build without libmien-author: `mien gen`, `mien demo-head`, `mien author`,
+// `mien edit` and `mien solve` say so.
 #include <mien_author.h>
 
 #include <cstring>
@@ -39,6 +40,15 @@ MienStatus mien_author_report_json(const MienAuthorReport*, MienStringView* out_
 void mien_author_report_close(MienAuthorReport*) {}
 
 namespace mien::cli {
+
+Command add_solve_command(CLI::App& app, const Session&) {
+  CLI::App* solve = app.add_subcommand("solve", "Find controls (not in this build)");
+  solve->allow_extras();
+  return {solve, [] {
+            fail(kUsage, "mien solve", "",
+                 "this build of mien cannot solve (MIEN_BUILD_COMPILER=OFF)", "use a full build");
+          }};
+}
 
 Command add_edit_command(CLI::App& app, const Session&) {
   CLI::App* edit = app.add_subcommand("edit", "Change a DNA file (not in this build)");

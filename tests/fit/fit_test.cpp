@@ -102,6 +102,9 @@ TEST(Fit, FindsTheControlsOfJoints) {
     MienFitResult result = mien_fit_result_default();
     ASSERT_EQ(mien_fit_solve(fit.get(), &frame, found.data(), &result), MIEN_OK);
     EXPECT_TRUE(result.status == MIEN_FIT_CONVERGED || result.status == MIEN_FIT_ITERATIONS);
+    EXPECT_GE(result.joint_worst, result.joint_residual);
+    EXPECT_LE(result.joint_worst,
+              result.joint_residual * std::sqrt(static_cast<double>(joints.size())) * 1.001);
     head.evaluate(found);
     double range = 0, error = 0;
     for (size_t i = 0; i < joints.size(); ++i) {
@@ -297,6 +300,48 @@ TEST(Fit, SurvivesEveryFailedAllocation) {
     }
     EXPECT_EQ(status, MIEN_ERROR_MEMORY) << k;
   }
+}
+
+TEST(Fit, ChoosesKeysWithinATolerance) {
+  Random random = Random::from_seed(81, 9);
+  std::vector<float> curve;
+  double at = 0;
+  for (int i = 0; i < 300; ++i)
+    curve.push_back(static_cast<float>(at += random.between(-0.1, 0.1)));
+  size_t before = curve.size();
+  for (const float tolerance : {0.01f, 0.1f, 1.0f}) {
+    std::vector<uint32_t> keys(curve.size());
+    size_t count = 0;
+    ASSERT_EQ(mien_fit_keys(curve.data(), curve.size(), tolerance, keys.data(), &count), MIEN_OK);
+    ASSERT_GE(count, 2u);
+    EXPECT_LT(count, before);
+    before = count;
+    EXPECT_EQ(keys[0], 0u);
+    EXPECT_EQ(keys[count - 1], curve.size() - 1);
+    for (size_t k = 0; k + 1 < count; ++k) {
+      const uint32_t a = keys[k], b = keys[k + 1];
+      ASSERT_LT(a, b);
+      for (uint32_t i = a; i <= b; ++i) {
+        const double line = curve[a] + (double{curve[b]} - curve[a]) * (i - a) / (b - a);
+        EXPECT_NEAR(curve[i], line, tolerance * (1 + 1e-6));
+      }
+    }
+  }
+}
+
+TEST(Fit, RefusesKeysOfWrongCurves) {
+  float curve[] = {0, NAN};
+  uint32_t keys[2];
+  size_t count = 7;
+  EXPECT_EQ(mien_fit_keys(curve, 2, 0, keys, &count), MIEN_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(count, 0u);
+  EXPECT_EQ(mien_fit_keys(curve, 1, -1, keys, &count), MIEN_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(mien_fit_keys(curve, 1, INFINITY, keys, &count), MIEN_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(mien_fit_keys(curve, 1, 0, nullptr, &count), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_fit_keys(curve, 1, 0, keys, nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_fit_keys(nullptr, 0, 0, nullptr, &count), MIEN_OK);
+  EXPECT_EQ(mien_fit_keys(curve, 1, 0, keys, &count), MIEN_OK);
+  EXPECT_EQ(count, 1u);
 }
 
 }  // namespace

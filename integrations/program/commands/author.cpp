@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -17,6 +16,7 @@
 #include "integrations/program/commands/mesh_view.h"
 #include "integrations/program/commands/options.h"
 #include "integrations/program/io/input.h"
+#include "integrations/program/io/interrupt.h"
 #include "integrations/program/io/matched_names.h"
 #include "integrations/program/io/nearest_name.h"
 #include "integrations/program/io/output.h"
@@ -32,8 +32,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 using AuthorReport =
     std::unique_ptr<MienAuthorReport, Destroy<MienAuthorReport, mien_author_report_close>>;
-
-constexpr int kInterrupted = 130;  // as shells say of a program that Ctrl-C ended
 
 struct AuthorCommand {
   std::string mesh, shapes, unit, object;
@@ -236,16 +234,6 @@ struct Watch {
     watch.progress.at_share(share);
     return 0;
   }
-};
-
-// Nothing has been written while the library works, so nothing needs to be taken back.
-extern "C" void end_interrupted(int) { std::_Exit(kInterrupted); }
-
-/// While it lives, Ctrl-C ends the program at once.
-struct EndOnInterrupt {
-  void (*before)(int);
-  EndOnInterrupt() : before(std::signal(SIGINT, end_interrupted)) {}
-  ~EndOnInterrupt() { std::signal(SIGINT, before); }
 };
 
 struct Made {
@@ -525,32 +513,6 @@ void settle_unit(const AuthorCommand& command, const BodyGuess& body, const Mesh
                     unit.name + "; if that is wrong, give it with --unit");
 }
 
-/// A folder for images, made if it is missing, and removed again if nothing was put into it.
-class ImageFolder {
- public:
-  explicit ImageFolder(const std::string& path) : path_(path) {
-    std::error_code reason;
-    made_ = std::filesystem::create_directories(path, reason);
-    if (!reason && std::filesystem::is_directory(path, reason)) return;
-    fail(kFile, "cannot write", path, reason ? reason.message() : "this is not a folder",
-         "name another folder");
-  }
-  ~ImageFolder() {
-    std::error_code ignored;
-    if (made_) std::filesystem::remove(path_, ignored);  // fails if there is something in it
-  }
-  ImageFolder(const ImageFolder&) = delete;
-  ImageFolder& operator=(const ImageFolder&) = delete;
-
-  std::string file(const std::string& name) const {
-    return (std::filesystem::path(path_) / name).string();
-  }
-
- private:
-  std::string path_;
-  bool made_ = false;
-};
-
 std::vector<AuthorImage> draw_images(const AuthorCommand& command, const MienAuthorDesc& desc,
                                      const MeshFile& mesh, Made& made, const Session& session) {
   RigFile file = {shown_name(command.output.path), {}, std::move(made.dna), sized<MienDnaInfo>()};
@@ -601,9 +563,9 @@ void run(AuthorCommand command, const Session& session) {
     report = std::make_unique<Output>(command.report);
     report->write(made.report.dump(1) + "\n");
   }
-  std::unique_ptr<ImageFolder> folder;
+  std::unique_ptr<OutputFolder> folder;
   std::vector<std::unique_ptr<Output>> images;
-  if (!made_images.empty()) folder = std::make_unique<ImageFolder>(command.images);
+  if (!made_images.empty()) folder = std::make_unique<OutputFolder>(command.images);
   for (const AuthorImage& made_image : made_images) {
     images.push_back(std::make_unique<Output>(folder->file(made_image.name)));
     images.back()->write(render::to_png(made_image.image));

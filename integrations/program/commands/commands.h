@@ -5,6 +5,7 @@
 //                              \-> scene/ (a rig in a pose) -> render/ -> PNG
 //                              \-> gltf/ -> GLB, OBJ
 //     meshes -> mesh/ -> mien_author.h
+//     captured motion -> solve -> mien_solve.h
 //     DNA files -> edit/ (documents) -> mien_author.h; diff/ (two files)
 #pragma once
 
@@ -41,6 +42,7 @@ Command add_author_command(CLI::App& app, const Session& session);
 Command add_clip_command(CLI::App& app, const Session& session);
 Command add_play_command(CLI::App& app, const Session& session);
 Command add_bench_command(CLI::App& app, const Session& session);
+Command add_solve_command(CLI::App& app, const Session& session);
 Command add_render_command(CLI::App& app, const Session& session);
 Command add_inspect_command(CLI::App& app, const Session& session);
 Command add_view_command(CLI::App& app, const Session& session);

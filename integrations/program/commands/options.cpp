@@ -46,6 +46,7 @@ const OptionWords kOptionWords[] = {
     {"--samples", {"1", "4", "16"}},
     {"--target", {"face", "eyes", "mouth"}},
     {"--loop", {"clamp", "wrap"}},
+    {"solve --kind", {"vertices", "joints", "landmarks3", "landmarks2", "weights"}},
     {"--symmetry", {"auto", "on", "off"}},
     {"--residual", {"targets", "off"}},
     {"--metric", {"depth", "euclid3"}},

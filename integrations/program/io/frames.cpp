@@ -36,8 +36,9 @@ constexpr Target kRawAfterGui = {MIEN_KIND_RAW_CONTROL, "raw control", "--names 
 constexpr Target kGui = {MIEN_KIND_GUI_CONTROL, "GUI control", "--names gui", false};
 constexpr Target kMask = {MIEN_KIND_ML_MASK, "region mask", "--names regions,meshes", false};
 
-// What `mien play` writes beside the controls.
-const std::vector<std::string> kIgnored = {"rig", "rate", "controls", "variables", "events"};
+// What `mien play` and `mien solve` write beside the controls.
+const std::vector<std::string> kIgnored = {"rig",       "rate",   "controls",
+                                           "variables", "events", "keys"};
 const std::vector<std::string> kIgnoredInFrames = {"time", "variables", "stages", "guards"};
 
 std::string at_index(const std::string& where, size_t index) {
@@ -201,7 +202,7 @@ void assign(const std::vector<Assignment>& assignments, const MienMutableFloatVi
 }  // namespace
 
 std::vector<Frame> parse_frames(const std::string& text, const MienRig* rig,
-                                const std::string& shown) {
+                                const std::string& shown, Rate* rate) {
   const json document =
       parse_json<json>(text, kCannotUseFrames, shown, "give one JSON object: {\"frames\": [...]}");
   if (!document.is_object() || !document.contains("frames") || !document["frames"].is_array()) {
@@ -212,6 +213,9 @@ std::vector<Frame> parse_frames(const std::string& text, const MienRig* rig,
     if (key == "frames" || is_one_of(key, kIgnored)) continue;
     fail(kInvalid, kCannotUseFrames, shown, "the key \"" + key + "\" is unknown",
          nearest_question(key, {"frames"}, "give one JSON object: {\"frames\": [...]}"));
+  }
+  if (rate && document.contains("rate") && document["rate"].is_number()) {
+    *rate = parse_rate(document["rate"].dump());
   }
   std::vector<Frame> frames;
   ControlNames names(rig);

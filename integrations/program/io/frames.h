@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "integrations/program/io/frame_rate.h"
+
 namespace mien::cli {
 
 struct Assignment {
@@ -31,9 +33,10 @@ struct Frame {
   HeadPose head;  // joints that no control moves; not part of FRAMES
 };
 
-/// Checks names, counts and numbers against the rig. `shown` names the input in messages.
+/// Checks names, counts and numbers against the rig. `shown` names the input in messages. `rate`, which may be
+/// null, gets the rate if the text has one.
 std::vector<Frame> parse_frames(const std::string& text, const MienRig* rig,
-                                const std::string& shown);
+                                const std::string& shown, Rate* rate = nullptr);
 
 /// The same from a file; "-" reads standard input.
 std::vector<Frame> read_frames(const std::string& path, const MienRig* rig);

@@ -220,6 +220,23 @@ void Output::fail_write(int reason) const {
        "check the folder, its permissions and the space left");
 }
 
+OutputFolder::OutputFolder(const std::string& path) : path_(path) {
+  std::error_code reason;
+  made_ = std::filesystem::create_directories(path, reason);
+  if (!reason && std::filesystem::is_directory(path, reason)) return;
+  fail(kFile, "cannot write", path, reason ? reason.message() : "this is not a folder",
+       "name another folder");
+}
+
+OutputFolder::~OutputFolder() {
+  std::error_code ignored;
+  if (made_) std::filesystem::remove(path_, ignored);  // fails if there is something in it
+}
+
+std::string OutputFolder::file(const std::string& name) const {
+  return (std::filesystem::path(path_) / name).string();
+}
+
 void refuse_terminal(const std::string& path, const Session& session, const char* what) {
   if (path != "-" || !session.terminal.out_is_terminal) return;
   fail_usage("-o -", std::string(what) + " is not for a terminal",

@@ -51,6 +51,21 @@ void refuse_terminal(const std::string& path, const Session& session, const char
 /// Fails if the folder that `path` would be written to does not exist.
 void refuse_missing_folder(const std::string& path);
 
+/// A folder for several files, made if it is missing, and removed again if nothing was put into it.
+class OutputFolder {
+ public:
+  explicit OutputFolder(const std::string& path);
+  ~OutputFolder();
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+
+  std::string file(const std::string& name) const;
+
+ private:
+  std::string path_;
+  bool made_ = false;
+};
+
 /// -o and --force as they were typed.
 struct OutputFile {
   std::string path;

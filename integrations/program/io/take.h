@@ -40,8 +40,8 @@ Take parse_take(std::string_view text, const std::string& shown);
 /// apart, so a few bytes could ask for any number.
 inline size_t most_values(size_t bytes) { return (size_t{1} << 22) + 8 * bytes; }
 
-// The two, which parse_take() chooses from.
-Take parse_csv_take(std::string_view text, const std::string& shown);
+// The two, which parse_take() chooses from. `gaps`: empty cells are NaN; otherwise they are refused.
+Take parse_csv_take(std::string_view text, const std::string& shown, bool gaps = false);
 Take parse_json_take(std::string_view text, const std::string& shown);
 
 /// Keeps the channels that match one of the patterns, which have commas between and may contain *.

@@ -13,7 +13,7 @@ namespace mien::cli {
 
 namespace {
 
-constexpr const char* kCannotReadTable = "cannot build clip";
+constexpr const char* kCannotReadTable = "cannot read take";
 constexpr double kTimecodeRate = 60;
 constexpr double kDay = 24 * 3600;
 
@@ -101,6 +101,7 @@ struct Table {
   Take take;
   std::vector<std::string> header;
   size_t first_value = 1;  // column
+  bool gaps = false;       // empty cells are NaN
 
   [[noreturn]] void fail_cell(size_t line, size_t column, const std::string& why,
                               const std::string& what_to_do) const {
@@ -113,6 +114,7 @@ struct Table {
 
 /// The nearest float; numbers too small for one are zero.
 float parse_value(const Table& table, size_t line, size_t column, const std::string& field) {
+  if (field.empty() && table.gaps) return NAN;
   if (field.empty()) table.fail_cell(line, column, "the cell is empty", "write a number");
   const char *begin = field.data(), *end = begin + field.size();
   if (*begin == '+') ++begin;
@@ -229,8 +231,9 @@ void read_header(Table& table) {
 
 }  // namespace
 
-Take parse_csv_take(std::string_view text, const std::string& shown) {
+Take parse_csv_take(std::string_view text, const std::string& shown, bool gaps) {
   Table table;
+  table.gaps = gaps;
   Take& take = table.take;
   take.shown = shown;
   CsvReader reader(text);

@@ -21,11 +21,11 @@ namespace {
 using json =
     nlohmann::basic_json<MemberList, std::vector, std::string, bool, int64_t, uint64_t, float>;
 
-constexpr const char* kCannotReadTake = "cannot build clip";
+constexpr const char* kCannotReadTake = "cannot read take";
 constexpr const char* kTakeExample =
     "give one JSON object: {\"frames\": [{\"raw\": {NAME: number}}]}";
 
-const std::vector<std::string> kIgnoredInTake = {"rig", "variables"};
+const std::vector<std::string> kIgnoredInTake = {"rig", "variables", "keys"};
 const std::vector<std::string> kIgnoredInTakeFrames = {"variables", "stages", "guards"};
 
 struct Reader {

@@ -1,0 +1,343 @@
+// SPDX-License-Identifier: MIT
+// mien solve: the controls of a rig for captured meshes, joints, landmarks, or controls of another rig.
+#include <mien_solve.h>
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+
+#include "integrations/program/commands/solve_output.h"
+#include "integrations/program/commands/solve_target.h"
+#include "integrations/program/io/controls.h"
+#include "integrations/program/io/dna_fields.h"
+#include "integrations/program/io/interrupt.h"
+#include "integrations/program/io/nearest_name.h"
+#include "integrations/program/io/text.h"
+
+namespace mien::cli {
+
+namespace {
+
+using Fit = std::unique_ptr<MienFit, Destroy<MienFit, mien_fit_destroy>>;
+
+// The first frame starts from rest, the others from the frame before.
+constexpr uint32_t kFirstIterations = 200, kMostIterations = 50;
+constexpr uint32_t kMostSolvedFrames = 10000000;
+constexpr float kUnobservable = 1e-5f;  // of what mien_fit_observability() gives; rounding is below
+
+struct SolveCommand {
+  TargetOptions target;
+  std::string rig, controls, rate, keys, smooth, sparse, report, images;
+  bool rigid = false;
+  OutputFile output;
+};
+
+float parse_weight(const char* option, const std::string& word) {
+  if (word.empty()) return 0;
+  float weight = 0;
+  const char* const end = word.data() + word.size();
+  const auto [stop, error] = std::from_chars(word.data(), end, weight);
+  if (error == std::errc() && stop == end && weight >= 0 && std::isfinite(weight)) return weight;
+  fail_usage(std::string(option) + " \"" + word + "\"", "not a number from 0 on",
+             "give a number such as 0.01");
+}
+
+void check_command(const SolveCommand& command, TargetKind kind) {
+  const bool landmarks = kind == TargetKind::kLandmarks3 || kind == TargetKind::kLandmarks2;
+  if ((kind == TargetKind::kWeights) != !command.target.from.empty()) {
+    fail_usage(command.target.from.empty() ? "--kind weights" : "--from",
+               command.target.from.empty() ? "there is no rig that the controls are of"
+                                           : "only controls are those of another rig",
+               command.target.from.empty() ? "add --from OTHER.dna" : "leave it out");
+  }
+  if (!command.target.landmarks.empty() && !landmarks) {
+    fail_usage("--landmarks", "the target has no landmarks", "leave it out");
+  }
+  if (kind == TargetKind::kJoints && !command.target.mesh.empty()) {
+    fail_usage("--mesh", "joints have no mesh", "leave it out");
+  }
+  if (command.rigid && (kind == TargetKind::kJoints || kind == TargetKind::kLandmarks2)) {
+    fail_usage("--rigid", "only positions in space can be moved as a whole", "leave it out");
+  }
+  const std::string& path = command.output.path;
+  if (path != "-" && !ends_with(path, ".clip") && !ends_with(path, ".json")) {
+    fail_usage("-o " + path, "the ending of the name selects the format", "use .clip or .json");
+  }
+  if (command.rig == "-" && command.target.path == "-") {
+    fail_usage("RIG - TARGET -", "both would be read from standard input", "put one in a file");
+  }
+  if (command.rig == "-" && !command.images.empty()) {
+    fail_usage("RIG -", "the rig is read again for images", "put it in a file");
+  }
+}
+
+/// Raw controls whose names match, ascending.
+std::vector<uint32_t> find_moving(const std::string& list, const MienRig* rig,
+                                  const std::string& shown) {
+  std::vector<uint32_t> moving;
+  const uint32_t count = rig_count(rig, MIEN_KIND_RAW_CONTROL);
+  std::vector<std::string> names;
+  for (uint32_t i = 0; i < count; ++i) names.push_back(rig_name(rig, MIEN_KIND_RAW_CONTROL, i));
+  std::vector<bool> moves(count);
+  for (const std::string& pattern : split_at_commas(list)) {
+    bool found = false;
+    for (uint32_t i = 0; i < count; ++i) {
+      if (!matches_pattern(pattern, names[i])) continue;
+      moves[i] = found = true;
+    }
+    if (found) continue;
+    fail(kInvalid, "cannot solve", shown, "no raw control matches \"" + one_line(pattern) + "\"",
+         nearest_question(pattern, names, "'mien info RIG --names raw' lists the names"));
+  }
+  for (uint32_t i = 0; i < count; ++i) {
+    if (moves[i]) moving.push_back(i);
+  }
+  return moving;
+}
+
+Fit create_fit(const SolvedRig& rig, const SolveTarget& target,
+               const std::vector<uint32_t>& moving) {
+  auto desc = sized<MienFitDesc>();
+  desc.deformer = target.points.empty() ? nullptr : rig.deformer;
+  desc.points = target.points.data();
+  desc.point_count = target.points.size();
+  if (!moving.empty()) {
+    desc.controls = moving.data();
+    desc.control_count = moving.size();
+  }
+  auto error = sized<MienError>();
+  MienFit* fit = nullptr;
+  check(mien_fit_create(rig.rig, &desc, &fit, &error), &error, "cannot solve", rig.shown);
+  return Fit(fit);
+}
+
+void note_frames_without_data(const SolvedTake& take, const Session& session) {
+  const auto count =
+      std::count_if(take.frames.begin(), take.frames.end(),
+                    [](const SolvedFrame& frame) { return frame.status == MIEN_FIT_NO_DATA; });
+  if (count == 0) return;
+  note(session, grouped(static_cast<uint64_t>(count)) + " of " + grouped(take.frames.size()) +
+                    " frames have no data; they hold the frame before");
+}
+
+SolvedTake solve_take(const SolveCommand& command, const SolvedRig& rig, const SolveTarget& target,
+                      const Fit& fit, const Session& session) {
+  SolvedTake take;
+  const uint32_t count = rig_count(rig.rig, MIEN_KIND_RAW_CONTROL);
+  for (uint32_t i = 0; i < count; ++i) {
+    take.controls.push_back(rig_name(rig.rig, MIEN_KIND_RAW_CONTROL, i));
+  }
+  take.values.resize(target.frame_count * count);
+  take.rigid = command.rigid;
+  // Weights are relative to the mean over the data, whatever its amount.
+  const bool joints = target.points.empty();
+  const auto amount = static_cast<float>(joints ? target.width : target.points.size());
+  std::vector<float> row(target.width);
+  auto frame = sized<MienFitFrame>();
+  frame.joints = joints ? row.data() : nullptr;
+  frame.images = target.kind == TargetKind::kLandmarks2 ? row.data() : nullptr;
+  frame.points = joints || frame.images ? nullptr : row.data();
+  frame.camera = frame.images ? &*target.camera : nullptr;
+  frame.rigid = command.rigid ? 1 : 0;
+  frame.sparse_weight = parse_weight("--sparse", command.sparse) * amount;
+  frame.max_iterations = kFirstIterations;
+  const auto begin = std::chrono::steady_clock::now();
+  Progress progress(session, "frame", target.frame_count);
+  for (size_t f = 0; f < target.frame_count; ++f) {
+    progress.at(f);
+    target.read(f, row.data());
+    auto result = sized<MienFitResult>();
+    float* const out = take.values.data() + f * count;
+    check(mien_fit_solve(fit.get(), &frame, out, &result), nullptr, "cannot solve", rig.shown);
+    take.frames.push_back({joints ? result.joint_residual : result.point_residual,
+                           joints ? result.joint_worst : result.point_worst, result.iterations,
+                           result.status});
+    if (command.rigid) {
+      std::copy_n(result.rotation, 9, take.frames.back().rotation);
+      std::copy_n(result.translation, 3, take.frames.back().translation);
+    }
+    frame.start = out;
+    frame.smooth_weight = parse_weight("--smooth", command.smooth) * amount;
+    frame.max_iterations = kMostIterations;
+  }
+  take.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return take;
+}
+
+std::vector<std::string> list_unobservable(const Fit& fit, const std::vector<uint32_t>& moving,
+                                           const std::vector<std::string>& names) {
+  std::vector<float> observed(names.size());
+  check(mien_fit_observability(fit.get(), observed.data(), observed.size()), nullptr,
+        "cannot solve", "");
+  std::vector<std::string> found;
+  for (uint32_t i = 0; i < names.size(); ++i) {
+    const bool moves = moving.empty() || std::binary_search(moving.begin(), moving.end(), i);
+    if (moves && observed[i] < kUnobservable) found.push_back(names[i]);
+  }
+  return found;
+}
+
+void run(const SolveCommand& command, const Session& session) {
+  auto interrupt = std::make_unique<EndOnInterrupt>();
+  const TargetKind kind = find_kind(command.target);
+  check_command(command, kind);
+  const Rate rate = command.rate.empty() ? Rate{} : parse_rate(command.rate);
+  if (!command.rate.empty() && !rate.known()) {
+    fail_usage("--rate \"" + command.rate + "\"", "not a number of frames per second",
+               "give one such as 60, 29.97 or 30000/1001");
+  }
+  const float keys = parse_weight("--keys", command.keys);
+  parse_weight("--smooth", command.smooth);
+  parse_weight("--sparse", command.sparse);
+  std::vector<std::string> inputs = {command.rig, command.target.path};
+  for (const std::string& other : {command.target.from, command.target.landmarks}) {
+    if (!other.empty()) inputs.push_back(other);
+  }
+  if (ends_with(command.output.path, ".clip")) {
+    refuse_terminal(command.output.path, session, "a clip");
+  }
+  // Before the work, which takes a while.
+  refuse_missing_folder(command.output.path);
+  refuse_replacing(command.output, inputs);
+  if (!command.report.empty()) {
+    refuse_missing_folder(command.report);
+    refuse_replacing({command.report, command.output.force}, inputs);
+    if (command.report == command.output.path) {
+      fail_usage("--report " + command.report, "this is also the output", "give another name");
+    }
+  }
+
+  const bool geometry = kind != TargetKind::kJoints || !command.images.empty();
+  const SolvedRig rig = open_solved_rig(command.rig, geometry, session);
+  const std::vector<uint32_t> moving = command.controls.empty()
+                                           ? std::vector<uint32_t>{}
+                                           : find_moving(command.controls, rig.rig, rig.shown);
+  const SolveTarget target = open_target(command.target, kind, rig, session);
+  if (target.frame_count > kMostSolvedFrames) {
+    fail(kInvalid, "cannot solve", shown_name(command.target.path),
+         "it has more than 10,000,000 frames", "solve it in parts");
+  }
+  const Fit fit = create_fit(rig, target, moving);
+  SolvedTake take = solve_take(command, rig, target, fit, session);
+  take.rig = rig.file ? read_string(*rig.file, "desc.name") : rig.shown;
+  take.rate = rate.known() ? rate : target.rate.known() ? target.rate : Rate{60, 1};
+  take.unobservable = list_unobservable(fit, moving, take.controls);
+  note_frames_without_data(take, session);
+  std::string image;
+  if (!command.images.empty()) image = draw_solve(take, target, rig, command.rig, session);
+  if (keys > 0) reduce_keys(take, keys);
+
+  interrupt.reset();  // files that are being written have a handler of their own
+  Output output(command.output.path);
+  if (ends_with(command.output.path, ".clip")) {
+    write_solved_clip(take, output);
+  } else {
+    write_solved_json(take, output);
+  }
+  std::unique_ptr<Output> report, drawn;
+  if (!command.report.empty()) {
+    report = std::make_unique<Output>(command.report);
+    write_solve_report(take, target, *report);
+  }
+  std::unique_ptr<OutputFolder> folder;
+  if (!image.empty()) {
+    folder = std::make_unique<OutputFolder>(command.images);
+    drawn = std::make_unique<Output>(folder->file("solve.png"));
+    drawn->write(image);
+  }
+  output.commit();
+  if (report) report->commit();
+  if (drawn) drawn->commit();
+  note_written(session, command.output.path, output.size());
+}
+
+}  // namespace
+
+Command add_solve_command(CLI::App& app, const Session& session) {
+  auto options = std::make_shared<SolveCommand>();
+  CLI::App* solve = app.add_subcommand(
+      "solve", "Find the controls for meshes, joints, landmarks, or another rig's controls");
+  solve->add_option("RIG", options->rig, "DNA file or baked rig")->type_name("")->required();
+  solve
+      ->add_option("TARGET", options->target.path,
+                   "What to match: .npy, .glb, .obj, a folder of OBJ, .csv, .json, .clip")
+      ->type_name("")
+      ->required();
+  add_output_options(*solve, options->output,
+                     "Controls to write, as .clip or .json; - writes JSON to standard output")
+      ->required();
+  solve
+      ->add_option("--kind", options->target.kind,
+                   "What TARGET holds: vertices, joints, landmarks3, landmarks2 or\nweights "
+                   "(default: told by its name and by --from)")
+      ->type_name("KIND");
+  solve
+      ->add_option("--from", options->target.from,
+                   "Rig that the controls in TARGET are of; its mesh has the topology\nof that of "
+                   "RIG")
+      ->type_name("OTHER");
+  solve
+      ->add_option("--mesh", options->target.mesh,
+                   "Mesh that has the vertices or landmarks (default: the first of\nLOD 0)")
+      ->type_name("NAME");
+  solve
+      ->add_option("--landmarks", options->target.landmarks,
+                   "JSON that says where landmarks are on the mesh, and the camera")
+      ->type_name("FILE");
+  solve
+      ->add_option("--controls", options->controls,
+                   "Only these raw controls may move: names or patterns such as\nmouth*,jawOpen")
+      ->type_name("LIST");
+  solve->add_flag("--rigid", options->rigid,
+                  "The target may be rotated and moved as a whole in each frame");
+  solve->add_option("--rate", options->rate, "Frames per second (default: TARGET's, otherwise 60)")
+      ->type_name("R");
+  solve
+      ->add_option("--keys", options->keys,
+                   "Keep only keys between which straight lines are within EPS of the\nvalues")
+      ->type_name("EPS");
+  solve
+      ->add_option("--smooth", options->smooth,
+                   "Weight of changes from frame to frame against the mean squared\ndistance "
+                   "(default: 0)")
+      ->type_name("S");
+  solve
+      ->add_option("--sparse", options->sparse,
+                   "Weight of the sum of all controls against it: few controls explain\na frame "
+                   "(default: 0)")
+      ->type_name("S");
+  solve
+      ->add_option("--report", options->report,
+                   "Write residuals, unobservable controls and times as JSON")
+      ->type_name("R.json");
+  solve
+      ->add_option("--pictures", options->images,
+                   "Draw target, result and distance of some frames as a PNG file in\nthis folder")
+      ->type_name("DIR");
+  solve->footer(
+      "TARGET by kind:\n"
+      "  vertices    NPY of frames x vertices x 3 in the unit and order of the mesh, an OBJ or "
+      "GLB\n"
+      "              (each morph target is a frame), or a folder of OBJ, a frame each\n"
+      "  joints      NPY of frames x joints x 9, as `mien eval` writes joints\n"
+      "  landmarks3  CSV time,NAME.x,NAME.y,NAME.z,...; empty cells are missing\n"
+      "  landmarks2  CSV time,NAME.x,NAME.y,... in pixels, seen by the camera of --landmarks\n"
+      "  weights     JSON of `mien play`, or a clip, for the rig --from: what its controls do to\n"
+      "              the mesh is what RIG shall do\n\n"
+      "--landmarks: {\"points\": {\"chin\": 1234, \"nose\": {\"positions\": [1, 2, 3], "
+      "\"weights\":\n"
+      "[0.2, 0.3, 0.5]}}, \"camera\": {\"focal\": [1200, 1200], \"center\": [960, 540],\n"
+      "\"rotation\": [9 numbers, by rows], \"translation\": [0, 0, 100]}}. Names that are numbers "
+      "are\n"
+      "positions of the mesh. See docs/solving.md.\n\n"
+      "Examples:\n"
+      "  mien solve head.dna scan.npy -o take.clip --report report.json\n"
+      "  mien solve head.dna scans/ -o take.json --keys 0.01 --pictures pictures/\n"
+      "  mien solve head.dna joints.npy --kind joints -o take.clip\n"
+      "  mien solve head.dna face.csv --landmarks points.json -o take.clip --smooth 0.01\n"
+      "  mien solve other.dna scene.json --from head.dna -o other.clip");
+  return {solve, [options, &session] { run(*options, session); }};
+}
+
+}  // namespace mien::cli

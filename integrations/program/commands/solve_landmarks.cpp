@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+#include "integrations/program/commands/solve_landmarks.h"
+
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "integrations/program/io/input.h"
+#include "integrations/program/io/json_check.h"
+#include "integrations/program/io/nearest_name.h"
+#include "integrations/program/io/take.h"
+#include "integrations/program/io/text.h"
+
+namespace mien::cli {
+
+namespace {
+
+using LandmarkJson = nlohmann::json;
+
+constexpr const char* kWhatLandmarks = "cannot use landmarks";
+constexpr const char* kLandmarksExample =
+    "give {\"points\": {NAME: 1234, NAME: {\"positions\": [1, 2, 3], \"weights\": [0.2, 0.3, "
+    "0.5]}}}";
+
+/// What --landmarks says: places of names on one mesh, and a camera.
+struct Landmarks {
+  std::string shown;
+  uint32_t mesh = 0, position_count = 0;
+  std::map<std::string, MienSolvePoint> points;
+  std::optional<MienFitCamera> camera;
+};
+
+[[noreturn]] void fail_landmarks(const std::string& where, const std::string& why,
+                                 const std::string& what_to_do = kLandmarksExample) {
+  fail(kInvalid, kWhatLandmarks, where, why, what_to_do);
+}
+
+/// As many finite numbers as `count`.
+void read_numbers(const LandmarkJson& values, size_t count, float* to, const std::string& where) {
+  if (!values.is_array() || values.size() != count) {
+    fail_landmarks(where, "it is not a list of " + std::to_string(count) + " numbers");
+  }
+  for (size_t i = 0; i < count; ++i) {
+    to[i] = values[i].is_number() ? values[i].get<float>() : NAN;
+    if (!std::isfinite(to[i]))
+      fail_landmarks(where, "element " + std::to_string(i) + " is no number");
+  }
+}
+
+uint32_t read_position(const LandmarkJson& value, const Landmarks& landmarks,
+                       const std::string& where) {
+  if (!value.is_number_unsigned()) fail_landmarks(where, "a position is not a whole number");
+  if (value.get<uint64_t>() < landmarks.position_count) return value.get<uint32_t>();
+  fail_landmarks(where,
+                 "there is no position " + value.dump() + ": the mesh has " +
+                     grouped(landmarks.position_count),
+                 "count from 0");
+}
+
+MienSolvePoint read_point(const LandmarkJson& value, const Landmarks& landmarks,
+                          const std::string& where) {
+  MienSolvePoint point = {landmarks.mesh, {}, {1, 0, 0}};
+  if (!value.is_object()) {
+    const uint32_t position = read_position(value, landmarks, where);
+    for (uint32_t& p : point.positions) p = position;
+    return point;
+  }
+  const LandmarkJson positions = value.value("positions", LandmarkJson());
+  if (!positions.is_array() || positions.size() != 3) {
+    fail_landmarks(where, "\"positions\" is not a list of three numbers");
+  }
+  for (size_t i = 0; i < 3; ++i) {
+    point.positions[i] = read_position(positions[i], landmarks, where);
+  }
+  read_numbers(value.value("weights", LandmarkJson()), 3, point.weights, where + ".weights");
+  return point;
+}
+
+MienFitCamera read_camera(const LandmarkJson& value, const std::string& where) {
+  MienFitCamera camera = {};
+  for (const int k : {0, 4, 8}) camera.rotation[k] = 1;
+  if (!value.is_object()) fail_landmarks(where, "the camera is not an object");
+  read_numbers(value.value("focal", LandmarkJson()), 2, camera.focal, where + ".focal");
+  read_numbers(value.value("center", LandmarkJson()), 2, camera.center, where + ".center");
+  if (value.contains("rotation")) {
+    read_numbers(value["rotation"], 9, camera.rotation, where + ".rotation");
+  }
+  if (value.contains("translation")) {
+    read_numbers(value["translation"], 3, camera.translation, where + ".translation");
+  }
+  if (!(camera.focal[0] > 0) || !(camera.focal[1] > 0)) {
+    fail_landmarks(where + ".focal", "a focal length is not above 0", "give pixels");
+  }
+  return camera;
+}
+
+Landmarks read_places(const TargetOptions& options, const SolvedRig& rig) {
+  Landmarks out;
+  LandmarkJson document = LandmarkJson::object();
+  if (!options.landmarks.empty()) {
+    out.shown = shown_name(options.landmarks);
+    document = parse_json<LandmarkJson>(read_json(options.landmarks, kWhatLandmarks),
+                                        kWhatLandmarks, out.shown, kLandmarksExample);
+  }
+  std::string mesh = options.mesh;
+  for (const auto& [key, value] : document.items()) {
+    if (key == "mesh" && value.is_string()) {
+      if (mesh.empty()) mesh = value.get<std::string>();
+    } else if (key != "points" && key != "camera") {
+      fail_landmarks(out.shown + ", " + one_line(key), "this is unknown, or not a name",
+                     nearest_question(key, {"mesh", "points", "camera"}, kLandmarksExample));
+    }
+  }
+  out.mesh = find_mesh(rig, mesh);
+  out.position_count = mesh_of(rig, out.mesh).position_count;
+  const LandmarkJson points = document.value("points", LandmarkJson::object());
+  if (!points.is_object()) fail_landmarks(out.shown + ", points", "it is not an object");
+  for (const auto& [name, value] : points.items()) {
+    out.points[name] = read_point(value, out, out.shown + ", points." + one_line(name));
+  }
+  if (document.contains("camera")) {
+    out.camera = read_camera(document["camera"], out.shown + ", camera");
+  }
+  return out;
+}
+
+/// A name of the file, or the number of a position.
+MienSolvePoint find_point(const Landmarks& landmarks, const std::string& name,
+                          const std::string& where) {
+  const auto found = landmarks.points.find(name);
+  if (found != landmarks.points.end()) return found->second;
+  uint32_t number = 0;
+  const auto [stop, error] = std::from_chars(name.data(), name.data() + name.size(), number);
+  if (error == std::errc() && stop == name.data() + name.size()) {
+    return read_point(number, landmarks, where);
+  }
+  std::vector<std::string> known;
+  for (const auto& [other, point] : landmarks.points) known.push_back(other);
+  fail_landmarks(where, "no point is named \"" + one_line(name) + "\"",
+                 known.empty() ? "say where it is with --landmarks FILE, or name it by the number "
+                                 "of its position: 1234.x"
+                               : nearest_question(name, known, kLandmarksExample));
+}
+
+}  // namespace
+
+SolveTarget read_landmarks(const TargetOptions& options, bool images, const SolvedRig& rig) {
+  const Landmarks landmarks = read_places(options, rig);
+  auto take = std::make_shared<Take>(parse_csv_take(read_text(options.path, "cannot read target"),
+                                                    shown_name(options.path), true));
+  const std::vector<std::string> axes =
+      images ? std::vector<std::string>{".x", ".y"} : std::vector<std::string>{".x", ".y", ".z"};
+  SolveTarget target;
+  for (size_t c = 0; c < take->names.size(); c += axes.size()) {
+    const std::string& first = take->names[c];
+    const std::string name = ends_with(first, ".x") ? first.substr(0, first.size() - 2) : first;
+    for (size_t k = 0; k < axes.size(); ++k) {
+      if (c + k < take->names.size() && take->names[c + k] == name + axes[k]) continue;
+      fail(kInvalid, "cannot solve", take->shown + ", column " + std::to_string(c + k + 2),
+           "a column " + one_line(name) + axes[k] + " is missing there",
+           images ? "the header is time,NAME.x,NAME.y,..."
+                  : "the header is time,NAME.x,NAME.y,NAME.z,...");
+    }
+    target.points.push_back(find_point(landmarks, name, take->shown));
+  }
+  if (target.points.empty()) {
+    fail(kInvalid, "cannot solve", take->shown, "it has no landmarks",
+         "the header is time,NAME.x,NAME.y,...");
+  }
+  if (images && !landmarks.camera) {
+    fail(kInvalid, "cannot solve", options.landmarks.empty() ? take->shown : landmarks.shown,
+         "there is no camera for landmarks in images",
+         "add \"camera\": {\"focal\": [fx, fy], \"center\": [cx, cy]} to --landmarks FILE");
+  }
+  target.camera = landmarks.camera;
+  target.rate = find_rate(take->times);
+  target.frame_count = take->row_count;
+  target.width = take->names.size();
+  target.read = [take](size_t frame, float* row) {
+    std::copy_n(take->values.data() + frame * take->names.size(), take->names.size(), row);
+  };
+  return target;
+}
+
+}  // namespace mien::cli

@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: MIT
+#include "integrations/program/commands/solve_meshes.h"
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+
+#include "integrations/program/io/clip_file.h"
+#include "integrations/program/io/controls.h"
+#include "integrations/program/io/input.h"
+#include "integrations/program/io/matched_names.h"
+#include "integrations/program/io/text.h"
+#include "integrations/program/math/vector.h"
+#include "integrations/program/mesh/mesh_file.h"
+
+namespace mien::cli {
+
+namespace {
+
+using math::Vec3d;
+
+// Meshes from files -------------------------------------------------------------------------------
+
+/// The first position of the mesh in a file and how many it has: those that faces of objects of its name use,
+/// or all of them if no object has the name.
+std::pair<size_t, size_t> find_positions(const MeshFile& file, const std::string& name) {
+  std::vector<size_t> first_corner = {0};
+  for (const uint32_t size : file.face_sizes) first_corner.push_back(first_corner.back() + size);
+  uint32_t low = UINT32_MAX, high = 0;
+  for (const MeshObject& object : file.objects) {
+    if (object.name != name) continue;
+    for (size_t c = first_corner[object.first_face];
+         c < first_corner[object.first_face + object.face_count]; ++c) {
+      low = std::min(low, file.corners[c]);
+      high = std::max(high, file.corners[c]);
+    }
+  }
+  if (low > high) return {0, file.position_count()};
+  return {low, size_t{high} - low + 1};
+}
+
+/// From the positions of files to those of the mesh of a rig.
+struct MeshReader {
+  const SolvedRig& rig;
+  MienMesh mesh;
+  std::string name;
+  MienRigInfo info;
+
+  MeshReader(const SolvedRig& solved, uint32_t index)
+      : rig(solved), mesh(mesh_of(solved, index)),
+        name(rig_name(solved.rig, MIEN_KIND_MESH, index)), info(rig_info(solved.rig)) {}
+
+  /// Files by vertices have several at one position, of which the last counts: all are the same.
+  void place(const MeshFile& file, const std::string& path, const std::vector<Vec3d>& points,
+             float* row) const {
+    const auto [first, count] = find_positions(file, name);
+    const bool by_vertex = count == mesh.vertex_count && count != mesh.position_count;
+    if (!by_vertex && count != mesh.position_count) {
+      fail(kInvalid, "cannot solve", path,
+           "it has " + grouped(count) + " positions, mesh " + one_line(name) + " of the rig has " +
+               grouped(mesh.position_count),
+           "give the same topology, or another mesh with --mesh");
+    }
+    for (size_t i = 0; i < count; ++i) {
+      const size_t to = by_vertex ? mesh.vertex_position_indices.data[i] : i;
+      const Vec3d p = file.in_meters ? from_gltf(points[first + i]) : points[first + i];
+      for (int k = 0; k < 3; ++k) row[3 * to + static_cast<size_t>(k)] = static_cast<float>(p[k]);
+    }
+  }
+
+  /// From meters, x to the left, y up and z to the front.
+  Vec3d from_gltf(Vec3d p) const {
+    // By MIEN_DIRECTION_...
+    constexpr Vec3d kDirections[] = {{1, 0, 0},  {-1, 0, 0}, {0, 1, 0},
+                                     {0, -1, 0}, {0, 0, 1},  {0, 0, -1}};
+    const double units = info.translation_unit == MIEN_TRANSLATION_UNIT_METERS ? 1 : 100;
+    return Vec3d{dot(p, kDirections[info.axes[0]]), dot(p, kDirections[info.axes[1]]),
+                 dot(p, kDirections[info.axes[2]])} *
+           units;
+  }
+};
+
+std::vector<Vec3d> points_of(const MeshFile& file) {
+  std::vector<Vec3d> points(file.position_count());
+  for (size_t i = 0; i < points.size(); ++i) {
+    points[i] = {file.positions[3 * i], file.positions[3 * i + 1], file.positions[3 * i + 2]};
+  }
+  return points;
+}
+
+std::vector<std::string> list_obj_files(const std::string& folder) {
+  std::vector<std::string> files;
+  std::error_code reason;
+  for (std::filesystem::directory_iterator it(folder, reason), end; !reason && it != end;
+       it.increment(reason)) {
+    const std::string file = it->path().string();
+    if (ends_with(file, ".obj") || ends_with(file, ".OBJ")) files.push_back(file);
+  }
+  if (reason)
+    fail(kFile, "cannot read", folder, reason.message(), "check the path and its permissions");
+  if (files.empty()) {
+    fail(kInvalid, "cannot solve", folder, "the folder has no .obj files",
+         "name a folder with an OBJ for each frame");
+  }
+  // The order of a folder is that of the file system.
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+// Controls of another rig -------------------------------------------------------------------------
+
+bool same_indices(const MienIndex32View& a, const MienIndex32View& b) {
+  return a.count == b.count && std::equal(a.data, a.data + a.count, b.data);
+}
+
+bool same_topology(const MienMesh& a, const MienMesh& b) {
+  return a.position_count == b.position_count && same_indices(a.triangles, b.triangles) &&
+         same_indices(a.vertex_position_indices, b.vertex_position_indices);
+}
+
+/// The mesh of `other` with the topology of `mesh`: that of its name first.
+uint32_t find_same_mesh(const SolvedRig& other, const SolvedRig& rig, uint32_t mesh) {
+  const MienMesh own = mesh_of(rig, mesh);
+  const std::string name = rig_name(rig.rig, MIEN_KIND_MESH, mesh);
+  const uint32_t count = rig_count(other.rig, MIEN_KIND_MESH);
+  uint32_t found = count;
+  for (uint32_t m = 0; m < count; ++m) {
+    if (!same_topology(own, mesh_of(other, m))) continue;
+    if (rig_name(other.rig, MIEN_KIND_MESH, m) == name) return m;
+    if (found == count) found = m;
+  }
+  if (found < count) return found;
+  fail(kInvalid, "cannot solve", other.shown,
+       "none of its meshes has the topology of mesh " + one_line(name) + " of " +
+           one_line(rig.shown) + ", which has " + grouped(own.position_count) + " positions and " +
+           grouped(own.triangle_count) + " triangles",
+       "choose another mesh with --mesh, or give rigs of the same topology");
+}
+
+void require_same_space(const SolvedRig& rig, const SolvedRig& other) {
+  const MienRigInfo a = rig_info(rig.rig), b = rig_info(other.rig);
+  if (a.translation_unit == b.translation_unit && std::equal(a.axes, a.axes + 3, b.axes)) return;
+  fail(kInvalid, "cannot solve", other.shown,
+       "it has other axes or units than " + one_line(rig.shown),
+       "convert one of them: mien convert IN -o OUT.dna --system NAME");
+}
+
+/// Frames of controls of a rig: JSON, or a clip whose channels are bound to the rig.
+std::vector<Frame> read_controls(const std::string& path, const SolvedRig& other, Rate& rate,
+                                 const Session& session) {
+  std::vector<Frame> frames;
+  if (!ends_with(path, ".clip")) {
+    frames =
+        parse_frames(read_json(path, "cannot read target"), other.rig, shown_name(path), &rate);
+    if (!frames.empty()) return frames;
+    fail(kInvalid, "cannot solve", shown_name(path), "it has no frames", "give one at least");
+  }
+  const ClipFile clip = open_clip_file(path);
+  rate = {clip.info.rate_numerator, clip.info.rate_denominator};
+  const std::vector<MienMatrixEntry> matrix = NamesFile().matrix();
+  auto desc = sized<MienClipBindingDesc>();
+  desc.matrix = matrix.data();
+  desc.matrix_count = matrix.size();
+  auto error = sized<MienError>();
+  MienClipBinding* bound = nullptr;
+  check(mien_clip_binding_create(clip.clip.get(), other.rig, &desc, &bound, &error), &error,
+        "cannot bind clip", clip.shown);
+  const std::unique_ptr<MienClipBinding, Destroy<MienClipBinding, mien_clip_binding_destroy>>
+      binding(bound);
+  auto info = sized<MienClipBindingInfo>();
+  check(mien_clip_binding_info(bound, &info), nullptr, "cannot bind clip", clip.shown);
+  if (info.missing_channels.count != 0) {
+    note(session, one_line(other.shown) + " has no controls for " +
+                      grouped(info.missing_channels.count) + " of " +
+                      grouped(clip.info.channel_count) + " channels of the clip");
+  }
+  std::vector<float> raw(rig_count(other.rig, MIEN_KIND_RAW_CONTROL));
+  for_each_frame(clip, [&](uint32_t, const float* values) {
+    check(mien_clip_binding_apply(bound, values, clip.info.channel_count, raw.data(), raw.size()),
+          nullptr, "cannot bind clip", clip.shown);
+    Frame frame;
+    for (uint32_t i = 0; i < raw.size(); ++i) frame.raw.push_back({i, raw[i]});
+    frames.push_back(std::move(frame));
+  });
+  return frames;
+}
+
+/// A rig in motion: positions of one of its meshes.
+class MovingMesh {
+ public:
+  MovingMesh(const SolvedRig& rig, uint32_t mesh)
+      : rig_(rig), mesh_(mesh), count_(mesh_of(rig, mesh).position_count) {
+    auto error = sized<MienError>();
+    MienInstance* instance = nullptr;
+    check(mien_instance_create(rig.rig, nullptr, &instance, &error), &error, "cannot evaluate",
+          rig.shown);
+    instance_.reset(instance);
+    MienDeformerInstance* pose = nullptr;
+    check(mien_deformer_instance_create(rig.deformer, nullptr, &pose, &error), &error,
+          "cannot deform", rig.shown);
+    pose_.reset(pose);
+  }
+
+  const float* positions(const Frame& frame) {
+    const char* what = "cannot evaluate";
+    MienInstance* instance = instance_.get();
+    check(mien_instance_reset(instance), nullptr, what, rig_.shown);
+    apply_frame(frame, rig_.rig, instance);
+    check(mien_rig_evaluate(rig_.rig, instance, 0), nullptr, what, rig_.shown);
+    check(mien_deformer_instance_update(pose_.get(), instance), nullptr, what, rig_.shown);
+    check(mien_deformer_instance_deform(pose_.get(), mesh_, MIEN_NORMALS_NONE, nullptr), nullptr,
+          what, rig_.shown);
+    MienFloatView view{};
+    check(mien_deformer_instance_positions(pose_.get(), mesh_, &view), nullptr, what, rig_.shown);
+    return view.data;
+  }
+  std::vector<float> rest() {
+    const float* all = positions({});
+    return {all, all + size_t{3} * count_};
+  }
+
+ private:
+  const SolvedRig& rig_;
+  uint32_t mesh_, count_;
+  Instance instance_;
+  DeformerInstance pose_;
+};
+
+}  // namespace
+
+SolveTarget read_meshes(const TargetOptions& options, const SolvedRig& rig, uint32_t mesh) {
+  SolveTarget target;
+  auto reader = std::make_shared<MeshReader>(rig, mesh);
+  target.width = size_t{3} * reader->mesh.position_count;
+  std::error_code ignored;
+  if (std::filesystem::is_directory(options.path, ignored)) {
+    auto files = std::make_shared<std::vector<std::string>>(list_obj_files(options.path));
+    target.frame_count = files->size();
+    target.read = [reader, files](size_t frame, float* row) {
+      const std::string& path = (*files)[frame];
+      const MeshFile file = read_obj(read_mesh_bytes(path, "cannot read target"), path);
+      reader->place(file, path, points_of(file), row);
+    };
+    return target;
+  }
+  auto file = std::make_shared<MeshFile>(read_mesh_file(options.path));
+  const std::string shown = shown_name(options.path);
+  for (const MeshShape& shape : file->shapes) target.frame_names.push_back(shape.name);
+  target.frame_count = std::max(file->shapes.size(), size_t{1});
+  target.read = [reader, file, shown](size_t frame, float* row) {
+    std::vector<Vec3d> points = points_of(*file);
+    if (!file->shapes.empty()) {
+      const MeshShape& shape = file->shapes[frame];
+      for (size_t i = 0; i < shape.displacements.size() / 3; ++i) {
+        const double* d = shape.displacements.data() + 3 * i;
+        points[shape.vertices.empty() ? i : shape.vertices[i]] += Vec3d{d[0], d[1], d[2]};
+      }
+    }
+    reader->place(*file, shown, points, row);
+  };
+  return target;
+}
+
+SolveTarget read_weights(const TargetOptions& options, const SolvedRig& rig, uint32_t mesh,
+                         const Session& session) {
+  struct Source {
+    SolvedRig other;
+    std::vector<Frame> frames;
+    std::unique_ptr<MovingMesh> moving;
+    std::vector<float> offset;  // from the rest of the other mesh to that of the rig
+  };
+  auto source = std::make_shared<Source>();
+  source->other = open_solved_rig(options.from, true, session);
+  require_same_space(rig, source->other);
+  const uint32_t same = find_same_mesh(source->other, rig, mesh);
+  SolveTarget target;
+  source->frames = read_controls(options.path, source->other, target.rate, session);
+  source->moving = std::make_unique<MovingMesh>(source->other, same);
+  source->offset = MovingMesh(rig, mesh).rest();
+  const std::vector<float> rest = source->moving->rest();
+  for (size_t i = 0; i < rest.size(); ++i) source->offset[i] -= rest[i];
+  target.frame_count = source->frames.size();
+  target.width = rest.size();
+  target.read = [source](size_t frame, float* row) {
+    const float* moved = source->moving->positions(source->frames[frame]);
+    for (size_t i = 0; i < source->offset.size(); ++i) row[i] = moved[i] + source->offset[i];
+  };
+  return target;
+}
+
+}  // namespace mien::cli

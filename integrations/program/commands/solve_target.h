@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// TARGET of `mien solve`: files of every kind, as rows of numbers that a fit matches.
+#pragma once
+
+#include <mien_solve.h>
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "integrations/program/commands/options.h"
+#include "integrations/program/io/baked_file.h"
+#include "integrations/program/io/frame_rate.h"
+
+namespace mien::cli {
+
+/// A rig with its meshes, from a DNA file or a baked file.
+struct SolvedRig {
+  std::string shown;
+  std::optional<RigFile> file;
+  std::optional<BakedFile> baked;
+  Rig own_rig;
+  Deformer own_deformer;
+  const MienRig* rig = nullptr;
+  const MienDeformer* deformer = nullptr;  // null without geometry
+};
+/// `geometry`: fails without it, otherwise it is left out.
+SolvedRig open_solved_rig(const std::string& path, bool geometry, const Session& session);
+
+/// A mesh by its name; the first mesh of LOD 0 if that is empty. Fails with kInvalid.
+uint32_t find_mesh(const SolvedRig& rig, const std::string& name);
+
+MienMesh mesh_of(const SolvedRig& rig, uint32_t mesh);
+
+/// In the order of the words of --kind.
+enum class TargetKind { kVertices, kJoints, kLandmarks3, kLandmarks2, kWeights };
+
+struct TargetOptions {
+  std::string path, kind, from, mesh, landmarks;
+};
+
+/// The kind that is named, or that the file tells.
+TargetKind find_kind(const TargetOptions& options);
+
+struct SolveTarget {
+  TargetKind kind = TargetKind::kVertices;
+  size_t frame_count = 0;
+  size_t width = 0;  // numbers of a frame: joint values, or 3 (2 in images) for each point
+  std::vector<std::string> frame_names;  // where frames are shapes; else empty
+  std::vector<MienSolvePoint> points;    // empty: joints
+  std::optional<MienFitCamera> camera;   // of images
+  Rate rate;                             // unknown if the file has none
+  /// Writes the numbers of a frame. Missing ones are NaN.
+  std::function<void(size_t frame, float* row)> read;
+};
+
+/// Fails with kInvalid if the file does not fit the rig.
+SolveTarget open_target(const TargetOptions& options, TargetKind kind, const SolvedRig& rig,
+                        const Session& session);
+
+}  // namespace mien::cli

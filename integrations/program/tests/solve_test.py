@@ -1,0 +1,358 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""`mien solve`: known controls come back from meshes, joints, landmarks and another rig; keys stay within their
+tolerance; wrong targets are refused with one line.
+
+    cli_solve_test.py path/to/mien [unittest options]      (or MIEN_BIN=path/to/mien)
+"""
+import json
+import math
+import os
+import re
+import shutil
+import signal
+import struct
+import subprocess
+import sys
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..", "tests", "support"))
+import program  # noqa: E402
+from picture import Picture  # noqa: E402
+from program import (USAGE, INVALID, FILE, ProgramTest, main, make, make_folder, path, read, write)  # noqa: E402
+
+HEAD, TINY, SMALL = "head.dna", "tiny.dna", "small.dna"
+POSE = {"jawOpen": 0.7, "mouthSmileLeft": 0.4, "browInnerUp": 0.9}
+
+
+def setUpModule():
+    make_folder()
+    make("demo-head", "-o", path("whole.dna"))
+    make("convert", path("whole.dna"), "--lods", "0", "-o", path(HEAD))
+    make("gen", "--preset", "tiny", "--seed", "3", "-o", path(TINY))
+    make("gen", "--preset", "small", "--seed", "3", "-o", path(SMALL))
+
+
+def npy(shape, numbers):
+    """An array of 32-bit floats as numpy.save() writes it."""
+    header = "{'descr': '<f4', 'fortran_order': False, 'shape': (%s), }" % ", ".join(map(str, shape))
+    header += " " * (-(len(header) + 11) % 64) + "\n"
+    return (b"\x93NUMPY\x01\x00" + struct.pack("<H", len(header)) + header.encode() +
+            struct.pack("<%df" % len(numbers), *numbers))
+
+
+def frames_of(poses):
+    return json.dumps({"frames": [{"raw": pose} for pose in poses]})
+
+
+def motion(count):
+    """A smile that comes while the jaw opens and closes."""
+    return [{"jawOpen": 0.5 - 0.5 * math.cos(0.3 * f), "mouthSmileLeft": min(1, 0.1 * f)} for f in range(count)]
+
+
+class SolveTest(ProgramTest):
+    made = {}
+
+    def obj(self, pose):
+        """Name and positions of the first mesh of the head in a pose, in the unit of the rig."""
+        key = tuple(pose.items())
+        if key not in self.made:
+            self.made[key] = self.make_obj(pose)
+        return self.made[key]
+
+    def make_obj(self, pose):
+        sets = [word for control, value in pose.items() for word in ("--set", f"{control}={value}")]
+        self.ok("export", path(HEAD), "-o", path("posed.obj"), "--lod", "0", *sets)
+        with open(path("posed.obj"), encoding="utf-8") as file:
+            lines = file.read().splitlines()
+        mesh = re.sub(r"^o ", "", next(line for line in lines if line.startswith("o ")))
+        points, begun = [], 0
+        for line in lines:
+            begun += line.startswith("o ")
+            if begun == 1 and line.startswith("v "):
+                points.append([100 * float(x) for x in line.split()[1:4]])  # from meters
+        return mesh, points
+
+    def joints(self, rig, poses):
+        write("poses.json", frames_of(poses))
+        self.ok("eval", path(rig), "--input", path("poses.json"), "-o", path("joints.npy"))
+        return path("joints.npy")
+
+    def solved(self, *arguments, rig=HEAD):
+        """Rows of all controls by their short names, and the report."""
+        self.ok("solve", path(rig), *arguments, "-o", path("out.json"), "--report", path("report.json"), "-q")
+        document, report = json.loads(read("out.json")), json.loads(read("report.json"))
+        names = [name.rpartition(".")[2] for name in document["controls"]]
+        rows = [dict(zip(names, frame["raw"])) for frame in document["frames"]]
+        self.assertEqual(report["frames"], len(rows))
+        return rows, report
+
+    def compare(self, row, pose, within, unobservable=()):
+        hidden = {name.rpartition(".")[2] for name in unobservable}
+        for name, value in row.items():
+            # The gaze moves the lids a little, and no other part of the skin.
+            if name not in hidden and not name.startswith("eyeLook"):
+                self.assertAlmostEqual(value, pose.get(name, 0), delta=within, msg=name)
+
+
+class Kinds(SolveTest):
+    def test_joints_of_a_generated_rig(self):
+        names = [name.rpartition(".")[2] for name in self.names(SMALL, "raw")]
+        poses = [{names[(7 * f + 3 * k) % len(names)]: 0.2 + 0.15 * k for k in range(5)} for f in range(6)]
+        rows, report = self.solved(self.joints(SMALL, poses), "--kind", "joints", rig=SMALL)
+        for row, pose in zip(rows, poses):
+            self.compare(row, pose, 0.01, report["unobservable"])
+        self.assertLess(report["residual"]["rms"], 1e-3)
+        self.assertGreaterEqual(report["residual"]["worst"], report["residual"]["rms"])
+
+    def test_meshes_of_each_format(self):
+        mesh, points = self.obj(POSE)
+        flat = [x for point in points for x in point]
+        write("one.npy", npy((1, len(points), 3), flat))
+        write("bare.npy", npy((len(points), 3), flat))
+        text = "".join("v %.9g %.9g %.9g\n" % tuple(point) for point in points) + "f 1 2 3\n"
+        os.makedirs(path("scans"), exist_ok=True)
+        self.addCleanup(shutil.rmtree, path("scans"))
+        for name in ("a.obj", "b.obj"):
+            write(os.path.join("scans", name), text)
+        for target in ("one.npy", "bare.npy", os.path.join("scans", "a.obj"), "scans"):
+            with self.subTest(target):
+                rows, report = self.solved(path(target), "--mesh", mesh)
+                self.assertEqual(len(rows), 2 if target == "scans" else 1)
+                for row in rows:
+                    self.compare(row, POSE, 0.01, report["unobservable"])
+                self.assertLess(report["residual"]["worst"], 0.01)  # cm
+
+    def test_a_posed_glb(self):
+        mesh, _ = self.obj({})
+        self.ok("export", path(HEAD), "-o", path("shapes.glb"), "--bake", "arkit")
+        rows, report = self.solved(path("shapes.glb"), "--mesh", mesh)
+        names = [frame["name"] for frame in report["by_frame"]]
+        self.assertEqual(len(rows), len(names))
+        self.compare(rows[names.index("jawOpen")], {"jawOpen": 1}, 0.02, report["unobservable"])
+
+    def test_controls_of_another_rig(self):
+        poses = motion(4)
+        for target in ("take.json", "take.clip"):
+            with self.subTest(target):
+                write("take.json", json.dumps({"rate": 24, "frames": [{"raw": pose} for pose in poses]}))
+                if target == "take.clip":
+                    self.ok("clip", "build", path("take.json"), "-o", path("take.clip"))
+                rows, report = self.solved(path(target), "--from", path(HEAD))
+                self.assertEqual(json.loads(read("out.json"))["rate"], 24)
+                for row, pose in zip(rows, poses):
+                    self.compare(row, pose, 0.01, report["unobservable"])
+
+    def landmarks(self, poses, columns):
+        """CSV of every 40th position, by `columns` of a position, at 25 frames per second."""
+        lines, numbers = [], None
+        for f, pose in enumerate(poses):
+            mesh, points = self.obj(pose)
+            numbers = range(0, len(points), 40)
+            lines.append(",".join(["%.3f" % (f / 25)] + ["%.6f" % x for i in numbers for x in columns(points[i])]))
+        axes = "xyz"[:len(columns((0, 0, 0)))]
+        header = ["time"] + [f"p{i}.{axis}" for i in numbers for axis in axes]
+        write("landmarks.csv", "\n".join([",".join(header)] + lines) + "\n")
+        return {"mesh": mesh, "points": {f"p{i}": i for i in numbers}}
+
+    def test_landmarks_in_space(self):
+        poses = motion(3)
+        places = self.landmarks(poses, lambda p: p)
+        name, first = next(iter(places["points"].items()))
+        places["points"][name] = {"positions": [first, first, first], "weights": [0.5, 0.25, 0.25]}
+        write("points.json", json.dumps(places))
+        rows, report = self.solved(path("landmarks.csv"), "--landmarks", path("points.json"))
+        self.assertEqual(json.loads(read("out.json"))["rate"], 25)
+        for row, pose in zip(rows, poses):
+            self.compare(row, pose, 0.03, report["unobservable"])
+        # Missing ones, and a frame without any.
+        lines = read("landmarks.csv").decode().splitlines()
+        cells = lines[2].split(",")
+        cells[4:7] = ["", "", ""]
+        lines[2] = ",".join(cells)
+        lines[3] = lines[3].split(",")[0] + "," * (len(cells) - 1)
+        write("gaps.csv", "\n".join(lines))
+        rows, report = self.solved(path("gaps.csv"), "--landmarks", path("points.json"))
+        self.compare(rows[1], poses[1], 0.03, report["unobservable"])
+        self.assertEqual(report["by_frame"][2]["status"], "no data")
+        self.assertEqual(rows[2], rows[1])
+        # Moved as a whole.
+        write("moved.csv", "\n".join(
+            line if f == 0 else ",".join(cell if c % 3 or c == 0 else "%.6f" % (float(cell) + 7)
+                                         for c, cell in enumerate(line.split(",")))
+            for f, line in enumerate(read("landmarks.csv").decode().splitlines())))
+        rows, report = self.solved(path("moved.csv"), "--landmarks", path("points.json"), "--rigid")
+        self.compare(rows[-1], poses[-1], 0.03, report["unobservable"])
+        self.assertAlmostEqual(report["by_frame"][-1]["translation"][2], 7, delta=0.05)
+
+    def test_landmarks_in_images(self):
+        focal, away = 2000.0, 120.0
+
+        def seen(p):  # x to the right of the image, y down
+            return focal * p[0] / (away - p[2]) + 500, -focal * p[1] / (away - p[2]) + 400
+        poses = [{"jawOpen": 0.6}, {"jawOpen": 0.3}]
+        places = self.landmarks(poses, seen)
+        places["camera"] = {"focal": [focal, focal], "center": [500, 400],
+                            "rotation": [1, 0, 0, 0, -1, 0, 0, 0, -1], "translation": [0, 0, away]}
+        write("points.json", json.dumps(places))
+        rows, report = self.solved(path("landmarks.csv"), "--landmarks", path("points.json"), "--sparse", "0.01")
+        for row, pose in zip(rows, poses):
+            self.assertAlmostEqual(row["jawOpen"], pose["jawOpen"], delta=0.03)
+        self.assertLess(report["residual"]["worst"], 1)  # pixel
+        del places["camera"]
+        write("points.json", json.dumps(places))
+        self.fails(INVALID, "solve", path(HEAD), path("landmarks.csv"), "--landmarks", path("points.json"),
+                   "-o", path("no.json"), says="camera")
+
+
+class Options(SolveTest):
+    def test_keys_are_within_their_tolerance(self):
+        write("take.json", json.dumps({"rate": 30, "frames": [{"raw": pose} for pose in motion(40)]}))
+        from_head = path("take.json"), "--from", path(HEAD)
+        rows, _ = self.solved(*from_head)
+        reduced, report = self.solved(*from_head, "--keys", "0.02")
+        document = json.loads(read("out.json"))
+        self.assertEqual(sum(map(len, document["keys"].values())), report["keys"])
+        self.assertLess(report["keys"], len(rows) * len(rows[0]) / 4)
+        for before, after in zip(rows, reduced):
+            self.compare(after, before, 0.02 + 1e-5)
+        jaw = next(keys for name, keys in document["keys"].items() if name.endswith("jawOpen"))
+        self.assertEqual([jaw[0], jaw[-1]], [0, 39])
+        # What it writes is what other commands take.
+        self.ok("eval", path(HEAD), "--input", path("out.json"), "-o", path("eval.json"))
+        self.ok("solve", path(HEAD), *from_head, "--keys", "0.02", "-o", path("out.clip"), "-q")
+        self.ok("clip", "export", path("out.clip"), "-o", path("back.json"))
+        frames = json.loads(read("back.json"))["frames"]
+        self.assertEqual(len(frames), 40)
+        self.assertAlmostEqual(next(v for name, v in frames[7]["raw"].items() if name.endswith("jawOpen")),
+                               reduced[7]["jawOpen"], delta=1e-6)
+
+    def test_only_some_controls_move(self):
+        mesh, points = self.obj(POSE)
+        write("one.npy", npy((len(points), 3), [x for point in points for x in point]))
+        rows, _ = self.solved(path("one.npy"), "--mesh", mesh, "--controls", "jaw*,browInnerUp")
+        moved = {name for name, value in rows[0].items() if value != 0}
+        self.assertTrue({"jawOpen", "browInnerUp"} <= moved, moved)
+        self.assertTrue(all(name.startswith(("jaw", "browInnerUp")) for name in moved), moved)
+        self.fails(INVALID, "solve", path(HEAD), path("one.npy"), "-o", path("no.json"),
+                   "--controls", "jawOpen,nothing", says="nothing")
+
+    def test_sparse_and_smooth_solves_move_less(self):
+        poses = motion(6)
+        write("take.json", frames_of(poses))
+        from_head = path("take.json"), "--from", path(HEAD)
+        rows, _ = self.solved(*from_head)
+        sparse, _ = self.solved(*from_head, "--sparse", "0.01")
+        self.assertLess(sum(sparse[3].values()), sum(rows[3].values()))
+        smooth, _ = self.solved(*from_head, "--smooth", "1")
+        travel = [sum(abs(b["jawOpen"] - a["jawOpen"]) for a, b in zip(take, take[1:])) for take in (rows, smooth)]
+        self.assertLess(travel[1], 0.8 * travel[0])
+
+    def test_images(self):
+        write("take.json", frames_of(motion(3)))
+        self.ok("solve", path(HEAD), path("take.json"), "--from", path(HEAD), "-o", path("out.json"),
+                "--pictures", path("images"), "-q")
+        self.addCleanup(shutil.rmtree, path("images"))
+        self.assertEqual(os.listdir(path("images")), ["solve.png"])
+        image = Picture(read(os.path.join("images", "solve.png")))
+        self.assertGreater(image.width, 3 * 320)
+        self.assertGreater(image.height, 3 * 360)
+        joints = self.joints(TINY, [{}])
+        self.ok("solve", path(TINY), joints, "--kind", "joints", "-o", path("out.json"), "--pictures",
+                path("images"), "-q")
+
+    def test_results_repeat(self):
+        write("take.json", frames_of(motion(4)))
+        outputs = []
+        for name in ("first.clip", "second.clip"):
+            self.ok("solve", path(HEAD), path("take.json"), "--from", path(HEAD), "-o", path(name), "-q")
+            outputs.append(read(name))
+        self.assertEqual(*outputs)
+
+    def test_interrupts_leave_nothing(self):
+        pipe = path("pipe.json")
+        os.mkfifo(pipe)
+        self.addCleanup(os.remove, pipe)
+        before = sorted(os.listdir(program.folder))
+        process = subprocess.Popen([program.mien, "solve", path(HEAD), pipe, "--from", path(HEAD), "-o",
+                                    path("no.clip"), "--report", path("no.json"), "--pictures", path("none")])
+        with open(pipe, "wb"):  # once it reads
+            process.send_signal(signal.SIGINT)
+            self.assertEqual(process.wait(60), 130)
+        self.assertEqual(sorted(os.listdir(program.folder)), before)
+
+
+class Refusals(SolveTest):
+    def refuse(self, target, says, *options, code=INVALID, rig=TINY):
+        self.fails(code, "solve", path(rig), target, "-o", path("no.json"), "-q", *options, says=says)
+
+    def test_arrays_of_wrong_shapes_and_numbers(self):
+        self.joints(TINY, [{}, {}])
+        count = len(self.names(TINY, "joints"))
+        for shape, says in (((2, count + 1, 9), f"2 x {count + 1} x 9"), ((0, count, 9), "no frames"),
+                            ((2, count, 10), "x 10"), ((9,), "its shape is 9"), ((), "one number")):
+            numbers = [0.0] * math.prod(shape)
+            self.refuse(write("wrong.npy", npy(shape, numbers)), says, "--kind", "joints")
+        for value in (math.nan, math.inf):
+            self.refuse(write("wrong.npy", npy((1, count, 9), [value] * 9 * count)), "not finite", "--kind",
+                        "joints")
+        good = npy((1, count, 9), [0.0] * 9 * count)
+        for end in (0, 5, 11, 60, len(good) - 1):
+            self.refuse(write("wrong.npy", good[:end]), "NPY", "--kind", "joints")
+        self.refuse(write("wrong.npy", npy((1, 5, 3), [0.0] * 15)), "x 3")
+        self.refuse(path("none.npy"), "none.npy", "--kind", "joints", code=FILE)
+
+    def test_meshes_that_do_not_fit(self):
+        self.refuse(write("wrong.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), "3 positions", rig=HEAD)
+        os.makedirs(path("empty"), exist_ok=True)
+        self.addCleanup(os.rmdir, path("empty"))
+        self.refuse(path("empty"), "no .obj", rig=HEAD)
+        self.refuse(write("wrong.obj", "v nan 0 0\n"), "line 1", rig=HEAD)
+        self.refuse(write("wrong.glb", b"glTF" + bytes(40)), "wrong.glb", rig=HEAD)
+        self.refuse(path("wrong.obj"), "no mesh is named", "--mesh", "nose", rig=HEAD)
+
+    def test_controls_that_do_not_fit(self):
+        self.refuse(write("take.json", '{"frames": []}'), "no frames", "--from", path(HEAD), rig=HEAD)
+        self.refuse(write("take.json", frames_of([{"nothing": 1}])), "nothing", "--from", path(HEAD), rig=HEAD)
+        self.refuse(write("take.json", '{"frames": [{"raw": [NaN]}]}'), "take.json", "--from", path(HEAD), rig=HEAD)
+        self.refuse(write("take.json", frames_of([{}])), "topology", "--from", path(TINY), rig=HEAD)
+        self.refuse(write("take.clip", b"clip"), "take.clip", "--from", path(HEAD), rig=HEAD)
+
+    def test_landmarks_that_do_not_fit(self):
+        def refuse(table, places, says):
+            options = ["--landmarks", write("wrong.points.json", places)] if places else []
+            self.refuse(write("wrong.csv", table), says, *options, rig=HEAD)
+        good = "time,a.x,a.y,a.z\n0,1,2,3\n"
+        refuse("", "", "empty")
+        refuse("time\n0\n", "", "no landmarks")
+        refuse("time,a.x,a.y,a.z\n0,1,2,nan\n", '{"points": {"a": 0}}', "nan")
+        refuse("time,a.x,a.z,a.y\n0,1,2,3\n", '{"points": {"a": 0}}', "column 3")
+        refuse("time,a.x,a.y,a.z,b.x\n0,1,2,3,4\n", '{"points": {"a": 0, "b": 1}}', "b.y")
+        refuse(good, "", "--landmarks")
+        refuse(good, '{"points": {"b": 0}}', "no point is named")
+        refuse(good, '{"points": {"a": 999999999}}', "999999999")
+        refuse(good, '{"points": {"a": -1}}', "whole number")
+        refuse(good, '{"points": {"a": {"positions": [1, 2]}}}', "three")
+        refuse(good, '{"points": {"a": {"positions": [1, 2, 3], "weights": [1, 0, "x"]}}}', "weights")
+        refuse(good, '{"points": {"a": 0}, "camera": {"focal": [0, 1], "center": [0, 0]}}', "focal")
+        refuse(good, '{"point": {"a": 0}}', "points")
+        refuse(good, '{"points": ', "byte")
+        refuse("time,999999999.x,999999999.y,999999999.z\n0,1,2,3\n", "", "999999999")
+
+    def test_wrong_usage(self):
+        take = write("take.json", frames_of([{}]))
+        self.refuse(take, "--from", code=USAGE)
+        self.refuse(take, "--from", "--kind", "weights", code=USAGE)
+        self.refuse(take, "--kind", "--kind", "vertex", code=USAGE)
+        self.refuse(write("a.npy", b""), "--from", "--kind", "joints", "--from", path(TINY), code=USAGE)
+        self.refuse(take, "--keys", "--from", path(TINY), "--keys", "-1", code=USAGE)
+        self.refuse(take, "--smooth", "--from", path(TINY), "--smooth", "nan", code=USAGE)
+        self.refuse(take, "--rate", "--from", path(TINY), "--rate", "0", code=USAGE)
+        self.refuse(take, "--rigid", "--kind", "joints", "--rigid", code=USAGE)
+        self.refuse(take, "--landmarks", "--from", path(TINY), "--landmarks", take, code=USAGE)
+        self.fails(USAGE, "solve", path(TINY), take, "--from", path(TINY), "-o", path("no.glb"), says=".clip")
+        self.fails(FILE, "solve", path(TINY), take, "--from", path(TINY), "-o", path("none/no.json"), says="none")
+        self.fails(INVALID, "solve", take, take, "--from", path(TINY), "-o", path("no.json"), says="take.json")
+
+
+if __name__ == "__main__":
+    main()
