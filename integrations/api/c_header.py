@@ -17,9 +17,9 @@ POINTER_SIZES = {"LP64": 8, "ILP32": 4}
 
 # Macros for compilers, not for bindings.
 MACROS = ("MIEN_API", "MIEN_CHECKED", "MIEN_CALLBACK", "MIEN_ZERO", "MIEN_AUTHOR_API",
-          "MIEN_AUTHOR_CHECKED")
-API = ("MIEN_API", "MIEN_AUTHOR_API")
-CHECKED = ("MIEN_CHECKED", "MIEN_AUTHOR_CHECKED")
+          "MIEN_AUTHOR_CHECKED", "MIEN_SOLVE_API", "MIEN_SOLVE_CHECKED")
+API = ("MIEN_API", "MIEN_AUTHOR_API", "MIEN_SOLVE_API")
+CHECKED = ("MIEN_CHECKED", "MIEN_AUTHOR_CHECKED", "MIEN_SOLVE_CHECKED")
 
 TOKEN = re.compile(
     r"(?P<comment>/\*.*?\*/)|(?P<directive>^[ \t]*\#(?:[^\n\\]|\\.|\\\n)*)|(?P<space>\s+)"

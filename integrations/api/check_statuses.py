@@ -34,6 +34,7 @@ NEVER = {
 def functions_in(text):
     """{name: body} of the definitions in a file, without comments and strings."""
     text = re.sub(r'//[^\n]*|"(?:[^"\\\n]|\\.)*"', "", text)
+    text = re.sub(r"static_cast<void>\(\s*\w+\(", "", text)  # whatever it returns goes no farther
     found = {}
     for match in DEFINITION.finditer(text):
         depth, end = 1, match.end()
@@ -96,7 +97,7 @@ def main():
         self_test()
     api = json.loads((HERE / "mien_api.json").read_text(encoding="utf-8"))
     bodies = {}
-    for file in (file for folder in (ROOT / "capi", ROOT / "capi" / "arguments", ROOT / "author" / "capi")
+    for file in (file for folder in (ROOT / "capi", ROOT / "capi" / "arguments", ROOT / "author" / "capi", ROOT / "solve")
                  for pattern in ("*.cpp", "*.h") for file in sorted(folder.glob(pattern))):
         for name, body in functions_in(file.read_text(encoding="utf-8")).items():
             bodies[name] = bodies.get(name, "") + body

@@ -21,7 +21,8 @@ ROOT = HERE.parent.parent
 HEADERS = ROOT / "capi" / "include"
 # Library, its header, its linker script. A header knows the types of those before it.
 LIBRARIES = (("mien", "mien.h", ROOT / "capi" / "mien.map"),
-             ("mien-author", "mien_author.h", ROOT / "author" / "mien_author.map"))
+             ("mien-author", "mien_author.h", ROOT / "author" / "mien_author.map"),
+             ("mien-solve", "mien_solve.h", ROOT / "solve" / "mien_solve.map"))
 OUTPUT = HERE / "mien_api.json"
 
 
@@ -35,7 +36,7 @@ def read(change=lambda name, text: text):
     Conventions(interface, maps)
     version = ".".join(str(interface.values[f"MIEN_VERSION_{part}"])
                        for part in ("MAJOR", "MINOR", "PATCH"))
-    headers = " and ".join(f"capi/include/{header}" for _, header, _ in LIBRARIES)
+    headers = ", ".join(f"capi/include/{header}" for _, header, _ in LIBRARIES)
     return {
         "made_by": f"integrations/api/dump_api.py from {headers}",
         "version": version, "data_model": "LP64", "libraries": interface.libraries,

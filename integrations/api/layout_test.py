@@ -41,7 +41,7 @@ def main():
     bits = "_32" if arguments[:1] == ["--32"] else ""
     compiler = arguments[1:] if bits else arguments
     api = json.loads((HERE / "mien_api.json").read_text(encoding="utf-8"))
-    lines = ["#include <mien_author.h>"]
+    lines = ["#include <mien_author.h>", "#include <mien_solve.h>"]
     lines += [f'_Static_assert({expression} == {value}, "{expression} is not {value}");'
               for expression, value in claims(api, bits)]
     with tempfile.TemporaryDirectory() as directory:
@@ -51,7 +51,7 @@ def main():
                               "-fsyntax-only", f"-I{HERE.parent.parent / 'capi' / 'include'}"]
         if subprocess.run(command + [source]).returncode:
             sys.exit("mien_api.json has other sizes, offsets or values than the compiler")
-    print(f"the compiler agrees with {len(lines) - 1} sizes, offsets and values")
+    print(f"the compiler agrees with {len(lines) - 2} sizes, offsets and values")
 
 
 if __name__ == "__main__":

@@ -7,7 +7,7 @@
 
     build_addon.py [--library FILE] [--output DIRECTORY]
 
-libmien is --library, or the file named in MIEN_LIBRARY, or that of build/release; libmien-author lies beside it. Needs
+libmien is --library, or the file named in MIEN_LIBRARY, or that of build/release; the other libraries lie beside it. Needs
 the standard library of Python 3.9 only.
 """
 import argparse
@@ -124,7 +124,7 @@ def build(output, library=None):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--library", help="libmien to put into it, with libmien-author beside it")
+    parser.add_argument("--library", help="libmien to put into it, with the other libraries beside it")
     parser.add_argument("--output", default=".", help="directory; default: this one")
     args = parser.parse_args()
     for file in build(args.output, args.library):

@@ -6,7 +6,7 @@ they are. Needs the standard library of Python 3.9 only, and no network.
     build_wheel.py [--library FILE] [--platform TAG] [--output DIRECTORY]
 
 It is also the build backend that pyproject.toml names (PEP 517). libmien is --library, or the file
-named in MIEN_LIBRARY, or that of build/release in the source tree; libmien-author lies beside it.
+named in MIEN_LIBRARY, or that of build/release in the source tree; libmien-author and libmien-solve lie beside it.
 """
 import argparse
 import base64
@@ -53,10 +53,11 @@ def metadata():
 
 
 def library_files(given=None):
-    """(name in the package, file) of both libraries."""
+    """(name in the package, file) of all libraries."""
     mien = Path(given or os.environ.get("MIEN_LIBRARY") or ROOT / "build/release/lib/libmien.so")
     files = []
-    for stem, found in (("mien", mien), ("mien-author", mien.parent / built_name("mien-author"))):
+    for stem, found in (("mien", mien), ("mien-author", mien.parent / built_name("mien-author")),
+                        ("mien-solve", mien.parent / built_name("mien-solve"))):
         if not found.exists():
             sys.exit(f"no library at {found}: build it (./dev build), or name libmien in "
                      "MIEN_LIBRARY")
@@ -69,7 +70,7 @@ def built_name(stem):
 
 
 def packaged_name(stem):
-    """The name by which libmien-author asks for libmien."""
+    """The name by which the other libraries ask for libmien."""
     return {"win32": f"{stem}.dll", "darwin": f"lib{stem}.0.dylib"}.get(sys.platform,
                                                                        f"lib{stem}.so.0")
 
@@ -147,7 +148,7 @@ def build_sdist(sdist_directory, config_settings=None):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--library", help="libmien to put into it, with libmien-author beside it")
+    parser.add_argument("--library", help="libmien to put into it, with the other libraries beside it")
     parser.add_argument("--platform", help="platform tag; default: that of the libraries")
     parser.add_argument("--output", default=".", help="directory; default: this one")
     args = parser.parse_args()

@@ -273,7 +273,8 @@ def write_statuses(api):
 
 
 # Library, its class, its table.
-LIBRARIES = (("mien", "Library", "FUNCTIONS"), ("mien-author", "AuthorLibrary", "AUTHOR_FUNCTIONS"))
+LIBRARIES = (("mien", "Library", "FUNCTIONS"), ("mien-author", "AuthorLibrary", "AUTHOR_FUNCTIONS"),
+             ("mien-solve", "SolveLibrary", "SOLVE_FUNCTIONS"))
 
 
 def write_functions(functions, library, class_name, table):

@@ -582,6 +582,20 @@ namespace Mien {
     /// <summary>the nearest point in the texture</summary>
     Uv = 1,
   }
+
+  /// <summary>Why a solve ended.</summary>
+  public enum FitStatus : uint {
+    /// <summary>further steps change nothing</summary>
+    Converged = 0,
+    /// <summary>the limit of iterations was reached; the best controls so far</summary>
+    Iterations = 1,
+    /// <summary>the limit of time was reached; likewise</summary>
+    Time = 2,
+    /// <summary>the caller asked to stop; likewise</summary>
+    Canceled = 3,
+    /// <summary>no target, or all are missing; the start is returned</summary>
+    NoData = 4,
+  }
 }
 
 namespace Mien.Native {
@@ -701,6 +715,11 @@ namespace Mien.Native {
       new[] { sizeof(MienConformed), 24 },
       new[] { sizeof(MienTransplantDesc), 16 },
       new[] { sizeof(MienControlError), 32 },
+      new[] { sizeof(MienSolvePoint), 28 },
+      new[] { sizeof(MienFitDesc), 104 },
+      new[] { sizeof(MienFitCamera), 64 },
+      new[] { sizeof(MienFitFrame), 120 },
+      new[] { sizeof(MienFitResult), 112 },
     };
   }
 
@@ -2555,6 +2574,137 @@ namespace Mien.Native {
     public uint Reserved;
   }
 
+  /// <summary>A point of a surface: the weighted sum of three positions of a mesh. One position: weights 1 0 0.</summary>
+  [StructLayout(LayoutKind.Sequential)]
+  public unsafe struct MienSolvePoint {
+    /// <summary>the same for all points of a fit</summary>
+    public uint Mesh;
+    /// <summary>in the order of the file</summary>
+    public fixed uint Positions[3];
+    public fixed float Weights[3];
+  }
+
+  /// <summary>How to create a fit. Everything is copied.</summary>
+  [StructLayout(LayoutKind.Sequential)]
+  public unsafe struct MienFitDesc {
+    public UIntPtr StructSize;
+    /// <summary>of the rig; needed for points. NULL: joints only</summary>
+    public IntPtr Deformer;
+    /// <summary>raw controls that may move, ascending. NULL: all</summary>
+    public uint* Controls;
+    /// <summary>bounds of these controls. NULL: 0</summary>
+    public float* Lower;
+    /// <summary>NULL: 1</summary>
+    public float* Upper;
+    /// <summary>pairs of raw controls kept similar: left, right, left, ...</summary>
+    public uint* Symmetric;
+    public MienSolvePoint* Points;
+    /// <summary>per joint value, 0 or more. NULL: 1 each, or 0 if there are points</summary>
+    public float* JointWeights;
+    /// <summary>0 if `controls` is NULL</summary>
+    public UIntPtr ControlCount;
+    /// <summary>elements of `symmetric`, an even number</summary>
+    public UIntPtr SymmetricCount;
+    public UIntPtr PointCount;
+    public uint Lod;
+    /// <summary>0</summary>
+    public uint Reserved;
+    /// <summary>NULL: the heap</summary>
+    public MienAllocator* Allocator;
+
+    /// <summary>All fields zero but StructSize.</summary>
+    public static MienFitDesc Create() {
+      return new MienFitDesc { StructSize = (UIntPtr)sizeof(MienFitDesc) };
+    }
+  }
+
+  /// <summary>A pinhole camera: image x = focal[0] * x / z + center[0], and y likewise, for the point x y z in camera
+  /// space, after `rotation` and `translation`. z grows in front of the camera.</summary>
+  [StructLayout(LayoutKind.Sequential)]
+  public unsafe struct MienFitCamera {
+    public fixed float Focal[2];
+    public fixed float Center[2];
+    /// <summary>rows, from model space</summary>
+    public fixed float Rotation[9];
+    public fixed float Translation[3];
+  }
+
+  /// <summary>The targets of one frame, and the weights of the terms; terms of weight 0 are left out.</summary>
+  [StructLayout(LayoutKind.Sequential)]
+  public unsafe struct MienFitFrame {
+    public UIntPtr StructSize;
+    /// <summary>joint values. NULL: none. NaN: missing</summary>
+    public float* Joints;
+    /// <summary>x y z per point. NULL: none. NaN: missing</summary>
+    public float* Points;
+    /// <summary>x y per point, as `camera` sees them. NULL: none. NaN: missing</summary>
+    public float* Images;
+    /// <summary>required with `images`</summary>
+    public MienFitCamera* Camera;
+    /// <summary>per point, 0 or more. NULL: 1</summary>
+    public float* PointWeights;
+    /// <summary>all raw controls of the rig, to start from. NULL: the initial ones</summary>
+    public float* Start;
+    /// <summary>raw controls that the result is drawn to. NULL: the initial ones</summary>
+    public float* Prior;
+    /// <summary>times the squared distance to `prior`</summary>
+    public float PriorWeight;
+    /// <summary>times the squared distance to `start`, the previous frame</summary>
+    public float SmoothWeight;
+    /// <summary>times the sum of magnitudes: few controls explain the frame</summary>
+    public float SparseWeight;
+    /// <summary>times the squared differences of symmetric pairs</summary>
+    public float SymmetricWeight;
+    /// <summary>points farther off than this count less. 0: all count fully</summary>
+    public float RobustScale;
+    /// <summary>weight of the joints relative to the points. 0: 1</summary>
+    public float JointWeight;
+    /// <summary>the targets may be rotated and translated as a whole</summary>
+    public uint Rigid;
+    /// <summary>0: 50</summary>
+    public uint MaxIterations;
+    /// <summary>0: no limit. A limit makes results depend on the machine</summary>
+    public double MaxSeconds;
+    /// <summary>passed to `canceled`</summary>
+    public void* User;
+    /// <summary>Called before each iteration; a nonzero result stops. NULL: never.</summary>
+    public IntPtr Canceled;
+
+    /// <summary>All fields zero but StructSize.</summary>
+    public static MienFitFrame Create() {
+      return new MienFitFrame { StructSize = (UIntPtr)sizeof(MienFitFrame) };
+    }
+  }
+
+  /// <summary>The result of a solve.</summary>
+  [StructLayout(LayoutKind.Sequential)]
+  public unsafe struct MienFitResult {
+    public UIntPtr StructSize;
+    /// <summary>MIEN_FIT_...</summary>
+    public FitStatus Status;
+    public uint Iterations;
+    /// <summary>the minimized sum, with all terms</summary>
+    public double Cost;
+    /// <summary>weighted root mean square of the differences of joint values</summary>
+    public double JointResidual;
+    /// <summary>the same for points, or for image points in their unit</summary>
+    public double PointResidual;
+    public uint MissingPoints;
+    public uint Reserved;
+    /// <summary>rows: points of the target = rotation * model + translation, if rigid</summary>
+    public fixed float Rotation[9];
+    public fixed float Translation[3];
+    /// <summary>largest difference of a joint value that counts</summary>
+    public double JointWorst;
+    /// <summary>largest distance of a point that counts</summary>
+    public double PointWorst;
+
+    /// <summary>All fields zero but StructSize.</summary>
+    public static MienFitResult Create() {
+      return new MienFitResult { StructSize = (UIntPtr)sizeof(MienFitResult) };
+    }
+  }
+
   /// <summary>A checked, read-only view of a DNA file. Immutable.</summary>
   public sealed class DnaHandle : Handle {
     /// <summary>For parameters that may be NULL.</summary>
@@ -2788,6 +2938,17 @@ namespace Mien.Native {
     internal DocumentHandle(IntPtr taken, params Handle[] kept) : base(taken, kept) { }
 
     protected override void Destroy(IntPtr taken) { Functions.mien_document_destroy(taken); }
+  }
+
+  /// <summary>One rig, the joints and points to match, and the memory to solve. Belongs to one thread at a time; use
+  /// one for each thread.</summary>
+  public sealed class FitHandle : Handle {
+    /// <summary>For parameters that may be NULL.</summary>
+    public static readonly FitHandle Null = new FitHandle(IntPtr.Zero);
+
+    internal FitHandle(IntPtr taken, params Handle[] kept) : base(taken, kept) { }
+
+    protected override void Destroy(IntPtr taken) { Functions.mien_fit_destroy(taken); }
   }
 
   /// <summary>The C functions.</summary>
@@ -4482,5 +4643,42 @@ namespace Mien.Native {
     /// Fails with MIEN_ERROR_DNA_LIMIT if the file would exceed 4 GiB.</summary>
     [DllImport("mien-author", CallingConvention = CallingConvention.Cdecl)]
     public static extern Status mien_document_validate(DocumentHandle document, MienValidateDesc* desc, out IntPtr out_report, MienError* error);
+
+    /// <summary>Creates a fit. `desc` is required. `rig` must outlive the fit; the deformer may be destroyed. Measures
+    /// the effect of each control, which takes up to some seconds for large rigs. Destroy with
+    /// mien_fit_destroy().
+    /// Fails with MIEN_ERROR_INDEX if a control, position or mesh does not exist, MIEN_ERROR_LOD if the rig has no
+    /// such LOD, MIEN_ERROR_MISMATCH if the deformer belongs to another rig, MIEN_ERROR_INVALID_ARGUMENT if controls are
+    /// not ascending, a lower bound is above its upper one, a weight is not finite, or points are on several
+    /// meshes.</summary>
+    [DllImport("mien-solve", CallingConvention = CallingConvention.Cdecl)]
+    public static extern Status mien_fit_create(RigHandle rig, MienFitDesc* desc, out IntPtr out_fit, MienError* error);
+
+    /// <summary>Destroys a fit. NULL is allowed.</summary>
+    [DllImport("mien-solve", CallingConvention = CallingConvention.Cdecl)]
+    public static extern void mien_fit_destroy(IntPtr fit);
+
+    /// <summary>Finds the raw controls of a frame by bounded Gauss-Newton steps with Levenberg-Marquardt damping. Writes
+    /// all raw controls of the rig to `out_raw`; those that may not move keep their values of `start`. `result`
+    /// may be NULL. Deterministic unless there is a time limit. Does not allocate or lock.
+    /// Fails with MIEN_ERROR_NULL_ARGUMENT if points are given to a fit without points, or images without a
+    /// camera, MIEN_ERROR_INVALID_ARGUMENT if a weight is negative or not finite.</summary>
+    [DllImport("mien-solve", CallingConvention = CallingConvention.Cdecl)]
+    public static extern Status mien_fit_solve(FitHandle fit, MienFitFrame* frame, float* out_raw, MienFitResult* result);
+
+    /// <summary>Writes for each raw control how well the data determines it at the initial pose: 0 if it moves nothing
+    /// that has a target, or if other controls have the same effect; up to 1 for the best determined one.
+    /// `count` is the number of raw controls.
+    /// Fails with MIEN_ERROR_INVALID_ARGUMENT if `count` is another number.</summary>
+    [DllImport("mien-solve", CallingConvention = CallingConvention.Cdecl)]
+    public static extern Status mien_fit_observability(FitHandle fit, float* out_values, UIntPtr count);
+
+    /// <summary>Chooses keys of a curve: straight lines between them are within `tolerance` of all values. `out_keys` gets
+    /// the frame numbers, ascending, the first and the last frame among them; `out_key_count` gets how many. `count`
+    /// is the number of values and the capacity of `out_keys`.
+    /// Fails with MIEN_ERROR_INVALID_ARGUMENT if a value is not finite, or the tolerance is negative or not
+    /// finite.</summary>
+    [DllImport("mien-solve", CallingConvention = CallingConvention.Cdecl)]
+    public static extern Status mien_fit_keys(float* values, UIntPtr count, float tolerance, uint* out_keys, UIntPtr* out_key_count);
   }
 }

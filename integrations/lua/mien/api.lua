@@ -25,6 +25,7 @@ typedef struct MienSolverStack MienSolverStack;
 typedef struct MienSolverState MienSolverState;
 typedef struct MienAuthorReport MienAuthorReport;
 typedef struct MienDocument MienDocument;
+typedef struct MienFit MienFit;
 typedef void (*MienTask)(void* context, uint32_t index);
 
 /* Details of a failure, owned by the caller. A call that fails fills all fields; a call that succeeds
@@ -1066,6 +1067,79 @@ typedef struct MienControlError {
     uint32_t control; /* its index in the new rig */
     uint32_t reserved;
 } MienControlError;
+
+/* A point of a surface: the weighted sum of three positions of a mesh. One position: weights 1 0 0. */
+typedef struct MienSolvePoint {
+    uint32_t mesh; /* the same for all points of a fit */
+    uint32_t positions[3]; /* in the order of the file */
+    float weights[3];
+} MienSolvePoint;
+
+/* How to create a fit. Everything is copied. */
+typedef struct MienFitDesc {
+    size_t struct_size;
+    MienDeformer const* deformer; /* of the rig; needed for points. NULL: joints only */
+    uint32_t const* controls; /* raw controls that may move, ascending. NULL: all */
+    float const* lower; /* bounds of these controls. NULL: 0 */
+    float const* upper; /* NULL: 1 */
+    uint32_t const* symmetric; /* pairs of raw controls kept similar: left, right, left, ... */
+    MienSolvePoint const* points;
+    float const* joint_weights; /* per joint value, 0 or more. NULL: 1 each, or 0 if there are points */
+    size_t control_count; /* 0 if `controls` is NULL */
+    size_t symmetric_count; /* elements of `symmetric`, an even number */
+    size_t point_count;
+    uint32_t lod;
+    uint32_t reserved; /* 0 */
+    MienAllocator const* allocator; /* NULL: the heap */
+} MienFitDesc;
+
+/* A pinhole camera: image x = focal[0] * x / z + center[0], and y likewise, for the point x y z in camera
+space, after `rotation` and `translation`. z grows in front of the camera. */
+typedef struct MienFitCamera {
+    float focal[2];
+    float center[2];
+    float rotation[9]; /* rows, from model space */
+    float translation[3];
+} MienFitCamera;
+
+/* The targets of one frame, and the weights of the terms; terms of weight 0 are left out. */
+typedef struct MienFitFrame {
+    size_t struct_size;
+    float const* joints; /* joint values. NULL: none. NaN: missing */
+    float const* points; /* x y z per point. NULL: none. NaN: missing */
+    float const* images; /* x y per point, as `camera` sees them. NULL: none. NaN: missing */
+    MienFitCamera const* camera; /* required with `images` */
+    float const* point_weights; /* per point, 0 or more. NULL: 1 */
+    float const* start; /* all raw controls of the rig, to start from. NULL: the initial ones */
+    float const* prior; /* raw controls that the result is drawn to. NULL: the initial ones */
+    float prior_weight; /* times the squared distance to `prior` */
+    float smooth_weight; /* times the squared distance to `start`, the previous frame */
+    float sparse_weight; /* times the sum of magnitudes: few controls explain the frame */
+    float symmetric_weight; /* times the squared differences of symmetric pairs */
+    float robust_scale; /* points farther off than this count less. 0: all count fully */
+    float joint_weight; /* weight of the joints relative to the points. 0: 1 */
+    uint32_t rigid; /* the targets may be rotated and translated as a whole */
+    uint32_t max_iterations; /* 0: 50 */
+    double max_seconds; /* 0: no limit. A limit makes results depend on the machine */
+    void* user; /* passed to `canceled` */
+    uint32_t (*canceled)(void* user); /* Called before each iteration; a nonzero result stops. NULL: never. */
+} MienFitFrame;
+
+/* The result of a solve. */
+typedef struct MienFitResult {
+    size_t struct_size;
+    uint32_t status; /* MIEN_FIT_... */
+    uint32_t iterations;
+    double cost; /* the minimized sum, with all terms */
+    double joint_residual; /* weighted root mean square of the differences of joint values */
+    double point_residual; /* the same for points, or for image points in their unit */
+    uint32_t missing_points;
+    uint32_t reserved;
+    float rotation[9]; /* rows: points of the target = rotation * model + translation, if rigid */
+    float translation[3];
+    double joint_worst; /* largest difference of a joint value that counts */
+    double point_worst; /* largest distance of a point that counts */
+} MienFitResult;
 ]]
 
 ffi.cdef [[
@@ -2524,6 +2598,38 @@ MienStatus mien_document_to_dna(MienDocument const* document, MienDocumentDesc c
 Destroy with mien_report_destroy().
 Fails with MIEN_ERROR_DNA_LIMIT if the file would exceed 4 GiB. */
 MienStatus mien_document_validate(MienDocument const* document, MienValidateDesc const* desc, MienReport** out_report, MienError* error);
+
+/* Creates a fit. `desc` is required. `rig` must outlive the fit; the deformer may be destroyed. Measures
+the effect of each control, which takes up to some seconds for large rigs. Destroy with
+mien_fit_destroy().
+Fails with MIEN_ERROR_INDEX if a control, position or mesh does not exist, MIEN_ERROR_LOD if the rig has no
+such LOD, MIEN_ERROR_MISMATCH if the deformer belongs to another rig, MIEN_ERROR_INVALID_ARGUMENT if controls are
+not ascending, a lower bound is above its upper one, a weight is not finite, or points are on several
+meshes. */
+MienStatus mien_fit_create(MienRig const* rig, MienFitDesc const* desc, MienFit** out_fit, MienError* error);
+
+/* Destroys a fit. NULL is allowed. */
+void mien_fit_destroy(MienFit* fit);
+
+/* Finds the raw controls of a frame by bounded Gauss-Newton steps with Levenberg-Marquardt damping. Writes
+all raw controls of the rig to `out_raw`; those that may not move keep their values of `start`. `result`
+may be NULL. Deterministic unless there is a time limit. Does not allocate or lock.
+Fails with MIEN_ERROR_NULL_ARGUMENT if points are given to a fit without points, or images without a
+camera, MIEN_ERROR_INVALID_ARGUMENT if a weight is negative or not finite. */
+MienStatus mien_fit_solve(MienFit* fit, MienFitFrame const* frame, float* out_raw, MienFitResult* result);
+
+/* Writes for each raw control how well the data determines it at the initial pose: 0 if it moves nothing
+that has a target, or if other controls have the same effect; up to 1 for the best determined one.
+`count` is the number of raw controls.
+Fails with MIEN_ERROR_INVALID_ARGUMENT if `count` is another number. */
+MienStatus mien_fit_observability(MienFit const* fit, float* out_values, size_t count);
+
+/* Chooses keys of a curve: straight lines between them are within `tolerance` of all values. `out_keys` gets
+the frame numbers, ascending, the first and the last frame among them; `out_key_count` gets how many. `count`
+is the number of values and the capacity of `out_keys`.
+Fails with MIEN_ERROR_INVALID_ARGUMENT if a value is not finite, or the tolerance is negative or not
+finite. */
+MienStatus mien_fit_keys(float const* values, size_t count, float tolerance, uint32_t* out_keys, size_t* out_key_count);
 ]]
 
 api.VERSION = "0.1.0"
@@ -2891,6 +2997,14 @@ api.Match = {
   UV = 1,
 }
 
+api.FitStatus = {
+  CONVERGED = 0,
+  ITERATIONS = 1,
+  TIME = 2,
+  CANCELED = 3,
+  NO_DATA = 4,
+}
+
 -- Bytes of each struct where pointers have 64 bits, to compare with ffi.sizeof().
 api.sizes = {
   MienError = 256,
@@ -2988,6 +3102,11 @@ api.sizes = {
   MienConformed = 24,
   MienTransplantDesc = 16,
   MienControlError = 32,
+  MienSolvePoint = 28,
+  MienFitDesc = 104,
+  MienFitCamera = 64,
+  MienFitFrame = 120,
+  MienFitResult = 112,
 }
 
 -- The function that releases a handle.
@@ -3011,6 +3130,7 @@ api.destroy = {
   MienSolverState = "mien_solver_state_destroy",
   MienAuthorReport = "mien_author_report_close",
   MienDocument = "mien_document_destroy",
+  MienFit = "mien_fit_destroy",
 }
 
 return api

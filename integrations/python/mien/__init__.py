@@ -14,10 +14,10 @@
 """
 from ._api import (Arithmetic, AuthorFlags, BakedCheck, BakedInfo, BlendMode, BoneKind, ClipChannel,
                    ClipInfo, ClipPlayerInfo, Compose, Conformed, CoordinateSystem, DeformerInfo, Direction,
-                   DnaField, DnaInfo, DnaLayer, FaceWinding, FieldType, FileAccess, Finding,
+                   DnaField, DnaInfo, DnaLayer, FaceWinding, FieldType, FileAccess, Finding, FitStatus,
                    Generate, Generator, Guard, InstanceStatistics, Interpolation, Isa, Kind, Layer,
                    LayerGroup, LayerSource, Looping, Match, MeshAxis, MixerInfo, MixInfo, MlMasks, NameMatch, Normals,
-                   Preset, PrunedJoints, PrunedTargets, Retrigger, Reuse, RigInfo, RigStatistics, RotationOutput, RotationRule,
+                   Point, Preset, PrunedJoints, PrunedTargets, Retrigger, Reuse, RigInfo, RigStatistics, RotationOutput, RotationRule,
                    RotationSequence, RotationUnit, Severity, SolverStackInfo, Stage, Status,
                    Storage, Symmetry, Transition, TranslationUnit, UnknownLayers, Weights)
 from ._api import VERSION as _VERSION
@@ -28,10 +28,12 @@ from .batch import Batch
 from .clip import (Clip, ClipBinding, ClipEvent, ClipPlayer, TICKS_PER_SECOND,
                    arkit_matrix)
 from .deformer import Deformer, DeformerInstance, Mesh, deform_batch, write_vertices_batch
+from .derivatives import Derivatives, Jacobian
 from .dna import Dna, coordinate_system, coordinate_system_names, validate
 from .document import ControlError, Document, DocumentLayer
 from .errors import (ArgumentError, AuthorError, BusyError, ClipError, ClosedError, DnaError, Error,
                      FileError, MixError, OutOfMemoryError, OutOfRangeError, UnknownNameError)
+from .fit import Fit, FitCamera, FitResult, reduce_keys, solve
 from .instance import Instance
 from .mix import Gaze, Mix
 from .mix_parts import (NO_CONTROL, Antagonists, CustomGuard, Landmark, MixLayer, Reaction, Stroke,
@@ -40,7 +42,7 @@ from .mix_view import GuardInfo
 from .mixer import GuardState, MixEvent, Mixer, step_mixers
 from .rig import Rig
 from .rig_view import control_name, isa_available, isa_name
-from .solve import (NO_JOINT, AimSolver, CopySolver, CustomSolver, SolverPose, SolverStack,
+from .solver_stack import (NO_JOINT, AimSolver, CopySolver, CustomSolver, SolverPose, SolverStack,
                     SolverState, SpaceSolver, SpringSolver, TwistSolver, step_states)
 
 __version__ = _VERSION
@@ -52,16 +54,17 @@ __all__ = [
     "ClipChannel", "ClipError", "ClipEvent", "ClipInfo", "ClipPlayer", "ClipPlayerInfo",
     "ClosedError", "Compose", "Conformed", "control_name", "ControlError", "coordinate_system", "coordinate_system_names",
     "CoordinateSystem", "CopySolver", "CustomGuard", "CustomSolver", "deform_batch", "Deformer",
-    "DeformerInfo", "DeformerInstance", "Direction", "Dna", "DnaError", "DnaField", "DnaInfo",
-    "DnaLayer", "Document", "DocumentLayer", "Error", "FaceWinding", "FieldType", "FileAccess", "FileError", "Finding",
+    "DeformerInfo", "DeformerInstance", "Derivatives", "Direction", "Dna", "DnaError", "DnaField", "DnaInfo",
+    "DnaLayer", "Document", "DocumentLayer", "Error", "FaceWinding", "FieldType", "FileAccess", "FileError", "Finding", "Fit", "FitCamera",
+    "FitResult", "FitStatus",
     "Gaze", "Generate", "Generator", "glare", "Guard", "GuardInfo", "GuardState", "Instance",
-    "InstanceStatistics", "Interpolation", "Isa", "isa_available", "isa_name", "Kind",
+    "InstanceStatistics", "Interpolation", "Isa", "isa_available", "isa_name", "Jacobian", "Kind",
     "Landmark", "Layer", "LayerGroup", "LayerSource", "library_path", "Looping", "Match", "Mesh", "MeshAxis", "Mix",
     "Mixer", "MixerInfo", "MixError", "MixEvent", "MixInfo", "MixLayer", "MlMasks", "NO_CONTROL",
-    "NameMatch", "NO_JOINT", "Normals", "OutOfMemoryError", "OutOfRangeError", "Preset", "PrunedJoints",
-    "PrunedTargets", "Reaction",
+    "NameMatch", "NO_JOINT", "Normals", "OutOfMemoryError", "OutOfRangeError", "Point", "Preset", "PrunedJoints",
+    "PrunedTargets", "Reaction", "reduce_keys",
     "Retrigger", "Reuse", "Rig", "RigInfo", "RigStatistics", "RotationOutput", "RotationRule",
-    "RotationSequence", "RotationUnit", "Severity", "SolverPose", "SolverStack",
+    "RotationSequence", "RotationUnit", "Severity", "solve", "SolverPose", "SolverStack",
     "SolverStackInfo", "SolverState", "SpaceSolver", "SpringSolver", "Stage", "Status",
     "step_mixers", "step_states", "Storage", "Stroke", "Symmetry", "ticks", "TICKS_PER_SECOND",
     "Transition", "TranslationUnit", "TwistSolver", "UnknownLayers", "UnknownNameError",

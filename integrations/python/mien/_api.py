@@ -711,6 +711,21 @@ class Match(IntEnum):
     UV = 1
 
 
+class FitStatus(IntEnum):
+    """Why a solve ended."""
+
+    #: further steps change nothing
+    CONVERGED = 0
+    #: the limit of iterations was reached; the best controls so far
+    ITERATIONS = 1
+    #: the limit of time was reached; likewise
+    TIME = 2
+    #: the caller asked to stop; likewise
+    CANCELED = 3
+    #: no target, or all are missing; the start is returned
+    NO_DATA = 4
+
+
 class MienDna(c_void_p):
     pass
 
@@ -784,6 +799,10 @@ class MienAuthorReport(c_void_p):
 
 
 class MienDocument(c_void_p):
+    pass
+
+
+class MienFit(c_void_p):
     pass
 
 
@@ -3075,6 +3094,204 @@ class MienControlError(Structure):
     reserved: Any
 
 
+class MienSolvePoint(Structure):
+    _fields_ = [
+        ("mesh", c_uint32),
+        ("positions", c_uint32 * 3),
+        ("weights", c_float * 3),
+    ]
+    mesh: Any
+    positions: Any
+    weights: Any
+
+
+class MienFitDesc(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("deformer", MienDeformer),
+        ("controls", c_void_p),
+        ("lower", c_void_p),
+        ("upper", c_void_p),
+        ("symmetric", c_void_p),
+        ("points", POINTER(MienSolvePoint)),
+        ("joint_weights", c_void_p),
+        ("control_count", c_size_t),
+        ("symmetric_count", c_size_t),
+        ("point_count", c_size_t),
+        ("lod", c_uint32),
+        ("reserved", c_uint32),
+        ("allocator", POINTER(MienAllocator)),
+    ]
+    struct_size: Any
+    deformer: Any
+    controls: Any
+    lower: Any
+    upper: Any
+    symmetric: Any
+    points: Any
+    joint_weights: Any
+    control_count: Any
+    symmetric_count: Any
+    point_count: Any
+    lod: Any
+    reserved: Any
+    allocator: Any
+
+    def __init__(self, *,
+                 deformer: Any = None,
+                 controls: Any = None,
+                 lower: Any = None,
+                 upper: Any = None,
+                 symmetric: Any = None,
+                 points: Any = None,
+                 joint_weights: Any = None,
+                 control_count: int = 0,
+                 symmetric_count: int = 0,
+                 point_count: int = 0,
+                 lod: int = 0,
+                 allocator: Any = None) -> None:
+        super().__init__(104)
+        self.deformer = deformer
+        self.controls = controls
+        self.lower = lower
+        self.upper = upper
+        self.symmetric = symmetric
+        self.points = points
+        self.joint_weights = joint_weights
+        self.control_count = control_count
+        self.symmetric_count = symmetric_count
+        self.point_count = point_count
+        self.lod = lod
+        self.allocator = allocator
+
+
+class MienFitCamera(Structure):
+    _fields_ = [
+        ("focal", c_float * 2),
+        ("center", c_float * 2),
+        ("rotation", c_float * 9),
+        ("translation", c_float * 3),
+    ]
+    focal: Any
+    center: Any
+    rotation: Any
+    translation: Any
+
+
+class MienFitFrame(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("joints", c_void_p),
+        ("points", c_void_p),
+        ("images", c_void_p),
+        ("camera", POINTER(MienFitCamera)),
+        ("point_weights", c_void_p),
+        ("start", c_void_p),
+        ("prior", c_void_p),
+        ("prior_weight", c_float),
+        ("smooth_weight", c_float),
+        ("sparse_weight", c_float),
+        ("symmetric_weight", c_float),
+        ("robust_scale", c_float),
+        ("joint_weight", c_float),
+        ("rigid", c_uint32),
+        ("max_iterations", c_uint32),
+        ("max_seconds", c_double),
+        ("user", c_void_p),
+        ("canceled", CFUNCTYPE(c_uint32, c_void_p)),
+    ]
+    struct_size: Any
+    joints: Any
+    points: Any
+    images: Any
+    camera: Any
+    point_weights: Any
+    start: Any
+    prior: Any
+    prior_weight: Any
+    smooth_weight: Any
+    sparse_weight: Any
+    symmetric_weight: Any
+    robust_scale: Any
+    joint_weight: Any
+    rigid: Any
+    max_iterations: Any
+    max_seconds: Any
+    user: Any
+    canceled: Any
+
+    def __init__(self, *,
+                 joints: Any = None,
+                 points: Any = None,
+                 images: Any = None,
+                 camera: Any = None,
+                 point_weights: Any = None,
+                 start: Any = None,
+                 prior: Any = None,
+                 prior_weight: float = 0,
+                 smooth_weight: float = 0,
+                 sparse_weight: float = 0,
+                 symmetric_weight: float = 0,
+                 robust_scale: float = 0,
+                 joint_weight: float = 0,
+                 rigid: bool = False,
+                 max_iterations: int = 0,
+                 max_seconds: float = 0,
+                 user: Any = None,
+                 canceled: Any = None) -> None:
+        super().__init__(120)
+        self.joints = joints
+        self.points = points
+        self.images = images
+        self.camera = camera
+        self.point_weights = point_weights
+        self.start = start
+        self.prior = prior
+        self.prior_weight = prior_weight
+        self.smooth_weight = smooth_weight
+        self.sparse_weight = sparse_weight
+        self.symmetric_weight = symmetric_weight
+        self.robust_scale = robust_scale
+        self.joint_weight = joint_weight
+        self.rigid = rigid
+        self.max_iterations = max_iterations
+        self.max_seconds = max_seconds
+        self.user = user
+        self.canceled = canceled
+
+
+class MienFitResult(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("status", c_uint32),
+        ("iterations", c_uint32),
+        ("cost", c_double),
+        ("joint_residual", c_double),
+        ("point_residual", c_double),
+        ("missing_points", c_uint32),
+        ("reserved", c_uint32),
+        ("rotation", c_float * 9),
+        ("translation", c_float * 3),
+        ("joint_worst", c_double),
+        ("point_worst", c_double),
+    ]
+    struct_size: Any
+    status: Any
+    iterations: Any
+    cost: Any
+    joint_residual: Any
+    point_residual: Any
+    missing_points: Any
+    reserved: Any
+    rotation: Any
+    translation: Any
+    joint_worst: Any
+    point_worst: Any
+
+    def __init__(self) -> None:
+        super().__init__(112)
+
+
 class CoordinateSystem(NamedTuple):
     """Axes, units and rotation conventions of a rig. Any handedness is allowed. See
     docs/dna-format.md, 11 "Coordinate systems".
@@ -5250,6 +5467,31 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
         (Status.DNA_LIMIT,
          "the file would exceed 4 GiB"),
     ),
+    "mien_fit_create": (
+        (Status.INVALID_ARGUMENT,
+         "controls are not ascending, a lower bound is above its upper one, a weight is "
+         "not finite, or points are on several meshes"),
+        (Status.MISMATCH,
+         "the deformer belongs to another rig"),
+        (Status.INDEX,
+         "a control, position or mesh does not exist"),
+        (Status.LOD,
+         "the rig has no such LOD"),
+        (Status.MEMORY,
+         "there is no memory"),
+    ),
+    "mien_fit_solve": (
+        (Status.INVALID_ARGUMENT,
+         "a weight is negative or not finite"),
+    ),
+    "mien_fit_observability": (
+        (Status.INVALID_ARGUMENT,
+         "`count` is another number"),
+    ),
+    "mien_fit_keys": (
+        (Status.INVALID_ARGUMENT,
+         "a value is not finite, or the tolerance is negative or not finite"),
+    ),
 }
 
 
@@ -5854,6 +6096,34 @@ class AuthorLibrary:
 
     def __init__(self, library: ctypes.CDLL) -> None:
         for name, result, parameters in AUTHOR_FUNCTIONS:
+            function = getattr(library, name)
+            function.restype = result
+            function.argtypes = parameters
+            setattr(self, name, function)
+
+
+# Name, result, parameters.
+SOLVE_FUNCTIONS: Tuple[Tuple[str, Any, Tuple[Any, ...]], ...] = (
+    ("mien_fit_create", c_int32, (MienRig, POINTER(MienFitDesc), POINTER(MienFit),
+     POINTER(MienError))),
+    ("mien_fit_destroy", None, (MienFit,)),
+    ("mien_fit_solve", c_int32, (MienFit, POINTER(MienFitFrame), c_void_p, POINTER(MienFitResult))),
+    ("mien_fit_observability", c_int32, (MienFit, c_void_p, c_size_t)),
+    ("mien_fit_keys", c_int32, (c_void_p, c_size_t, c_float, c_void_p, c_void_p)),
+)
+
+
+class SolveLibrary:
+    """Each function of libmien-solve, by its name."""
+
+    mien_fit_create: Any
+    mien_fit_destroy: Any
+    mien_fit_solve: Any
+    mien_fit_observability: Any
+    mien_fit_keys: Any
+
+    def __init__(self, library: ctypes.CDLL) -> None:
+        for name, result, parameters in SOLVE_FUNCTIONS:
             function = getattr(library, name)
             function.restype = result
             function.argtypes = parameters

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Finds libmien and loads it, once, when the package is imported; and libmien-author, which makes
-files, when it is needed."""
+"""Finds libmien and loads it, once, when the package is imported; libmien-author, which makes
+files, and libmien-solve, which finds controls, when they are needed."""
 from __future__ import annotations
 
 import ctypes
@@ -73,18 +73,31 @@ _loaded = _load(_candidates(), "libmien was not found. Install the wheel, which 
 lib = _bind(_loaded)
 path = _loaded._name
 _author: Optional[_api.AuthorLibrary] = None
+_solver: Optional[_api.SolveLibrary] = None
+
+
+def _beside(stem: str, what: str) -> ctypes.CDLL:
+    """A library that lies beside libmien."""
+    folder = os.path.dirname(path)
+    return _load(_in(Path(folder), stem) if folder else _in_system(stem),
+                 f"lib{stem}, which {what}, was not found beside libmien ({path}). Install the wheel, "
+                 "which holds all of them.")
 
 
 def author() -> _api.AuthorLibrary:
     """libmien-author, which lies beside libmien."""
     global _author
     if _author is None:
-        beside = os.path.dirname(path)
-        candidates = _in(Path(beside), "mien-author") if beside else _in_system("mien-author")
-        _author = _api.AuthorLibrary(_load(
-            candidates, "libmien-author, which makes DNA files, was not found beside libmien "
-            f"({path}). Install the wheel, which holds both."))
+        _author = _api.AuthorLibrary(_beside("mien-author", "makes DNA files"))
     return _author
+
+
+def solver() -> _api.SolveLibrary:
+    """libmien-solve, which lies beside libmien."""
+    global _solver
+    if _solver is None:
+        _solver = _api.SolveLibrary(_beside("mien-solve", "finds controls"))
+    return _solver
 
 
 def version() -> str:

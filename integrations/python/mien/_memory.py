@@ -20,7 +20,7 @@ from operator import index
 from typing import TYPE_CHECKING, Any, Dict, Iterable, NoReturn, Optional, Tuple, TypeVar
 
 from . import _api
-from ._library import author, lib
+from ._library import author, lib, solver
 from ._api import Status
 from .errors import ArgumentError, ClosedError, OutOfRangeError
 
@@ -149,6 +149,22 @@ class BatchHandle(_Address, _api.MienBatch):
     def __del__(self, destroy: Any = lib.mien_batch_destroy) -> None:
         if self.value:
             destroy(self)
+
+
+class DerivativesHandle(_Address, _api.MienDerivatives):
+    kept: Any  # rig and deformer, whose arrays may be in memory of Python
+
+    def __del__(self, destroy: Any = lib.mien_derivatives_destroy) -> None:
+        if self.value:
+            destroy(self)
+
+
+class FitHandle(_Address, _api.MienFit):
+    kept: Any  # rig and deformer
+
+    def __del__(self, library: Any = solver) -> None:
+        if self.value:
+            library().mien_fit_destroy(self)
 
 
 class DeformerHandle(_Address, _api.MienDeformer):

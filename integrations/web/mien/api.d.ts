@@ -699,6 +699,21 @@ export declare const Match: {
 };
 export type Match = (typeof Match)[keyof typeof Match];
 
+/** Why a solve ended. */
+export declare const FitStatus: {
+  /** further steps change nothing */
+  readonly CONVERGED: 0;
+  /** the limit of iterations was reached; the best controls so far */
+  readonly ITERATIONS: 1;
+  /** the limit of time was reached; likewise */
+  readonly TIME: 2;
+  /** the caller asked to stop; likewise */
+  readonly CANCELED: 3;
+  /** no target, or all are missing; the start is returned */
+  readonly NO_DATA: 4;
+};
+export type FitStatus = (typeof FitStatus)[keyof typeof FitStatus];
+
 /**
  * Details of a failure, owned by the caller. A call that fails fills all fields; a call that succeeds
  * sets status to MIEN_OK and leaves the other fields unchanged.
@@ -2110,6 +2125,115 @@ export interface ControlError {
   readonly moved: number;
   /** its index in the new rig */
   readonly control: number;
+}
+
+/**
+ * A point of a surface: the weighted sum of three positions of a mesh. One position: weights 1 0 0.
+ */
+export interface SolvePoint {
+  /** the same for all points of a fit */
+  mesh?: number;
+  /** in the order of the file */
+  positions?: readonly number[];
+  weights?: readonly number[];
+}
+
+/** How to create a fit. Everything is copied. */
+export interface FitDesc {
+  /** of the rig; needed for points. NULL: joints only */
+  deformer?: { readonly handle: number };
+  /** raw controls that may move, ascending. NULL: all */
+  controls?: Uint32Array | readonly number[];
+  /** bounds of these controls. NULL: 0 */
+  lower?: Float32Array | readonly number[];
+  /** NULL: 1 */
+  upper?: Float32Array | readonly number[];
+  /** pairs of raw controls kept similar: left, right, left, ... */
+  symmetric?: Uint32Array | readonly number[];
+  points?: readonly SolvePoint[];
+  /** per joint value, 0 or more. NULL: 1 each, or 0 if there are points */
+  jointWeights?: Float32Array | readonly number[];
+  /** 0 if `controls` is NULL */
+  controlCount?: number;
+  /** elements of `symmetric`, an even number */
+  symmetricCount?: number;
+  pointCount?: number;
+  lod?: number;
+}
+
+/**
+ * A pinhole camera: image x = focal[0] * x / z + center[0], and y likewise, for the point x y z in camera
+ * space, after `rotation` and `translation`. z grows in front of the camera.
+ */
+export interface FitCamera {
+  focal?: readonly number[];
+  center?: readonly number[];
+  /** rows, from model space */
+  rotation?: readonly number[];
+  translation?: readonly number[];
+}
+
+/**
+ * The targets of one frame, and the weights of the terms; terms of weight 0 are left out.
+ */
+export interface FitFrame {
+  /** joint values. NULL: none. NaN: missing */
+  joints?: Float32Array | readonly number[];
+  /** x y z per point. NULL: none. NaN: missing */
+  points?: Float32Array | readonly number[];
+  /** x y per point, as `camera` sees them. NULL: none. NaN: missing */
+  images?: Float32Array | readonly number[];
+  /** required with `images` */
+  camera?: FitCamera;
+  /** per point, 0 or more. NULL: 1 */
+  pointWeights?: Float32Array | readonly number[];
+  /** all raw controls of the rig, to start from. NULL: the initial ones */
+  start?: Float32Array | readonly number[];
+  /** raw controls that the result is drawn to. NULL: the initial ones */
+  prior?: Float32Array | readonly number[];
+  /** times the squared distance to `prior` */
+  priorWeight?: number;
+  /** times the squared distance to `start`, the previous frame */
+  smoothWeight?: number;
+  /** times the sum of magnitudes: few controls explain the frame */
+  sparseWeight?: number;
+  /** times the squared differences of symmetric pairs */
+  symmetricWeight?: number;
+  /** points farther off than this count less. 0: all count fully */
+  robustScale?: number;
+  /** weight of the joints relative to the points. 0: 1 */
+  jointWeight?: number;
+  /** the targets may be rotated and translated as a whole */
+  rigid?: boolean;
+  /** 0: 50 */
+  maxIterations?: number;
+  /** 0: no limit. A limit makes results depend on the machine */
+  maxSeconds?: number;
+  /** passed to `canceled` */
+  user?: number;
+  /** Called before each iteration; a nonzero result stops. NULL: never. */
+  canceled?: number;
+}
+
+/** The result of a solve. */
+export interface FitResult {
+  /** MIEN_FIT_... */
+  readonly status: FitStatus;
+  readonly iterations: number;
+  /** the minimized sum, with all terms */
+  readonly cost: number;
+  /** weighted root mean square of the differences of joint values */
+  readonly jointResidual: number;
+  /** the same for points, or for image points in their unit */
+  readonly pointResidual: number;
+  readonly missingPoints: number;
+  /** rows: points of the target = rotation * model + translation, if rigid */
+  readonly rotation: readonly number[];
+  readonly translation: readonly number[];
+  /** largest difference of a joint value that counts */
+  readonly jointWorst: number;
+  /** largest distance of a point that counts */
+  readonly pointWorst: number;
 }
 
 /**
@@ -3653,4 +3777,39 @@ export interface Exports {
    * Fails with MIEN_ERROR_DNA_LIMIT if the file would exceed 4 GiB.
    */
   mien_document_validate(document: number, desc: number, out_report: number, error: number): number;
+  /**
+   * Creates a fit. `desc` is required. `rig` must outlive the fit; the deformer may be destroyed. Measures
+   * the effect of each control, which takes up to some seconds for large rigs. Destroy with
+   * mien_fit_destroy().
+   * Fails with MIEN_ERROR_INDEX if a control, position or mesh does not exist, MIEN_ERROR_LOD if the rig has no
+   * such LOD, MIEN_ERROR_MISMATCH if the deformer belongs to another rig, MIEN_ERROR_INVALID_ARGUMENT if controls are
+   * not ascending, a lower bound is above its upper one, a weight is not finite, or points are on several
+   * meshes.
+   */
+  mien_fit_create(rig: number, desc: number, out_fit: number, error: number): number;
+  /** Destroys a fit. NULL is allowed. */
+  mien_fit_destroy(fit: number): void;
+  /**
+   * Finds the raw controls of a frame by bounded Gauss-Newton steps with Levenberg-Marquardt damping. Writes
+   * all raw controls of the rig to `out_raw`; those that may not move keep their values of `start`. `result`
+   * may be NULL. Deterministic unless there is a time limit. Does not allocate or lock.
+   * Fails with MIEN_ERROR_NULL_ARGUMENT if points are given to a fit without points, or images without a
+   * camera, MIEN_ERROR_INVALID_ARGUMENT if a weight is negative or not finite.
+   */
+  mien_fit_solve(fit: number, frame: number, out_raw: number, result: number): number;
+  /**
+   * Writes for each raw control how well the data determines it at the initial pose: 0 if it moves nothing
+   * that has a target, or if other controls have the same effect; up to 1 for the best determined one.
+   * `count` is the number of raw controls.
+   * Fails with MIEN_ERROR_INVALID_ARGUMENT if `count` is another number.
+   */
+  mien_fit_observability(fit: number, out_values: number, count: number): number;
+  /**
+   * Chooses keys of a curve: straight lines between them are within `tolerance` of all values. `out_keys` gets
+   * the frame numbers, ascending, the first and the last frame among them; `out_key_count` gets how many. `count`
+   * is the number of values and the capacity of `out_keys`.
+   * Fails with MIEN_ERROR_INVALID_ARGUMENT if a value is not finite, or the tolerance is negative or not
+   * finite.
+   */
+  mien_fit_keys(values: number, count: number, tolerance: number, out_keys: number, out_key_count: number): number;
 }

@@ -364,6 +364,14 @@ export const Match = Object.freeze({
   UV: 1,
 });
 
+export const FitStatus = Object.freeze({
+  CONVERGED: 0,
+  ITERATIONS: 1,
+  TIME: 2,
+  CANCELED: 3,
+  NO_DATA: 4,
+});
+
 // Of each struct the size, whether it begins with struct_size, and of each field its offset,
 // kind, and the length of an array or the field that counts what a pointer points to.
 export const layouts = {
@@ -1045,6 +1053,62 @@ export const layouts = {
     moved: [16, "f64"],
     control: [24, "u32"],
   } },
+  SolvePoint: { size: 28, sized: false, fields: {
+    mesh: [0, "u32"],
+    positions: [4, "u32", 3],
+    weights: [16, "f32", 3],
+  } },
+  FitDesc: { size: 56, sized: true, fields: {
+    deformer: [4, "handle"],
+    controls: [8, "*u32", "controlCount"],
+    lower: [12, "*f32"],
+    upper: [16, "*f32"],
+    symmetric: [20, "*u32", "symmetricCount"],
+    points: [24, "*SolvePoint", "pointCount"],
+    jointWeights: [28, "*f32"],
+    controlCount: [32, "u32"],
+    symmetricCount: [36, "u32"],
+    pointCount: [40, "u32"],
+    lod: [44, "u32"],
+  } },
+  FitCamera: { size: 64, sized: false, fields: {
+    focal: [0, "f32", 2],
+    center: [8, "f32", 2],
+    rotation: [16, "f32", 9],
+    translation: [52, "f32", 3],
+  } },
+  FitFrame: { size: 80, sized: true, fields: {
+    joints: [4, "*f32"],
+    points: [8, "*f32"],
+    images: [12, "*f32"],
+    camera: [16, "*FitCamera"],
+    pointWeights: [20, "*f32"],
+    start: [24, "*f32"],
+    prior: [28, "*f32"],
+    priorWeight: [32, "f32"],
+    smoothWeight: [36, "f32"],
+    sparseWeight: [40, "f32"],
+    symmetricWeight: [44, "f32"],
+    robustScale: [48, "f32"],
+    jointWeight: [52, "f32"],
+    rigid: [56, "bool"],
+    maxIterations: [60, "u32"],
+    maxSeconds: [64, "f64"],
+    user: [72, "u32"],
+    canceled: [76, "u32"],
+  } },
+  FitResult: { size: 112, sized: true, fields: {
+    status: [4, "u32"],
+    iterations: [8, "u32"],
+    cost: [16, "f64"],
+    jointResidual: [24, "f64"],
+    pointResidual: [32, "f64"],
+    missingPoints: [40, "u32"],
+    rotation: [48, "f32", 9],
+    translation: [84, "f32", 3],
+    jointWorst: [96, "f64"],
+    pointWorst: [104, "f64"],
+  } },
 };
 
 // Parameters of each function that has numbers: p addresses, u and i of 32 bits, U and I of 64, f.
@@ -1175,4 +1239,6 @@ export const calls = {
   mien_document_make_lod: "puuppp",
   mien_document_conform: "pupuupp",
   mien_document_transplant: "ppppupp",
+  mien_fit_observability: "ppu",
+  mien_fit_keys: "pufpp",
 };

@@ -527,6 +527,18 @@ pub const MIEN_MATCH_SURFACE: u32 = 0;
 /// The nearest point in the texture.
 pub const MIEN_MATCH_UV: u32 = 1;
 
+// enum MienFitStatus
+/// Further steps change nothing.
+pub const MIEN_FIT_CONVERGED: u32 = 0;
+/// The limit of iterations was reached; the best controls so far.
+pub const MIEN_FIT_ITERATIONS: u32 = 1;
+/// The limit of time was reached; likewise.
+pub const MIEN_FIT_TIME: u32 = 2;
+/// The caller asked to stop; likewise.
+pub const MIEN_FIT_CANCELED: u32 = 3;
+/// No target, or all are missing; the start is returned.
+pub const MIEN_FIT_NO_DATA: u32 = 4;
+
 /// A checked, read-only view of a DNA file. Immutable.
 #[repr(C)]
 pub struct MienDna {
@@ -711,6 +723,14 @@ pub struct MienAuthorReport {
 /// the file that was opened, and for changed fields.
 #[repr(C)]
 pub struct MienDocument {
+    _size: [u8; 0],
+    _opaque: Opaque,
+}
+
+/// One rig, the joints and points to match, and the memory to solve. Belongs to one thread at a
+/// time; use one for each thread.
+#[repr(C)]
+pub struct MienFit {
     _size: [u8; 0],
     _opaque: Opaque,
 }
@@ -3302,6 +3322,174 @@ impl Default for MienControlError {
     }
 }
 
+/// A point of a surface: the weighted sum of three positions of a mesh. One position: weights 1 0
+/// 0.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienSolvePoint {
+    /// The same for all points of a fit.
+    pub mesh: u32,
+    /// In the order of the file.
+    pub positions: [u32; 3],
+    pub weights: [f32; 3],
+}
+
+impl Default for MienSolvePoint {
+    /// All zero.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        unsafe { zeroed() }
+    }
+}
+
+/// How to create a fit. Everything is copied.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienFitDesc {
+    pub struct_size: usize,
+    /// Of the rig; needed for points. NULL: joints only.
+    pub deformer: *const MienDeformer,
+    /// Raw controls that may move, ascending. NULL: all.
+    pub controls: *const u32,
+    /// Bounds of these controls. NULL: 0.
+    pub lower: *const f32,
+    /// NULL: 1.
+    pub upper: *const f32,
+    /// Pairs of raw controls kept similar: left, right, left, ...
+    pub symmetric: *const u32,
+    pub points: *const MienSolvePoint,
+    /// Per joint value, 0 or more. NULL: 1 each, or 0 if there are points.
+    pub joint_weights: *const f32,
+    /// 0 if `controls` is NULL.
+    pub control_count: usize,
+    /// Elements of `symmetric`, an even number.
+    pub symmetric_count: usize,
+    pub point_count: usize,
+    pub lod: u32,
+    /// 0.
+    pub reserved: u32,
+    /// NULL: the heap.
+    pub allocator: *const MienAllocator,
+}
+
+impl Default for MienFitDesc {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>();
+        zero
+    }
+}
+
+/// A pinhole camera: image x = focal\[0\] \* x / z + center\[0\], and y likewise, for the point x
+/// y z in camera space, after `rotation` and `translation`. z grows in front of the camera.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienFitCamera {
+    pub focal: [f32; 2],
+    pub center: [f32; 2],
+    /// Rows, from model space.
+    pub rotation: [f32; 9],
+    pub translation: [f32; 3],
+}
+
+impl Default for MienFitCamera {
+    /// All zero.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        unsafe { zeroed() }
+    }
+}
+
+/// The targets of one frame, and the weights of the terms; terms of weight 0 are left out.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienFitFrame {
+    pub struct_size: usize,
+    /// Joint values. NULL: none. NaN: missing.
+    pub joints: *const f32,
+    /// X y z per point. NULL: none. NaN: missing.
+    pub points: *const f32,
+    /// X y per point, as `camera` sees them. NULL: none. NaN: missing.
+    pub images: *const f32,
+    /// Required with `images`.
+    pub camera: *const MienFitCamera,
+    /// Per point, 0 or more. NULL: 1.
+    pub point_weights: *const f32,
+    /// All raw controls of the rig, to start from. NULL: the initial ones.
+    pub start: *const f32,
+    /// Raw controls that the result is drawn to. NULL: the initial ones.
+    pub prior: *const f32,
+    /// Times the squared distance to `prior`.
+    pub prior_weight: f32,
+    /// Times the squared distance to `start`, the previous frame.
+    pub smooth_weight: f32,
+    /// Times the sum of magnitudes: few controls explain the frame.
+    pub sparse_weight: f32,
+    /// Times the squared differences of symmetric pairs.
+    pub symmetric_weight: f32,
+    /// Points farther off than this count less. 0: all count fully.
+    pub robust_scale: f32,
+    /// Weight of the joints relative to the points. 0: 1.
+    pub joint_weight: f32,
+    /// The targets may be rotated and translated as a whole.
+    pub rigid: u32,
+    /// 0: 50.
+    pub max_iterations: u32,
+    /// 0: no limit. A limit makes results depend on the machine.
+    pub max_seconds: f64,
+    /// Passed to `canceled`.
+    pub user: *mut c_void,
+    /// Called before each iteration; a nonzero result stops. NULL: never.
+    pub canceled: Option<unsafe extern "C" fn(user: *mut c_void) -> u32>,
+}
+
+impl Default for MienFitFrame {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>();
+        zero
+    }
+}
+
+/// The result of a solve.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienFitResult {
+    pub struct_size: usize,
+    /// `MIEN_FIT_...`
+    pub status: u32,
+    pub iterations: u32,
+    /// The minimized sum, with all terms.
+    pub cost: f64,
+    /// Weighted root mean square of the differences of joint values.
+    pub joint_residual: f64,
+    /// The same for points, or for image points in their unit.
+    pub point_residual: f64,
+    pub missing_points: u32,
+    pub reserved: u32,
+    /// Rows: points of the target = rotation \* model + translation, if rigid.
+    pub rotation: [f32; 9],
+    pub translation: [f32; 3],
+    /// Largest difference of a joint value that counts.
+    pub joint_worst: f64,
+    /// Largest distance of a point that counts.
+    pub point_worst: f64,
+}
+
+impl Default for MienFitResult {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>();
+        zero
+    }
+}
+
 extern "C" {
     /// Returns the `MIEN_VERSION` of the library in use, which may differ from that of this
     /// header.
@@ -5094,4 +5282,43 @@ extern "C" {
     ///
     /// Fails with `MIEN_ERROR_DNA_LIMIT` if the file would exceed 4 GiB.
     pub fn mien_document_validate(document: *const MienDocument, desc: *const MienValidateDesc, out_report: *mut *mut MienReport, error: *mut MienError) -> MienStatus;
+
+    /// Creates a fit. `desc` is required. `rig` must outlive the fit; the deformer may be
+    /// destroyed. Measures the effect of each control, which takes up to some seconds for large
+    /// rigs. Destroy with `mien_fit_destroy()`.
+    ///
+    /// Fails with `MIEN_ERROR_INDEX` if a control, position or mesh does not exist,
+    /// `MIEN_ERROR_LOD` if the rig has no such LOD, `MIEN_ERROR_MISMATCH` if the deformer belongs
+    /// to another rig, `MIEN_ERROR_INVALID_ARGUMENT` if controls are not ascending, a lower bound
+    /// is above its upper one, a weight is not finite, or points are on several meshes.
+    pub fn mien_fit_create(rig: *const MienRig, desc: *const MienFitDesc, out_fit: *mut *mut MienFit, error: *mut MienError) -> MienStatus;
+
+    /// Destroys a fit. NULL is allowed.
+    pub fn mien_fit_destroy(fit: *mut MienFit);
+
+    /// Finds the raw controls of a frame by bounded Gauss-Newton steps with Levenberg-Marquardt
+    /// damping. Writes all raw controls of the rig to `out_raw`; those that may not move keep
+    /// their values of `start`. `result` may be NULL. Deterministic unless there is a time limit.
+    /// Does not allocate or lock.
+    ///
+    /// Fails with `MIEN_ERROR_NULL_ARGUMENT` if points are given to a fit without points, or
+    /// images without a camera, `MIEN_ERROR_INVALID_ARGUMENT` if a weight is negative or not
+    /// finite.
+    pub fn mien_fit_solve(fit: *mut MienFit, frame: *const MienFitFrame, out_raw: *mut f32, result: *mut MienFitResult) -> MienStatus;
+
+    /// Writes for each raw control how well the data determines it at the initial pose: 0 if it
+    /// moves nothing that has a target, or if other controls have the same effect; up to 1 for the
+    /// best determined one. `count` is the number of raw controls.
+    ///
+    /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if `count` is another number.
+    pub fn mien_fit_observability(fit: *const MienFit, out_values: *mut f32, count: usize) -> MienStatus;
+
+    /// Chooses keys of a curve: straight lines between them are within `tolerance` of all values.
+    /// `out_keys` gets the frame numbers, ascending, the first and the last frame among them;
+    /// `out_key_count` gets how many. `count` is the number of values and the capacity of
+    /// `out_keys`.
+    ///
+    /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if a value is not finite, or the tolerance is
+    /// negative or not finite.
+    pub fn mien_fit_keys(values: *const f32, count: usize, tolerance: f32, out_keys: *mut u32, out_key_count: *mut usize) -> MienStatus;
 }

@@ -176,5 +176,17 @@ fn structs_are_laid_out_as_in_c() {
         MienConformed 24 8: struct_size 0 joint_distance 8 joint 16 reserved 20;
         MienTransplantDesc 16 8: struct_size 0 r#match 8 influences 12;
         MienControlError 32 8: worst 0 rms 8 moved 16 control 24 reserved 28;
+        MienSolvePoint 28 4: mesh 0 positions 4 weights 16;
+        MienFitDesc 104 8: struct_size 0 deformer 8 controls 16 lower 24 upper 32 symmetric 40
+            points 48 joint_weights 56 control_count 64 symmetric_count 72 point_count 80 lod 88
+            reserved 92 allocator 96;
+        MienFitCamera 64 4: focal 0 center 8 rotation 16 translation 52;
+        MienFitFrame 120 8: struct_size 0 joints 8 points 16 images 24 camera 32 point_weights 40
+            start 48 prior 56 prior_weight 64 smooth_weight 68 sparse_weight 72 symmetric_weight 76
+            robust_scale 80 joint_weight 84 rigid 88 max_iterations 92 max_seconds 96 user 104
+            canceled 112;
+        MienFitResult 112 8: struct_size 0 status 8 iterations 12 cost 16 joint_residual 24
+            point_residual 32 missing_points 40 reserved 44 rotation 48 translation 84 joint_worst
+            96 point_worst 104;
     }
 }

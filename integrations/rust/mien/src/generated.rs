@@ -1087,6 +1087,28 @@ impl Match {
 
 numbers!(Match, u32, [(0, "SURFACE"), (1, "UV")]);
 
+/// Why a solve ended.
+///
+/// A later library may give numbers that have no name here.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+#[repr(transparent)]
+pub struct FitStatus(pub u32);
+
+impl FitStatus {
+    /// Further steps change nothing.
+    pub const CONVERGED: Self = Self(0);
+    /// The limit of iterations was reached; the best controls so far.
+    pub const ITERATIONS: Self = Self(1);
+    /// The limit of time was reached; likewise.
+    pub const TIME: Self = Self(2);
+    /// The caller asked to stop; likewise.
+    pub const CANCELED: Self = Self(3);
+    /// No target, or all are missing; the start is returned.
+    pub const NO_DATA: Self = Self(4);
+}
+
+numbers!(FitStatus, u32, [(0, "CONVERGED"), (1, "ITERATIONS"), (2, "TIME"), (3, "CANCELED"), (4, "NO_DATA")]);
+
 /// Axes, units and rotation conventions of a rig. Any handedness is allowed.
 ///
 /// See docs/dna-format.md, 11 "Coordinate systems".
@@ -2832,5 +2854,21 @@ macro_rules! errors {
          - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
          - [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) if this build of libmien opens baked files only\n\
          - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if the file would exceed 4 GiB"
+    };
+    (mien_fit_create) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if controls are not ascending, a lower bound is above its upper one, a weight is not finite, or points are on several meshes\n\
+         - [`Status::MISMATCH`](crate::Status::MISMATCH) if the deformer belongs to another rig\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if a control, position or mesh does not exist\n\
+         - [`Status::LOD`](crate::Status::LOD) if the rig has no such LOD\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory"
+    };
+    (mien_fit_solve) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if a weight is negative or not finite"
+    };
+    (mien_fit_observability) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `count` is another number"
+    };
+    (mien_fit_keys) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if a value is not finite, or the tolerance is negative or not finite"
     };
 }

@@ -1,0 +1,261 @@
+# SPDX-License-Identifier: MIT
+"""Controls from joints, vertices and landmarks, by libmien-solve. Needs NumPy."""
+from __future__ import annotations
+
+import ctypes
+from _thread import allocate_lock
+from contextlib import contextmanager
+from typing import Any, Iterator, List, NamedTuple, Optional, Sequence
+
+from . import _api
+from ._api import FitStatus, Kind, MienError, Status
+from ._library import solver
+from ._memory import Closable, FitHandle, Floats, numpy, uint32
+from .deformer import Deformer
+from .errors import ArgumentError, BusyError, fail, raises
+from .rig import Rig
+
+_byref = ctypes.byref
+_canceled_type: Any = dict(_api.MienFitFrame._fields_)["canceled"]
+
+
+class FitCamera(NamedTuple):
+    """A pinhole camera: image x = focal[0] * x / z + center[0] of a point in the space of the camera, where
+    z grows away from it. `rotation`: 3 x 3, and `translation` lead there from the space of the rig."""
+
+    focal: Sequence[float]
+    center: Sequence[float]
+    rotation: Any = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
+    translation: Sequence[float] = (0, 0, 0)
+
+
+class FitResult(NamedTuple):
+    """The controls of a frame, and how well they explain it.
+
+    controls:       float32 (raw controls,)
+    status:         `FitStatus`
+    joint_residual: weighted root mean square of the differences of joint values
+    point_residual: the same of distances
+    joint_worst, point_worst: the largest ones
+    rotation, translation: points of the target = rotation @ model + translation, if rigid
+    """
+
+    controls: Any
+    status: int
+    iterations: int
+    cost: float
+    joint_residual: float
+    point_residual: float
+    joint_worst: float
+    point_worst: float
+    missing_points: int
+    rotation: Any
+    translation: Any
+
+
+class Fit(Closable):
+    """Finds the raw controls of frames (docs/solving.md). For one thread at a time.
+
+        fit = mien.Fit(rig, deformer, mesh=0)
+        result = fit.solve(points=positions)          # float32 (positions, 3)
+        result = fit.solve(points=next_positions, start=result.controls)
+
+    deformer:      needed for points
+    controls:      raw controls that may move, ascending; None: all
+    lower, upper:  bounds, one number or one for each of these controls; None: 0 and 1
+    symmetric:     pairs (left, right) of raw controls kept similar
+    mesh:          the mesh of all points
+    positions:     (points,) indices of positions, or (points, 3) with `weights`; None: every position if
+                   there is a deformer
+    weights:       (points, 3) weights of these positions
+    joint_weights: per joint value; None: 1 each, or 0 if there are points
+    """
+
+    __slots__ = ("_lock", "_raw_count", "_joint_count", "_point_count")
+
+    @raises("mien_fit_create")
+    def __init__(self, rig: Rig, deformer: Optional[Deformer] = None, controls: Any = None,
+                 lower: Any = None, upper: Any = None, symmetric: Any = None, mesh: int = 0,
+                 positions: Any = None, weights: Any = None, joint_weights: Any = None,
+                 lod: int = 0) -> None:
+        if numpy is None:
+            raise ImportError("solving needs NumPy")
+        self._raw_count = rig.count(Kind.RAW_CONTROL)
+        self._joint_count = rig.info.joint_value_count
+        given = None if controls is None else numpy.ascontiguousarray(controls, "uint32").reshape(-1)
+        moving = self._raw_count if given is None else given.size
+        bounds = [None if bound is None else
+                  numpy.ascontiguousarray(numpy.broadcast_to(numpy.asarray(bound, "f"), (moving,)))
+                  for bound in (lower, upper)]
+        pairs = numpy.ascontiguousarray([] if symmetric is None else symmetric, "uint32").reshape(-1)
+        points = self._points(deformer, mesh, positions, weights)
+        factors = None
+        if joint_weights is not None:
+            factors = numpy.ascontiguousarray(joint_weights, "f").reshape(-1)
+            if factors.size != self._joint_count:
+                raise ArgumentError(f"{factors.size} joint weights, {self._joint_count} joint values")
+
+        def address(values: Any) -> Any:
+            return None if values is None else values.ctypes.data
+        desc = _api.MienFitDesc(
+            deformer=deformer and deformer._open(), controls=address(given), lower=address(bounds[0]),
+            upper=address(bounds[1]), symmetric=address(pairs), points=points,
+            joint_weights=address(factors), control_count=0 if given is None else given.size,
+            symmetric_count=pairs.size, point_count=len(points), lod=uint32(lod, "lod"))
+        handle, error = FitHandle(), MienError()
+        status = solver().mien_fit_create(rig._open(), _byref(desc), _byref(handle), _byref(error))
+        if status:
+            fail(status, "cannot make a fit", error)
+        handle.kept = rig._open(), deformer and deformer._open()
+        self._handle = handle
+        self._point_count = len(points)
+        self._lock = allocate_lock()
+
+    @staticmethod
+    def _points(deformer: Optional[Deformer], mesh: int, positions: Any, weights: Any) -> Any:
+        if positions is None and deformer is None:
+            return (_api.MienSolvePoint * 0)()
+        if deformer is None:
+            raise ArgumentError("points need the deformer of the rig")
+        chosen = numpy.arange(deformer.mesh(mesh).position_count) if positions is None else \
+            numpy.asarray(positions)
+        if chosen.ndim == 1 and weights is None:
+            chosen = numpy.repeat(chosen[:, None], 3, 1)
+            weights = numpy.tile(numpy.array([1, 0, 0], "f"), (len(chosen), 1))
+        shares = numpy.asarray(weights, "f")
+        if chosen.shape[1:] != (3,) or shares.shape != chosen.shape or chosen.dtype.kind not in "iu":
+            raise ArgumentError("points are whole numbers (points,), or (points, 3) with weights (points, 3)")
+        if chosen.size and (chosen.min() < 0 or chosen.max() > 0xFFFFFFFF):
+            raise ArgumentError("a position is not an index")
+        # The layout of MienSolvePoint.
+        rows = numpy.zeros(len(chosen), [("mesh", "u4"), ("positions", "u4", 3), ("weights", "f4", 3)])
+        rows["mesh"], rows["positions"], rows["weights"] = uint32(mesh, "mesh"), chosen, shares
+        return (_api.MienSolvePoint * len(chosen)).from_buffer_copy(rows.tobytes())
+
+    @contextmanager
+    def _alone(self) -> Iterator[Any]:
+        """The handle, for this thread."""
+        if not self._lock.acquire(False):
+            raise BusyError("another thread is working with this fit", Status.HANDLE)
+        try:
+            yield self._open()
+        finally:
+            self._lock.release()
+
+    @raises("mien_fit_solve")
+    def solve(self, joints: Any = None, points: Any = None, images: Any = None,
+              camera: Optional[FitCamera] = None, point_weights: Any = None, start: Any = None,
+              prior: Any = None, prior_weight: float = 0, smooth_weight: float = 0,
+              sparse_weight: float = 0, symmetric_weight: float = 0, robust_scale: float = 0,
+              joint_weight: float = 0, rigid: bool = False, max_iterations: int = 0,
+              max_seconds: float = 0, canceled: Any = None) -> FitResult:
+        """The controls of a frame. Targets of NaN are missing.
+
+        joints:   as `Instance.joints`
+        points:   (points, 3); images: (points, 2), seen by `camera`
+        start:    raw controls to start from, those of the frame before; None: the initial ones
+        prior:    raw controls that the result is drawn to with `prior_weight`
+        canceled: function called before each iteration; the solve stops if it returns true
+        """
+        kept: List[Any] = []
+
+        def rows(values: Any, count: int, what: str) -> Any:
+            if values is None:
+                return None
+            found = numpy.ascontiguousarray(values, "f")
+            if found.size != count:
+                raise ArgumentError(f"{what} has the shape {found.shape}: {count} numbers are needed")
+            kept.append(found)
+            return found.ctypes.data
+        frame = _api.MienFitFrame(
+            joints=rows(joints, self._joint_count, "joints"),
+            points=rows(points, 3 * self._point_count, "points"),
+            images=rows(images, 2 * self._point_count, "images"),
+            point_weights=rows(point_weights, self._point_count, "point_weights"),
+            start=rows(start, self._raw_count, "start"), prior=rows(prior, self._raw_count, "prior"),
+            prior_weight=prior_weight, smooth_weight=smooth_weight, sparse_weight=sparse_weight,
+            symmetric_weight=symmetric_weight, robust_scale=robust_scale, joint_weight=joint_weight,
+            rigid=bool(rigid), max_iterations=uint32(max_iterations, "max_iterations"),
+            max_seconds=max_seconds, canceled=_canceled_type())
+        if camera is not None:
+            seen = _api.MienFitCamera()
+            for name, values in camera._asdict().items():
+                numbers = numpy.asarray(values, "f").reshape(-1)
+                getattr(seen, name)[:] = numbers.tolist()
+            kept.append(seen)
+            frame.camera = ctypes.pointer(seen)
+        raised: List[BaseException] = []
+        if canceled is not None:
+            def ask(_user: Any) -> int:
+                try:
+                    return bool(canceled())
+                except BaseException as error:  # comes out of solve()
+                    raised.append(error)
+                    return 1
+            frame.canceled = _canceled_type(ask)
+        out, result = numpy.empty(self._raw_count, "f"), _api.MienFitResult()
+        with self._alone() as handle:
+            status = solver().mien_fit_solve(handle, _byref(frame), out.ctypes.data, _byref(result))
+        if raised:
+            raise raised[0]
+        if status:
+            fail(status, "cannot solve: points need a fit with points, images a camera, weights are finite "
+                 "and not negative")
+        return FitResult(
+            out, _api._enum(FitStatus, result.status), result.iterations, result.cost, result.joint_residual,
+            result.point_residual, result.joint_worst, result.point_worst, result.missing_points,
+            numpy.array(result.rotation, "f").reshape(3, 3), numpy.array(result.translation, "f"))
+
+    @property
+    @raises("mien_fit_observability", but=(Status.INVALID_ARGUMENT,))
+    def observability(self) -> Floats:
+        """float32 (raw controls,): how well the data determines each control at the initial pose, 0 to 1."""
+        out = numpy.empty(self._raw_count, "f")
+        status = solver().mien_fit_observability(self._open(), out.ctypes.data, out.size)
+        if status:
+            fail(status, "observability")
+        return out
+
+    def __repr__(self) -> str:
+        if self.closed:
+            return "<mien.Fit, closed>"
+        return f"<mien.Fit: {self._point_count} points, {self._joint_count} joint values>"
+
+
+def solve(rig: Rig, deformer: Optional[Deformer] = None, *, joints: Any = None, points: Any = None,
+          mesh: int = 0, positions: Any = None, weights: Any = None, controls: Any = None,
+          smooth_weight: float = 0, **terms: Any) -> Any:
+    """The raw controls of a take, float32 (frames, raw controls): each frame starts from the one before.
+
+    joints: (frames, joints, 9) as `Instance.joints`
+    points: (frames, points, 3) of `mesh`: all positions, or those chosen by `positions` and `weights`
+    terms:  as `Fit.solve` has them
+
+        controls = mien.solve(rig, deformer, points=positions)
+    """
+    frames = joints if joints is not None else points
+    if frames is None:
+        raise ArgumentError("give joints or points")
+    with Fit(rig, deformer if points is not None else None, controls, mesh=mesh, positions=positions,
+             weights=weights) as fit:
+        found = numpy.empty((len(frames), fit._raw_count), "f")
+        start = None
+        for f in range(len(frames)):
+            found[f] = fit.solve(joints=None if joints is None else joints[f],
+                                 points=None if points is None else points[f], start=start,
+                                 smooth_weight=smooth_weight if f else 0, **terms).controls
+            start = found[f]
+    return found
+
+
+@raises("mien_fit_keys")
+def reduce_keys(values: Any, tolerance: float) -> Any:
+    """uint32 frame numbers of the keys of a curve: straight lines between them are within `tolerance` of all
+    values. The first and the last frame are keys."""
+    curve = numpy.ascontiguousarray(values, "f").reshape(-1)
+    keys, count = numpy.empty(curve.size, "uint32"), ctypes.c_size_t()
+    status = solver().mien_fit_keys(curve.ctypes.data, curve.size, tolerance, keys.ctypes.data,
+                                    _byref(count))
+    if status:
+        fail(status, "cannot reduce keys")
+    return keys[:count.value].copy()

@@ -1,0 +1,198 @@
+# SPDX-License-Identifier: MIT
+"""Derivatives and fits: products agree with differences and with each other, known controls come back, and
+wrong arguments raise."""
+import gc
+import threading
+import unittest
+
+import mien
+from support import dna_of, needs_numpy, numpy, pattern, rig_of, run
+
+RAW, JOINTS, POSITIONS = mien.Point.RAW, mien.Point.JOINTS, mien.Point.POSITIONS
+
+
+def deformer_of():
+    return mien.Deformer(dna_of(), rig_of())
+
+
+def posed(phase=0):
+    face = rig_of().instance()
+    face.raw_controls = [0.05 + 0.9 * value for value in pattern(len(face.raw_controls), phase)]
+    face.evaluate()
+    return face
+
+
+@needs_numpy
+class Products(unittest.TestCase):
+    def setUp(self):
+        self.deformer, self.face = deformer_of(), posed()
+        self.derivatives = mien.Derivatives(rig_of(), self.deformer)
+        self.derivatives.linearize(self.face)
+        self.random = numpy.random.default_rng(5)
+
+    def test_directions_agree_with_differences(self):
+        direction = self.random.normal(size=len(self.face.raw_controls))
+        found = self.derivatives.jvp(direction)
+        before, step = self.face.raw_controls.copy(), 1e-3
+        values = []
+        for sign in (1, -1):
+            self.face.raw_controls = before + sign * step * direction
+            self.face.evaluate()
+            values.append(self.face.joints.astype("d").reshape(-1))
+        wanted = (values[0] - values[1]) / (2 * step)
+        numpy.testing.assert_allclose(found, wanted, atol=0.02 * abs(wanted).max())
+
+    def test_gradients_are_the_transposed(self):
+        for to in (JOINTS, POSITIONS):
+            u = self.random.normal(size=(3, self.derivatives.size(RAW))).astype("f")
+            v = self.random.normal(size=(3, self.derivatives.size(to))).astype("f")
+            forward, reverse = self.derivatives.jvp(u, to=to), self.derivatives.vjp(v, to=to)
+            norms = numpy.linalg.norm(forward, axis=1) * numpy.linalg.norm(v, axis=1)
+            numpy.testing.assert_array_less(
+                abs((forward * v).sum(1) - (u * reverse).sum(1)), 1e-4 * norms + 1e-6)
+            numpy.testing.assert_array_equal(self.derivatives.jvp(u[1], to=to), forward[1])
+
+    def test_the_matrix(self):
+        whole = self.derivatives.jacobian()
+        self.assertEqual(whole.shape, (self.derivatives.size(JOINTS), self.derivatives.size(RAW)))
+        identity = numpy.eye(self.derivatives.size(RAW), dtype="f")
+        numpy.testing.assert_allclose(whole.dense(), self.derivatives.jvp(identity).T, atol=1e-6)
+        part = self.derivatives.jacobian(inputs=[3, 1], outputs=[0, 4, 9])
+        numpy.testing.assert_array_equal(part.dense(), whole.dense()[[0, 4, 9]][:, [3, 1]])
+
+    def test_wrong_arguments(self):
+        with self.assertRaisesRegex(mien.ArgumentError, "rows of"):
+            self.derivatives.jvp([1, 2, 3])
+        with self.assertRaisesRegex(mien.ArgumentError, "rows of"):
+            self.derivatives.vjp(numpy.zeros((2, 5)))
+        with self.assertRaises(mien.ArgumentError):
+            self.derivatives.jvp(numpy.zeros(self.derivatives.size(JOINTS)), of=JOINTS, to=RAW)
+        with self.assertRaises(mien.OutOfRangeError):
+            self.derivatives.size(POSITIONS, mesh=99)
+        with self.assertRaises(mien.OutOfRangeError):
+            mien.Derivatives(rig_of()).size(POSITIONS)
+        with self.assertRaises(mien.ArgumentError):
+            mien.Derivatives(rig_of()).jvp(numpy.zeros(self.derivatives.size(RAW)))
+        self.derivatives.close()
+        with self.assertRaises(mien.ClosedError):
+            self.derivatives.size(RAW)
+
+
+@needs_numpy
+class Fits(unittest.TestCase):
+    def test_joints(self):
+        faces = [posed(phase) for phase in range(3)]
+        found = mien.solve(rig_of(), joints=[face.joints for face in faces], max_iterations=200)
+        seen = mien.Fit(rig_of()).observability > 0.05
+        for face, row in zip(faces, found):
+            numpy.testing.assert_allclose(row[seen], face.raw_controls[seen], atol=0.01)
+
+    def test_points_moved_as_a_whole(self):
+        deformer, face = deformer_of(), rig_of().instance()
+        face.raw_controls = numpy.where(numpy.arange(len(face.raw_controls)) % 5 == 0, 0.6, 0)
+        face.evaluate()
+        pose = deformer.instance()
+        pose.update(face)
+        pose.deform(0)
+        targets = pose.positions(0) + numpy.array([1, 2, 3], "f")
+        targets[7] = numpy.nan
+        result = mien.Fit(rig_of(), deformer).solve(points=targets, rigid=True, max_iterations=200)
+        self.assertEqual(result.missing_points, 1)
+        self.assertLess(result.point_residual, 0.02 * numpy.ptp(pose.positions(0)))
+        numpy.testing.assert_allclose(result.rotation @ result.rotation.T, numpy.eye(3), atol=1e-4)
+        some = numpy.arange(0, len(targets), 3)
+        triangles = numpy.repeat(some[:, None], 3, 1)
+        shares = numpy.tile([0.5, 0.25, 0.25], (len(some), 1))
+        for chosen in (dict(positions=some), dict(positions=triangles, weights=shares)):
+            fit = mien.Fit(rig_of(), deformer, **chosen)
+            again = fit.solve(points=pose.positions(0)[some], max_iterations=200)
+            self.assertLess(again.point_residual, 0.02 * numpy.ptp(pose.positions(0)))
+
+    def test_bounds_and_controls_that_may_move(self):
+        face = posed()
+        count = len(face.raw_controls)
+        fit = mien.Fit(rig_of(), controls=[2, 5], upper=0.25)
+        row = fit.solve(joints=face.joints).controls
+        moved = numpy.flatnonzero(row)
+        self.assertTrue(set(moved) <= {2, 5}, moved)
+        self.assertLessEqual(row.max(), 0.25)
+        for wrong in (dict(controls=[5, 2]), dict(controls=[count]), dict(lower=2), dict(joint_weights=[1]),
+                      dict(positions=[0]), dict(symmetric=[1])):
+            with self.assertRaises(mien.Error, msg=wrong):
+                mien.Fit(rig_of(), **wrong)
+
+    def test_images(self):
+        deformer = deformer_of()
+        mesh = deformer.mesh(0)
+        size = float(numpy.ptp(mesh.positions))
+        camera = mien.FitCamera((500, 500), (320, 240), translation=(0, 0, 10 * size))
+        fit = mien.Fit(rig_of(), deformer)
+        placed = mesh.positions + numpy.array(camera.translation, "f")
+        images = 500 * placed[:, :2] / placed[:, 2:] + numpy.array(camera.center, "f")
+        result = fit.solve(images=images, camera=camera)
+        self.assertLess(result.point_residual, 0.5)
+        with self.assertRaises(mien.ArgumentError):
+            fit.solve(images=images)
+
+    def test_stops(self):
+        fit, face = mien.Fit(rig_of()), posed()
+        self.assertEqual(fit.solve(joints=face.joints, canceled=lambda: True).status, mien.FitStatus.CANCELED)
+        self.assertEqual(fit.solve().status, mien.FitStatus.NO_DATA)
+        with self.assertRaisesRegex(ZeroDivisionError, "zero"):
+            fit.solve(joints=face.joints, canceled=lambda: 1 / 0)
+        for wrong in (dict(joints=[1]), dict(joints=face.joints, start=[1]), dict(sparse_weight=-1, joints=face.joints),
+                      dict(points=[1, 2, 3])):
+            with self.assertRaises(mien.ArgumentError, msg=wrong):
+                fit.solve(**wrong)
+
+    def test_one_thread_at_a_time(self):
+        fit, face, raised = mien.Fit(rig_of()), posed(), []
+
+        def other():
+            try:
+                fit.solve()
+            except mien.BusyError as error:
+                raised.append(error)
+
+        def ask():
+            thread = threading.Thread(target=other)
+            thread.start()
+            thread.join()
+            return True
+        fit.solve(joints=face.joints, canceled=ask)
+        self.assertEqual(len(raised), 1)
+
+    def test_rigs_may_be_closed(self):
+        with mien.Dna.generate(mien.Preset.TINY) as dna:
+            rig = mien.Rig(dna)
+        fit = mien.Fit(rig)
+        count = rig.instance().joints.shape
+        rig.close()
+        del rig
+        gc.collect()
+        self.assertEqual(fit.solve(joints=numpy.zeros(count)).status, mien.FitStatus.CONVERGED)
+
+    def test_keys(self):
+        curve = numpy.concatenate([numpy.linspace(0, 1, 20), numpy.linspace(1, 0.5, 30)[1:]])
+        keys = mien.reduce_keys(curve, 1e-4)
+        self.assertEqual(keys.tolist(), [0, 19, 48])
+        bent = numpy.sin(numpy.arange(200) / 20)
+        keys = mien.reduce_keys(bent, 0.01)
+        self.assertLess(len(keys), 40)
+        numpy.testing.assert_allclose(numpy.interp(numpy.arange(200), keys, bent[keys]), bent, atol=0.0101)
+        self.assertEqual(mien.reduce_keys([3], 0).tolist(), [0])
+        self.assertEqual(mien.reduce_keys([], 0).tolist(), [])
+        for wrong in (([1, float("nan")], 0), ([1, 2], -1), ([1, 2], float("inf"))):
+            with self.assertRaises(mien.ArgumentError):
+                mien.reduce_keys(*wrong)
+
+
+class WithoutNumpy(unittest.TestCase):
+    def test_it_says_so(self):
+        self.assertIn("NumPy", run(
+            "import mien\ntry:\n  mien.Fit(mien.Rig(mien.Dna.generate(mien.Preset.TINY)))\n"
+            "except ImportError as error:\n  print(error)", without_numpy=True))
+
+
+if __name__ == "__main__":
+    unittest.main()
