@@ -71,11 +71,11 @@ MienStatus mien_deformer_influences(const MienDeformer* deformer, uint32_t mesh,
   if (mesh >= object(deformer)->meshes.count) return MIEN_ERROR_INDEX;
   const DeformMesh& shape = object(deformer)->meshes[mesh];
   if (position >= shape.position_count) return MIEN_ERROR_INDEX;
-  const uint32_t sorted_index = shape.sorted_indices[position];
-  const SkinRun* run = skin_run_of(shape, sorted_index);
-  const size_t row = run->first_weight + size_t{sorted_index - run->first} * run->influences;
-  *out_joints = view_of(shape.joints.slice(row, run->influences));
-  *out_weights = view_of(shape.weights.slice(row, run->influences));
+  Span<const uint16_t> joints;
+  Span<const float> weights;
+  find_influences(shape, position, joints, weights);
+  *out_joints = view_of(joints);
+  *out_weights = view_of(weights);
   return MIEN_OK;
 }
 

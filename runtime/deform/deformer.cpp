@@ -23,6 +23,15 @@ const SkinRun* skin_run_of(const DeformMesh& mesh, uint32_t sorted_index) {
          1;
 }
 
+void find_influences(const DeformMesh& mesh, uint32_t position, Span<const uint16_t>& joints,
+                     Span<const float>& weights) {
+  const uint32_t sorted_index = mesh.sorted_indices[position];
+  const SkinRun& run = *skin_run_of(mesh, sorted_index);
+  const size_t row = run.first_weight + size_t{sorted_index - run.first} * run.influences;
+  joints = mesh.joints.slice(row, run.influences);
+  weights = mesh.weights.slice(row, run.influences);
+}
+
 void write_target(const DeformMesh& mesh, uint32_t target, float* out) {
   std::fill(out, out + size_t{mesh.position_count} * 3, 0.0f);
   const auto is_before = [](const TargetRun& run, uint32_t t) { return run.target < t; };

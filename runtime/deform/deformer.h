@@ -106,6 +106,10 @@ void mark_mesh_lods(const Rig& rig, const Span<DeformMesh>& meshes);
 /// The run that contains a sorted index.
 const SkinRun* skin_run_of(const DeformMesh& mesh, uint32_t sorted_index);
 
+/// The joints that move a position, in file order, and their weights.
+void find_influences(const DeformMesh& mesh, uint32_t position, Span<const uint16_t>& joints,
+                     Span<const float>& weights);
+
 /// Writes x y z per position: the delta of a target at weight 1, in file order.
 void write_target(const DeformMesh& mesh, uint32_t target, float* out);
 
