@@ -3,10 +3,11 @@
 """The examples of all languages do the same job: they have to print the same.
 
 Usage: examples_agree.py --python INTERPRETER --cargo CARGO_OR_NOTHING --luajit LUAJIT_OR_NOTHING
-                         --mcs MCS_OR_NOTHING --mono MONO_OR_NOTHING --programs DIRECTORY
+                         --mcs MCS_OR_NOTHING --mono MONO_OR_NOTHING --go GO_OR_NOTHING
+                         --programs DIRECTORY
 The programs in C and C++ are DIRECTORY/example_c, _cpp, _mix_c and _mix_cpp.
 The library is found by the environment: MIEN_LIBRARY (Python, Lua), MIEN_LIB_DIR (Rust),
-LD_LIBRARY_PATH (C#).
+LD_LIBRARY_PATH (C#, Go), CGO_CFLAGS and CGO_LDFLAGS (Go).
 """
 import argparse
 import os
@@ -50,12 +51,20 @@ def csharp(mcs, mono, name, directory):
     return [mono, program]
 
 
+def golang(go, name, directory):
+    """The command of an example in Go, which is compiled to `directory`."""
+    subprocess.run([go, "build", "-o", directory / f"{name}_go", HERE / f"{name}.go"],
+                   cwd=HERE.parent / "integrations" / "go", check=True)
+    return [directory / f"{name}_go"]
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--programs", type=Path, required=True)
     parser.add_argument("--python", default=sys.executable)
     parser.add_argument("--cargo", default="")
     parser.add_argument("--luajit", default="")
+    parser.add_argument("--go", default="")
     parser.add_argument("--mcs", default="")
     parser.add_argument("--mono", default="")
     args = parser.parse_args()
@@ -89,6 +98,11 @@ def main():
     else:
         programs["C#"] = csharp(args.mcs, args.mono, "evaluate", Path(compiled.name))
         mixing["C#"] = csharp(args.mcs, args.mono, "mix", Path(compiled.name))
+    if not args.go:
+        print("NOT TESTED: the example in Go; there is no go")
+    else:
+        programs["Go"] = golang(args.go, "evaluate", Path(compiled.name))
+        mixing["Go"] = golang(args.go, "mix", Path(compiled.name))
 
     code = (HERE / "evaluate.c").read_text(encoding="utf-8").split("\n", 1)[1]
     if code not in (HERE.parent / "README.md").read_text(encoding="utf-8"):

@@ -137,14 +137,20 @@ if(NOT MIEN_SANITIZE AND NOT CMAKE_CROSSCOMPILING)
   find_program(MIEN_LUAJIT luajit)
   find_program(MIEN_MCS mcs)
   find_program(MIEN_MONO mono)
+  find_program(MIEN_GO go)
+  # Go keeps what it compiled beside the build.
+  set(go_environment "GOCACHE=${PROJECT_BINARY_DIR}/go" "GOFLAGS=-mod=mod" "GOPROXY=off"
+    "CGO_CFLAGS=-O1 -I${PROJECT_SOURCE_DIR}/capi/include" "CGO_LDFLAGS=-L$<TARGET_FILE_DIR:mien>"
+    "LD_LIBRARY_PATH=$<TARGET_FILE_DIR:mien>")
   add_test(NAME examples_agree
     COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/examples/examples_agree.py --python ${MIEN_PYTHON}
       --cargo "$<$<BOOL:${MIEN_CARGO}>:${MIEN_CARGO}>"
       --luajit "$<$<BOOL:${MIEN_LUAJIT}>:${MIEN_LUAJIT}>"
+      --go "$<$<BOOL:${MIEN_GO}>:${MIEN_GO}>"
       --mcs "$<$<BOOL:${MIEN_MCS}>:${MIEN_MCS}>" --mono "$<$<BOOL:${MIEN_MONO}>:${MIEN_MONO}>"
       --programs $<TARGET_FILE_DIR:example_c>)
   set_tests_properties(examples_agree PROPERTIES LABELS abi TIMEOUT 600
-    ENVIRONMENT "${python_environment};MIEN_LIB_DIR=$<TARGET_FILE_DIR:mien>;LD_LIBRARY_PATH=$<TARGET_FILE_DIR:mien>;CARGO_TARGET_DIR=${PROJECT_BINARY_DIR}/rust/target/shared")
+    ENVIRONMENT "${python_environment};${go_environment};MIEN_LIB_DIR=$<TARGET_FILE_DIR:mien>;CARGO_TARGET_DIR=${PROJECT_BINARY_DIR}/rust/target/shared")
 endif()
 
 # ---- types of the Python package --------------------------------------------------------------------
@@ -200,6 +206,23 @@ elseif(MIEN_MCS AND MIEN_MONO)
     ENVIRONMENT "LD_LIBRARY_PATH=$<TARGET_FILE_DIR:mien>")
 else()
   message(STATUS "NOT TESTED: the C# binding; there is no mcs and mono")
+endif()
+
+# ---- Go ---------------------------------------------------------------------------------------------
+
+add_test(NAME go_api
+  COMMAND Python3::Interpreter ${integrations}/go/generate_api.py --check)
+set_tests_properties(go_api PROPERTIES LABELS guard)
+if(MIEN_SANITIZE OR CMAKE_CROSSCOMPILING)
+  # Go is neither built with these sanitizers nor for other machines.
+elseif(MIEN_GO)
+  add_test(NAME go_test COMMAND ${MIEN_GO} test -vet=all ./... WORKING_DIRECTORY ${integrations}/go)
+  # The first run compiles Go's own library for the race detector.
+  add_test(NAME go_race_test COMMAND ${MIEN_GO} test -race . WORKING_DIRECTORY ${integrations}/go)
+  set_tests_properties(go_test go_race_test PROPERTIES LABELS abi TIMEOUT 600 ENVIRONMENT "${go_environment}")
+  set_property(TEST go_race_test APPEND PROPERTY LABELS slow)
+else()
+  message(STATUS "NOT TESTED: the Go binding; there is no go")
 endif()
 
 # ---- JavaScript -------------------------------------------------------------------------------------

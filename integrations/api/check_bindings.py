@@ -25,28 +25,30 @@ SOURCES = {
     "JavaScript": ["web/mien/*.js"],
     "Lua": ["lua/mien/*.lua"],
     "C#": ["csharp/Mien/*.cs"],
+    "Go": ["go/*[!t].go", "go/author/*.go"],
 }
 GENERATED = {"Python": "python/mien/_api.py", "Rust": "rust/mien/src/generated.rs",
              "JavaScript": "web/mien/api.js", "Lua": "lua/mien/api.lua",
-             "C#": "csharp/Mien/Native.cs"}
+             "C#": "csharp/Mien/Native.cs", "Go": "go/api.go"}
 
 # "mien_noun_verb", "MienDesc.field", "MienEnum" or, of a field of all structs, "field": {language: why}
 WITHOUT = {
     "allocator": {"C#": "memory is that of the library, released by handles",
+                  "Go": "memory is that of the library, released by Close()",
                   "Lua": "memory is that of the library, released by the garbage collector",
                   "Python": "memory of the library is not Python's",
                   "JavaScript": "memory is the module's",
                   "Rust": "an allocator is given where objects are many: instances, batches, reports"},
-    "mien_rig_evaluate": {"C#": "Evaluate() takes stages"},
-    "MienBatchDesc.tasks": {"C#": "callbacks from C are not offered"},
-    "MienClipDesc.frame_stride": {"C#": "rows are arrays", "Python": "rows are arrays", "Rust": "rows are a slice"},
+    "mien_rig_evaluate": {"C#": "Evaluate() takes stages", "Go": "EvaluateStages() with all stages"},
+    "MienBatchDesc.tasks": {"C#": "callbacks from C are not offered", "Go": "callbacks from C are not offered"},
+    "MienClipDesc.frame_stride": {"C#": "rows are arrays", "Go": "rows are slices", "Python": "rows are arrays", "Rust": "rows are a slice"},
     "MienClipPlayerDesc.speed_numerator": {"Rust": "ClipPlayer::set_speed()"},
     "MienClipPlayerDesc.speed_denominator": {"Rust": "ClipPlayer::set_speed()"},
     "MienClipPlayerDesc.start_tick": {"Rust": "ClipPlayer::seek()"},
     "MienAuthorDesc.progress_user": {"Python": "functions keep what they need"},
     "MienVertexFormat": {"Python": "the type of an array says it"},
     "file_access": {"JavaScript": "there is no file system"},
-    **{name: {"C#": "callbacks from C are not offered",
+    **{name: {"C#": "callbacks from C are not offered", "Go": "callbacks from C are not offered",
               "Lua": "callbacks from C into Lua cost more than reading the bytes"} for name in (
         "mien_dna_open_stream", "mien_baked_open_stream", "mien_clip_open_stream")},
     **{name: {"JavaScript": "there is no file system"} for name in (
@@ -78,6 +80,9 @@ LATER = {
     "C++": _SOLVING, "Rust": _SOLVING, "JavaScript": _SOLVING,
     "Lua": LATER_IN_ALL + ("mien_deformer_bind_", "mien_deformer_influences", "mien_deformer_instance_local_",
                            "mien_deformer_inverse_", "mien_deformer_target"),
+    "Go": LATER_IN_ALL + ("MienCoordinateSystem.", "MienMixDesc.custom_", "MienVertexOutput.tangents",
+                          "mien_deformer_bind_", "mien_deformer_influences", "mien_deformer_instance_local_",
+                          "mien_deformer_inverse_", "mien_deformer_target"),
     "C#": LATER_IN_ALL + ("MienCoordinateSystem.", "MienMixDesc.custom_"),
 }
 # Functions whose own statuses cannot reach a user, who finds no list of them either.
@@ -144,6 +149,12 @@ class Binding:
                 return set()
             return {re.sub("(?<!^)([A-Z])", r"_\1", field).lower()
                     for field in re.findall(r"\b([A-Z]\w+) = ", self.text)}
+        if self.language == "Go":  # structs of Go are copied whole; else fields are set one by one, in literals or lists
+            if f"(*C.{struct})(unsafe.Pointer(&desc))" in self.text or f"(*C.{struct})(unsafe.Pointer(&m.play))" in self.text:
+                return None
+            if not re.search(rf"\bC\.{struct}\b", self.text):
+                return set()
+            return set(re.findall(r"\b(?:desc|output)\.(\w+)", self.text)) | set(re.findall(r"\b(\w+): ", self.text))
         found = set(re.findall(r"\.(\w+) = ", self.text))
         for match in re.finditer(rf"\b{struct}(?:\(| \{{)", self.text):
             inside = braced(self.text, match.end())
@@ -172,6 +183,8 @@ class Binding:
             return f"\napi.{name} = {{" in self.generated
         if self.language == "C#":
             return f"public enum {name} : " in self.generated
+        if self.language == "Go":
+            return f"\ntype {name} " in self.generated
         if not re.search(rf"\bclass {name}\(|\bstruct {name}\(", self.generated):
             return False
         if self.language == "Rust":
@@ -183,6 +196,9 @@ class Binding:
         """Whether the generated enum has the value, which the header calls MIEN_..._SHORT."""
         if enum_name == "MienStatusCode":
             short = re.sub("^ERROR_", "", short)
+        if self.language == "Go":
+            short = "".join(part.capitalize() for part in short.split("_"))
+            return re.search(rf"^const \w+{short} \w+ = {number}$", self.without_underscores, re.MULTILINE) is not None
         if self.language == "C#":
             short = "".join(part.capitalize() for part in short.split("_"))
             return f" {short} = {number}," in self.without_underscores
@@ -190,8 +206,8 @@ class Binding:
             re.search(rf"\b_?{short}\b.*\b{number}\b", self.generated) is not None
 
     def documents(self, function):
-        if self.language in ("JavaScript", "Lua", "C#") or self.language in SILENT.get(function, ()):
-            return True  # api.d.ts, api.lua and Native.cs have the comments of the header
+        if self.language in ("JavaScript", "Lua", "C#", "Go") or self.language in SILENT.get(function, ()):
+            return True  # their generated files or cgo have the comments of the header
         if self.language == "Python":
             return re.search(rf'@raises\([^)]*"{function}(_n)?"', self.text) is not None
         return self.language != "Rust" or f"errors!({function})" in self.text
@@ -289,7 +305,7 @@ def self_test(api, found):
         enum["values"].append({"name": "MIEN_ISA_ADDED", "short_name": "ADDED", "value": 77})
 
     both = ["Python", "Rust"]
-    all_others = both + ["JavaScript", "Lua", "C#"]
+    all_others = both + ["JavaScript", "Lua", "C#", "Go"]
     for change, languages, what in (
             (lambda new: None, [], ""),
             (add_function, ["C++"] + all_others, "has no binding of mien_added"),

@@ -64,7 +64,7 @@ namespace Mien {
 
     public void Dispose() { handle.Dispose(); }
 
-    /// <summary>Opens a file, in bytes or in text, for a rig that has its controls.</summary>
+    /// <summary>Opens a file, as Save writes it, for a rig that has its controls.</summary>
     public static Mix Open(string path, Rig rig) {
       MienError error = MienError.Create();
       IntPtr taken;

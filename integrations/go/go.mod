@@ -1,0 +1,3 @@
+module mien
+
+go 1.19
