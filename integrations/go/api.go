@@ -725,6 +725,24 @@ const MatchSurface Match = 0
 // the nearest point in the texture
 const MatchUv Match = 1
 
+// Why a solve ended.
+type FitStatus uint32
+
+// further steps change nothing
+const FitStatusConverged FitStatus = 0
+
+// the limit of iterations was reached; the best controls so far
+const FitStatusIterations FitStatus = 1
+
+// the limit of time was reached; likewise
+const FitStatusTime FitStatus = 2
+
+// the caller asked to stop; likewise
+const FitStatusCanceled FitStatus = 3
+
+// no target, or all are missing; the start is returned
+const FitStatusNoData FitStatus = 4
+
 // Axes, units and rotation conventions of a rig. Any handedness is allowed.
 // See docs/dna-format.md, 11 "Coordinate systems".
 type CoordinateSystem struct {
@@ -1298,6 +1316,29 @@ type TransplantDesc struct {
 	Influences uint32
 }
 
+// The result of a solve.
+type FitResult struct {
+	structSize uint64
+	// MIEN_FIT_...
+	Status     FitStatus
+	Iterations uint32
+	// the minimized sum, with all terms
+	Cost float64
+	// weighted root mean square of the differences of joint values
+	JointResidual float64
+	// the same for points, or for image points in their unit
+	PointResidual float64
+	MissingPoints uint32
+	reserved      uint32
+	// rows: points of the target = rotation * model + translation, if rigid
+	Rotation    [9]float32
+	Translation [3]float32
+	// largest difference of a joint value that counts
+	JointWorst float64
+	// largest distance of a point that counts
+	PointWorst float64
+}
+
 // Bytes of each struct in C, to compare with unsafe.Sizeof.
 var structSizes = [][2]uintptr{
 	{unsafe.Sizeof(CoordinateSystem{}), 56},
@@ -1339,4 +1380,5 @@ var structSizes = [][2]uintptr{
 	{unsafe.Sizeof(ProjectDesc{}), 24},
 	{unsafe.Sizeof(Conformed{}), 24},
 	{unsafe.Sizeof(TransplantDesc{}), 16},
+	{unsafe.Sizeof(FitResult{}), 112},
 }

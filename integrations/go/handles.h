@@ -22,3 +22,4 @@ struct MienGaze { char unused; };
 struct MienMixer { char unused; };
 struct MienSolverStack { char unused; };
 struct MienSolverState { char unused; };
+struct MienFit { char unused; };
