@@ -72,7 +72,7 @@ def write_handles(api):
 """
     for handle in api["handles"]:
         if handle["name"] not in ("MienAuthorReport", "MienDocument"):  # of mien_author.h
-            yield f"struct {handle['name']} {{ char unused; }};\n"
+            yield f"struct {handle['name']} {{\n  char unused;\n}};\n"
 
 
 def is_plain(struct):
