@@ -2,11 +2,17 @@
 # SPDX-License-Identifier: MIT
 # Tests the crates against the libraries of BUILD: shared, static, and found by pkg-config; and, if
 # ASAN_BUILD is given, against the library with the address sanitizer. Downloads nothing.
-# Usage: check.sh BUILD [ASAN_BUILD]    Everything that is built lies in BUILD/rust.
+# check.sh --threads BUILD TSAN_BUILD only runs tests/threads.rs, with the thread sanitizer.
+# Usage: check.sh [--threads] BUILD [SANITIZED_BUILD]    Everything that is built lies in BUILD/rust.
 set -euo pipefail
 
+threads=
+if [ "$1" = --threads ]; then
+  threads=1
+  shift
+fi
 build=$(realpath "$1")
-asan=${2:+$(realpath "$2")}
+sanitized=${2:+$(realpath "$2")}
 cd "$(dirname "${BASH_SOURCE[0]}")"
 unset MIEN_LIB_DIR MIEN_STATIC RUSTFLAGS
 export CARGO_NET_OFFLINE=true
@@ -19,6 +25,21 @@ run() {
   echo "-- $way: $*"
   CARGO_TARGET_DIR=$target/$way "$@"
 }
+
+host=$(rustc -vV | sed -n 's/^host: //p')
+if [ -n "$threads" ]; then
+  if cargo +nightly --version >/dev/null 2>&1; then
+    # The sanitizer fails on some address layouts of newer kernels.
+    layout=()
+    if setarch -R true 2>/dev/null; then layout=(setarch -R); fi
+    MIEN_LIB_DIR=$sanitized/lib MIEN_STATIC=1 RUST_TEST_THREADS=1 TSAN_OPTIONS="suppressions=$PWD/tsan.supp" \
+      RUSTFLAGS="-Zsanitizer=thread -Cunsafe-allow-abi-mismatch=sanitizer -Clink-arg=-lstdc++" \
+      run threads "${layout[@]}" cargo +nightly test --quiet --locked --target "$host" -p mien --test threads
+  else
+    echo "NOT TESTED: threads of the Rust crates with a sanitizer; there is no nightly compiler"
+  fi
+  exit
+fi
 
 cargo --version
 rustc --version
@@ -51,7 +72,6 @@ else
 fi
 
 # Safe code that attacks: with the address sanitizer, where this compiler has one.
-host=$(rustc -vV | sed -n 's/^host: //p')
 if cargo +nightly --version >/dev/null 2>&1; then
   RUSTFLAGS="-Zsanitizer=address -Cunsafe-allow-abi-mismatch=sanitizer" ASAN_OPTIONS=allocator_may_return_null=1 \
     run sanitized cargo +nightly test --quiet --locked --target "$host" -p mien --test attack
@@ -76,11 +96,10 @@ for features in "" mien/static; do
 done
 unset PKG_CONFIG_PATH
 
-if [ -n "$asan" ]; then
+if [ -n "$sanitized" ]; then
   # Programs without the sanitizer have to load it before the library that needs it.
   runtime=$(clang -print-file-name="libclang_rt.asan-$(uname -m).so")
-  host=$(rustc -vV | sed -n 's/^host: //p' | tr 'a-z-' 'A-Z_')
-  export "CARGO_TARGET_${host}_RUNNER=env LD_PRELOAD=$runtime ASAN_OPTIONS=allocator_may_return_null=1"
-  MIEN_LIB_DIR=$asan/lib RUSTFLAGS="-C link-arg=-Wl,--allow-shlib-undefined" \
+  export "CARGO_TARGET_$(tr 'a-z-' 'A-Z_' <<<"$host")_RUNNER=env LD_PRELOAD=$runtime ASAN_OPTIONS=allocator_may_return_null=1"
+  MIEN_LIB_DIR=$sanitized/lib RUSTFLAGS="-C link-arg=-Wl,--allow-shlib-undefined" \
     run asan cargo test --quiet --locked --tests
 fi
