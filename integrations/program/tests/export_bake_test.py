@@ -56,6 +56,28 @@ class Baking(ExportTest):
             moved = [distance(a, b) > 1 for a, b in zip(turned.deformed(number), glb.deformed(number))]
             self.assertGreater(sum(moved), len(moved) / 3, bone)
 
+    def test_influences_and_expressions(self):
+        """With fewer influences the expressions stay, and the loss of the bones is told."""
+        loss = re.compile(r"(\d+) of (\d+) positions follow more than (\d) bones.*off by ([\d.]+) mm")
+        told = {}
+        for most in (4, 2, 1):
+            done = self.ok("export", path("large.dna"), "-o", path("few.glb"), "--bake", "arkit", "--lod", "4",
+                           "--no-quantize", "--influences", str(most))
+            self.assertEqual(done.stdout.decode().splitlines(), self.report)
+            found = loss.search(done.stderr)
+            told[most] = float(found.group(4)) if found else 0.0
+            few = Glb(read("few.glb"))
+            for node in few.mesh_nodes():
+                primitive = few.json["meshes"][few.json["nodes"][node]["mesh"]]["primitives"][0]
+                weights = few.accessor(primitive["attributes"]["WEIGHTS_0"])
+                self.assertNotIn("WEIGHTS_1", primitive["attributes"])
+                for row in weights:
+                    self.assertLessEqual(sum(weight > 0 for weight in row), most)
+                    self.assertAlmostEqual(sum(row), 1, places=5)
+            posed = self.obj(path("large.dna"), "--lod", "4", "--set", "jawOpen=1")
+            self.assertLess(self.worst(few, posed, weights={"jawOpen": 1}), 5e-6)
+        self.assertGreater(told[1], told[4])
+
     def test_correctives(self):
         rig = path("large.dna")
         done = self.ok("export", rig, "-o", path("corrected.glb"), "--bake", "arkit", "--correctives", "--lod", "4",
