@@ -86,7 +86,9 @@ std::string bake_report_json(const gltf::BakeReport& report,
                           {"targets", residual_json(report.combinations)},
                           {"with_correctives", residual_json(report.corrected)}};
   for (const gltf::BakeReport::Follower& follower : report.followers) {
-    ReportJson& entry = followers[follower.name];
+    std::string name = follower.name;
+    for (int n = 2; followers.contains(name); ++n) name = follower.name + " " + std::to_string(n);
+    ReportJson& entry = followers[name];
     entry["shapes"] = ReportJson::object();
     for (size_t e = 0; e < follower.halfway.size(); ++e) {
       entry["shapes"][report.expressions[e].name] =

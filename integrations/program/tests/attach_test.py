@@ -99,9 +99,10 @@ class Attach(ProgramTest):
         places = self.plain.positions(self.base)
         write("copy.obj", obj("copy", [places[v] for v in vertices], triangles))
         done = self.ok("export", path("head.dna"), "-o", path("measured.glb"), "--bake", "arkit", "--lod", "4", "--force",
-                       "--attach", path("copy.obj"), "--residuals", path("loss.json"))
+                       "--attach", path("copy.obj"), "--attach", path("copy.obj"), "--residuals", path("loss.json"))
         self.assertIn("copy, attached, in combinations: off by", done.stdout.decode())
         loss = json.loads(read("loss.json"))
+        self.assertEqual(list(loss["attached"]), ["copy", "copy 2"])
         copy = loss["attached"]["copy"]
         self.assertEqual(list(copy["shapes"]), list(loss["shapes"]))
         for own, all_ in ((copy["shapes"]["jawOpen"], loss["shapes"]["jawOpen"]),
