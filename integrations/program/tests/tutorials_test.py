@@ -29,9 +29,10 @@ class Tutorials(unittest.TestCase):
         self.environment = {**os.environ, "PATH": f"{mien.parent}:{os.environ['PATH']}",
                             "PKG_CONFIG_PATH": self.folder, "LD_LIBRARY_PATH": str(library.parent)}
 
-    def follow(self, name, outputs):
-        """Does what the tutorial says; all `outputs` have to be there in the end."""
-        blocks = BLOCK.findall((ROOT / "docs" / "tutorials" / (name + ".md")).read_text(encoding="utf-8"))
+    def follow(self, name, outputs, until=None):
+        """Does what the tutorial says, up to the heading `until`; all `outputs` have to be there in the end."""
+        text = (ROOT / "docs" / "tutorials" / (name + ".md")).read_text(encoding="utf-8")
+        blocks = BLOCK.findall(text.split(f"\n## {until}\n")[0])
         self.assertTrue(blocks)
         printed = ""
         for what, text in blocks:
@@ -45,6 +46,10 @@ class Tutorials(unittest.TestCase):
         for output in outputs:
             self.assertTrue((Path(self.folder) / output).stat().st_size, output)
         return printed
+
+    def skipTest(self, reason):
+        print(reason, file=sys.stderr)  # unittest itself does not tell, and ./dev collects these lines
+        super().skipTest(reason)
 
     def needs_compiler(self):
         for program in ("cc", "pkg-config"):
@@ -69,6 +74,32 @@ class Tutorials(unittest.TestCase):
                                               "pictures/head-turn.png", "talk.png", "talk.glb"])
         self.assertRegex(printed, r"jawOpen turns the jaw by 2\d degrees")
         self.assertIn("eye_r looks up with eyeLookUpRight: shape", printed)
+
+    def find_python(self, *modules):
+        """An interpreter that has them all, or None."""
+        for python in (sys.executable, "/usr/bin/python3"):
+            if subprocess.run([python, "-c", "import " + ", ".join(modules)], stderr=subprocess.DEVNULL,
+                              check=False).returncode == 0:
+                return python
+        return None
+
+    def test_solving(self):
+        python = self.find_python("numpy")
+        if not python:
+            self.skipTest("NOT TESTED: the tutorial on solving; no Python has NumPy")
+        with_torch = self.find_python("numpy", "torch")
+        programs = Path(self.folder) / "bin"
+        programs.mkdir()
+        (programs / "python3").symlink_to(with_torch or python)
+        self.environment.update(PATH=f"{programs}:{self.environment['PATH']}", PYTHONDONTWRITEBYTECODE="1",
+                                PYTHONPATH=str(ROOT / "integrations" / "python"), MIEN_LIBRARY=str(library))
+        until = None if with_torch else "A network trained through the rig"
+        printed = self.follow("solving", ["take.clip", "report.json", "pictures/solve.png"], until)
+        self.assertRegex(printed, r"frame 12: 0\.3\d mm, jawOpen 0\.(69|7\d)")
+        if not with_torch:
+            self.skipTest("NOT TESTED: a network trained through the rig; no Python has PyTorch (python3-torch)")
+        before, after = (float(re.search(word + r": +([\d.]+) mm", printed)[1]) for word in ("before", "after"))
+        self.assertLess(after, 0.5 * before)
 
     def test_viewers(self):
         self.follow("viewers", ["head.glb", "arkit.glb", "smile.obj", "smile.mtl"])
