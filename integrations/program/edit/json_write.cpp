@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 
 #include "integrations/program/edit/json_document.h"
 #include "integrations/program/io/dna_fields.h"
+#include "integrations/program/io/json_writer.h"
 #include "integrations/program/io/text.h"
 
 namespace mien::cli {
@@ -22,41 +22,30 @@ std::string hex_of(std::string_view bytes) {
   return text;
 }
 
-class JsonWriter {
- public:
-  JsonWriter(const Document& document, Output& output) : document_(document), output_(output) {}
+using Layout = JsonWriter::Layout;
 
-  void run() {
+/// The fields of a document as JSON.
+class DocumentText {
+ public:
+  DocumentText(const Document& document, Output& output) : document_(document), json_(output) {}
+
+  void write() {
     uint32_t version = 0, layers = 0;
     auto error = sized<MienError>();
     check(mien_document_layer_count(document_.get(), &version, &layers, &error), &error,
           "cannot read layers", document_.shown);
-    put("{\n \"dna\": \"2." + std::to_string(version) + "\",\n \"layers\": [");
-    for (uint32_t i = 0; i < layers; ++i) {
-      put(i == 0 ? "\n  " : ",\n  ");
-      write_layer(i);
-    }
-    put("\n ]");
-    const uint64_t count = field("").count;
-    for (uint64_t i = 0; i < count; ++i) {
-      const std::string name = child("", i);
-      put(",\n \"" + name + "\": ");
-      write(name, 1);
-    }
-    put("\n}\n");
-    flush();
+    json_.begin_object(Layout::kLines);
+    json_.member("dna", "2." + std::to_string(version));
+    json_.key("layers");
+    json_.begin_array(Layout::kLines);
+    for (uint32_t i = 0; i < layers; ++i) write_layer(i);
+    json_.end_array();
+    write_members("");
+    json_.end_object();
+    json_.finish();
   }
 
  private:
-  void put(std::string_view text) {
-    text_ += text;
-    if (text_.size() >= 1 << 16) flush();
-  }
-  void flush() {
-    output_.write(text_);
-    text_.clear();
-  }
-
   MienDnaField field(const std::string& path) const {
     auto found = sized<MienDnaField>();
     auto error = sized<MienError>();
@@ -79,58 +68,44 @@ class JsonWriter {
     auto error = sized<MienError>();
     check(mien_document_layer(document_.get(), index, &layer, &bytes, &error), &error,
           "cannot read layers", document_.shown);
-    put("[");
+    json_.begin_array(bytes.count == 0 ? Layout::kInline : Layout::kLines);
     write_text(layer.code);
-    put(", \"" + std::to_string(layer.version_major) + "." + std::to_string(layer.version_minor) +
-        "\"");
-    constexpr size_t kBytesInLine = 48;
-    for (size_t at = 0; at < bytes.count; at += kBytesInLine) {
-      put(at == 0 ? ", [\n   \"" : ",\n   \"");
-      put(hex_of({bytes.data + at, std::min(kBytesInLine, bytes.count - at)}));
-      put("\"");
+    json_.value(std::to_string(layer.version_major) + "." + std::to_string(layer.version_minor));
+    if (bytes.count != 0) {
+      json_.begin_array(Layout::kLines);
+      constexpr size_t kBytesInLine = 48;
+      for (size_t at = 0; at < bytes.count; at += kBytesInLine) {
+        json_.value(hex_of({bytes.data + at, std::min(kBytesInLine, bytes.count - at)}));
+      }
+      json_.end_array();
     }
-    put(bytes.count != 0 ? "]]" : "]");
+    json_.end_array();
   }
 
-  void new_line(size_t depth) {
-    put("\n");
-    put(std::string(depth, ' '));
-  }
-
-  void write(const std::string& path, size_t depth) {
+  void write_field(const std::string& path) {
     const MienDnaField found = field(path);
     switch (found.type) {
       case MIEN_FIELD_STRING: return write_text(read_string(document_, path));
-      case MIEN_FIELD_LIST: return write_list(path, found.count, depth);
-      case MIEN_FIELD_RECORD: return write_record(path, found.count, depth);
-      case MIEN_FIELD_F32: return write_numbers(path, found, floats_, depth);
-      default: return write_numbers(path, found, integers_, depth);
+      case MIEN_FIELD_LIST:
+        json_.begin_array(Layout::kLines);
+        for (uint64_t i = 0; i < found.count; ++i) write_field(element(path, i));
+        return json_.end_array();
+      case MIEN_FIELD_RECORD:
+        json_.begin_object(fits_in_line(path, found.count) ? Layout::kInline : Layout::kLines);
+        write_members(path);
+        return json_.end_object();
+      case MIEN_FIELD_F32: return write_numbers(path, found, floats_);
+      default: return write_numbers(path, found, integers_);
     }
   }
 
-  void write_list(const std::string& path, uint64_t count, size_t depth) {
-    put("[");
+  void write_members(const std::string& path) {
+    const uint64_t count = field(path).count;
     for (uint64_t i = 0; i < count; ++i) {
-      if (i != 0) put(",");
-      new_line(depth + 1);
-      write(element(path, i), depth + 1);
-    }
-    if (count != 0) new_line(depth);
-    put("]");
-  }
-
-  void write_record(const std::string& path, uint64_t count, size_t depth) {
-    const bool is_short = fits_in_line(path, count);
-    put("{");
-    for (uint64_t i = 0; i < count; ++i) {
-      if (i != 0) put(is_short ? ", " : ",");
-      if (!is_short) new_line(depth + 1);
       const std::string name = child(path, i);
-      put("\"" + name + "\": ");
-      write(path + "." + name, depth + 1);
+      json_.key(name);
+      write_field(path.empty() ? name : path + "." + name);
     }
-    if (!is_short) new_line(depth);
-    put("}");
   }
 
   /// Faces, weights of a position, pairs of metadata: a line each.
@@ -140,28 +115,21 @@ class JsonWriter {
       const MienDnaField member = field(path + "." + child(path, i));
       if (member.type == MIEN_FIELD_RECORD || member.type == MIEN_FIELD_LIST) return false;
       numbers += member.is_array ? member.count : 1;
-      if (member.count > kNumbersInLine) return false;
+      if (member.count > JsonWriter::kRow) return false;
     }
-    return numbers <= 2 * kNumbersInLine;
+    return numbers <= 2 * JsonWriter::kRow;
   }
 
   template <class Number>
-  void write_numbers(const std::string& path, const MienDnaField& of, std::vector<Number>& values,
-                     size_t depth) {
+  void write_numbers(const std::string& path, const MienDnaField& of, std::vector<Number>& values) {
     values.resize(of.count);
     auto error = sized<MienError>();
     check(read(path, values.data(), values.size(), &error), &error, "cannot read " + path,
           document_.shown);
     if (!of.is_array) return write_number(values[0]);
-    const bool lines = values.size() > kNumbersInLine;
-    put("[");
-    for (size_t i = 0; i < values.size(); ++i) {
-      if (i != 0) put(lines && i % kNumbersInLine == 0 ? "," : ", ");
-      if (lines && i % kNumbersInLine == 0) new_line(depth + 1);
-      write_number(values[i]);
-    }
-    if (lines) new_line(depth);
-    put("]");
+    json_.begin_numbers(values.size());
+    for (const Number value : values) write_number(value);
+    json_.end_array();
   }
   MienStatus read(const std::string& path, float* out, size_t count, MienError* error) const {
     return mien_document_read_floats(document_.get(), path.c_str(), 0, count, out, error);
@@ -170,46 +138,31 @@ class JsonWriter {
     return mien_document_read_integers(document_.get(), path.c_str(), 0, count, out, error);
   }
 
-  void write_number(int64_t value) { put(std::to_string(value)); }
+  void write_number(int64_t value) { json_.value(value); }
   void write_number(float value) {
-    char digits[32];
-    if (!std::isfinite(value)) {
-      uint32_t bits = 0;
-      memcpy(&bits, &value, sizeof(bits));
-      snprintf(digits, sizeof(digits), "\"0x%08x\"", bits);
-      return put(digits);
-    }
-    // A parser takes "-0" for an integer, which has no sign.
-    if (value == 0 && std::signbit(value)) return put("-0.0");
-    put({digits,
-         static_cast<size_t>(std::to_chars(digits, digits + sizeof(digits), value).ptr - digits)});
+    if (std::isfinite(value)) return json_.shortest_float(value);
+    char digits[16];
+    uint32_t bits = 0;
+    memcpy(&bits, &value, sizeof(bits));
+    snprintf(digits, sizeof(digits), "0x%08x", bits);
+    json_.value(digits);
   }
 
   void write_text(const std::string& text) {
-    std::string_view rest = text;
-    std::string quoted = "\"";
-    while (!rest.empty()) {
+    for (std::string_view rest = text; !rest.empty();) {
       const size_t length = utf8_length(rest);
-      if (length == 0) return put("{\"hex\": \"" + hex_of(text) + "\"}");
-      const auto byte = static_cast<unsigned char>(rest[0]);
-      if (byte < 0x20 || byte == 0x7F) {
-        char escape[8];
-        snprintf(escape, sizeof(escape), "\\u%04x", byte);
-        quoted += escape;
-      } else {
-        if (byte == '"' || byte == '\\') quoted += '\\';
-        quoted += rest.substr(0, length);
+      if (length == 0) {
+        json_.begin_object();
+        json_.member("hex", hex_of(text));
+        return json_.end_object();
       }
       rest.remove_prefix(length);
     }
-    put(quoted + "\"");
+    json_.value(text);
   }
 
-  static constexpr size_t kNumbersInLine = 12;
-
   const Document& document_;
-  Output& output_;
-  std::string text_;  // not written yet
+  JsonWriter json_;
   std::vector<float> floats_;
   std::vector<int64_t> integers_;
 };
@@ -217,7 +170,7 @@ class JsonWriter {
 }  // namespace
 
 void write_json_document(const Document& document, Output& output) {
-  JsonWriter(document, output).run();
+  DocumentText(document, output).write();
 }
 
 }  // namespace mien::cli

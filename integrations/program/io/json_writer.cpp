@@ -21,25 +21,24 @@ void JsonWriter::separate() {
   }
   if (levels_.empty()) return;
   Level& level = levels_.back();
-  const bool lines = level.layout == Layout::kLines;
-  if (!level.empty) text_ += lines ? "," : ", ";
-  if (lines) text_.append("\n").append(2 * levels_.size(), ' ');
-  level.empty = false;
+  const bool starts_line =
+      level.layout == Layout::kLines || (level.layout == Layout::kRows && level.count % kRow == 0);
+  if (level.count != 0) text_ += starts_line ? "," : ", ";
+  if (starts_line) new_line(levels_.size());
+  ++level.count;
 }
 
 void JsonWriter::begin(char bracket, Layout layout) {
   separate();
   if (!levels_.empty() && levels_.back().layout == Layout::kInline) layout = Layout::kInline;
   text_ += bracket;
-  levels_.push_back({layout, true});
+  levels_.push_back({layout, 0});
 }
 
 void JsonWriter::end(char bracket) {
   const Level level = levels_.back();
   levels_.pop_back();
-  if (level.layout == Layout::kLines && !level.empty) {
-    text_.append("\n").append(2 * levels_.size(), ' ');
-  }
+  if (level.layout != Layout::kInline && level.count != 0) new_line(levels_.size());
   text_ += bracket;
   flush_if_full();
 }
@@ -85,7 +84,8 @@ void JsonWriter::fixed(double number, int decimals) {
   text_.append(digits, end);
 }
 
-void JsonWriter::shortest(double number) {
+template <class Number>
+void JsonWriter::digits_of(Number number) {
   separate();
   // Without a point readers take it for an integer, which has no sign at zero.
   if (number == 0 && std::signbit(number)) {
@@ -94,7 +94,12 @@ void JsonWriter::shortest(double number) {
   }
   char digits[32];
   text_.append(digits, std::to_chars(digits, digits + sizeof(digits), number).ptr);
+  flush_if_full();
 }
+
+void JsonWriter::shortest(double number) { digits_of(number); }
+
+void JsonWriter::shortest_float(float number) { digits_of(number); }
 
 size_t JsonWriter::floats(const float* numbers, size_t count) {
   separate();

@@ -16,12 +16,16 @@ namespace mien::cli {
 /// Numbers have enough digits to read back as the same float. Bytes that are not UTF-8 become U+FFFD.
 class JsonWriter {
  public:
-  enum class Layout { kInline, kLines };  // kLines: each member on a line of its own
+  /// kLines: each member on a line of its own; kRows: twelve on a line, all on one if they fit.
+  enum class Layout { kInline, kLines, kRows };
+  static constexpr size_t kRow = 12;
 
   explicit JsonWriter(Output& output) : output_(output) {}
 
   void begin_object(Layout layout = Layout::kInline) { begin('{', layout); }
   void begin_array(Layout layout = Layout::kInline) { begin('[', layout); }
+  /// An array of `count` numbers.
+  void begin_numbers(size_t count) { begin('[', count > kRow ? Layout::kRows : Layout::kInline); }
   void end_object() { end('}'); }
   void end_array() { end(']'); }
 
@@ -36,8 +40,9 @@ class JsonWriter {
   void null();
   /// In fixed notation.
   void fixed(double number, int decimals);
-  /// With the fewest digits that give the number back.
+  /// With the fewest digits that give the number back, as a double or as a float.
   void shortest(double number);
+  void shortest_float(float number);
 
   template <class T>
   void member(std::string_view name, const T& content) {
@@ -54,12 +59,15 @@ class JsonWriter {
  private:
   struct Level {
     Layout layout;
-    bool empty;
+    size_t count;  // members so far
   };
 
   void begin(char bracket, Layout layout);
   void end(char bracket);
   void separate();
+  void new_line(size_t depth) { text_.append("\n").append(2 * depth, ' '); }
+  template <class Number>
+  void digits_of(Number number);
   void string(std::string_view text);
   void flush_if_full();
 
