@@ -82,14 +82,16 @@ PROGRAM_GRAPH = {
     "mesh": ["mien.h", "io"],          # meshes and shapes from files, for `mien author`
     "diff": ["mien.h", "io"],          # what differs between two DNA files
     "edit": ["mien.h", "mien_author.h", "io", "mesh"],  # DNA files that are changed
-    "play": ["mien.h", "io", "gltf"],  # scenes of `mien play`
+    "speech": ["mien.h", "io", "gltf"],          # text, sound and phonemes -> takes
+    "play": ["mien.h", "io", "gltf", "speech"],  # scenes of `mien play`
     "baseline": [],                    # the sparse matrix that `mien bench` compares with
     "tests": ["mien.h", "mien_author.h", "io", "live"],
     "tests/gltf": ["gltf"],
     "tests/render": ["render"],
+    "tests/speech": ["mien.h", "mien_author.h", "io", "speech"],
     "view": ["io"],                    # the page of the viewer, served on this machine
     "commands": ["mien.h", "mien_author.h", "mien_solve.h", "accept", "math", "io", "render", "gltf", "scene", "mesh", "play", "live",
-                 "view", "edit", "diff", "baseline"],
+                 "speech", "view", "edit", "diff", "baseline"],
     "": ["mien.h", "mien_author.h", "io", "commands"],  # main.cpp, without_author.cpp
 }
 

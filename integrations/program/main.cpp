@@ -104,9 +104,10 @@ int run(int argument_count, char** arguments, Session& session) {
       add_author_command(app, session),  add_export_command(app, session),
       add_render_command(app, session),  add_inspect_command(app, session),
       add_bake_command(app, session),    add_clip_command(app, session),
-      add_play_command(app, session),    add_solve_command(app, session),
-      add_view_command(app, session),    add_bench_command(app, session),
-      add_completion_command(app),       add_help_command(app),
+      add_speak_command(app, session),   add_play_command(app, session),
+      add_solve_command(app, session),   add_view_command(app, session),
+      add_bench_command(app, session),   add_completion_command(app),
+      add_help_command(app),
   };
   for (const Command& command : commands) {
     for_each_command(command.app, [&session](CLI::App* one) {

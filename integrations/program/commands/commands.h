@@ -41,6 +41,7 @@ Command add_demo_head_command(CLI::App& app, const Session& session);
 Command add_author_command(CLI::App& app, const Session& session);
 Command add_clip_command(CLI::App& app, const Session& session);
 Command add_play_command(CLI::App& app, const Session& session);
+Command add_speak_command(CLI::App& app, const Session& session);
 Command add_bench_command(CLI::App& app, const Session& session);
 Command add_solve_command(CLI::App& app, const Session& session);
 Command add_render_command(CLI::App& app, const Session& session);

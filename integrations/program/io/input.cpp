@@ -13,12 +13,15 @@
 
 #include "integrations/program/io/baked_file.h"
 #include "integrations/program/io/failure.h"
+#include "integrations/program/io/speech_input.h"
 
 namespace mien::cli {
 
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr uint64_t kMaxWavBytes = uint64_t{1} << 30;
 
 enum class Verdict { kWanted, kOther, kUndecided };
 
@@ -116,6 +119,26 @@ std::string read_clip_stream(const std::string& path) {
   };
   return read(path, "cannot read clip",
               {kMaxClipBytes, "4 GiB", "no clip is that large; check what was given", judge});
+}
+
+std::string read_phonemes(const std::string& path) {
+  const auto judge = [](const std::string& text, size_t fresh) {
+    // UTF-16, by its mark, has bytes of 0.
+    const bool is_wide = text.compare(0, 2, "\xFE\xFF") == 0 || text.compare(0, 2, "\xFF\xFE") == 0;
+    if (is_wide) return Verdict::kWanted;
+    return text.find('\0', fresh) == std::string::npos ? Verdict::kUndecided : Verdict::kOther;
+  };
+  return read(path, "cannot read phonemes",
+              {kMaxTextBytes, "512 MiB", "give the phonemes part by part", judge});
+}
+
+std::string read_wav(const std::string& path) {
+  const auto judge = [](const std::string& text, size_t) {
+    if (text.size() < 12) return Verdict::kUndecided;
+    return text.compare(0, 4, "RIFF") == 0 && text.compare(8, 4, "WAVE") == 0 ? Verdict::kWanted
+                                                                              : Verdict::kOther;
+  };
+  return read(path, "cannot read sound", {kMaxWavBytes, "1 GiB", "cut it into parts", judge});
 }
 
 std::string read_text(const std::string& path, const std::string& what) {

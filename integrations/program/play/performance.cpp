@@ -28,6 +28,8 @@ const NamedValues kSquintControls = {{"eyeSquintLeft", 0.8f},
 const char* const kGazeVariables[] = {"gaze.x", "gaze.y", "gaze.z", "head.left", "head.up"};
 const std::vector<std::string> kVariables = {"gaze.x",    "gaze.y",  "gaze.z", "head.left",
                                              "head.turn", "head.up", "pupil",  "breath"};
+constexpr const char* kHeadUp = "head.up";
+constexpr double kSpeechRate = 60;  // of the clips that speech becomes
 const NamedValues kPupilControls = {{"eyePupilNarrowL", 1}, {"eyePupilNarrowR", 1}};
 
 int64_t ticks_of(double seconds) {
@@ -55,7 +57,7 @@ Performance::Performance(const Script& script, const MienRig* rig, const MienDef
   add_layers();
   for (size_t r = 0; r < script.reactions.size(); ++r) add_glare();
   for (const EventScript& event : script.events) {
-    if (event.kind == EventKind::kPlay) clip(event.clip.path, event.where);
+    if (event.kind == EventKind::kPlay) clip(event.clip, event.where);
     if (event.kind == EventKind::kVariable) add_variable(event.variable);
   }
   make_mix(deformer);
@@ -72,12 +74,44 @@ void Performance::add_variable(const std::string& name) {
                      nearest_question(name, kVariables, "variables of your own begin with user."));
 }
 
-const Performance::BoundClip& Performance::clip(const std::string& path, const std::string& where) {
-  const auto known = clips_.find(path);
+/// A text, a sound or phonemes as a clip; paths are relative to the scene.
+void Performance::say(const speech::SpeechSource& source, BoundClip& bound) {
+  const std::filesystem::path folder = std::filesystem::path(script_.shown).parent_path();
+  speech::SpeechSource here = source;
+  for (std::string* path : {&here.audio, &here.phonemes}) {
+    if (!path->empty()) *path = (folder / *path).string();
+  }
+  speech::SpokenTake take =
+      speech::make_take(speech::read_speech(here, session_), kSpeechRate, session_);
+  bound.file.shown = "speech";
+  bound.file.clip = speech::make_clip(take, script_.shown);
+  bound.file.info = sized<MienClipInfo>();
+  check(mien_clip_info(bound.file.clip.get(), &bound.file.info), nullptr, kCannot, script_.shown);
+  bound.head_up = std::move(take.head_up);
+  curves_.variable(kHeadUp);
+}
+
+float Performance::head_up(int64_t tick) const {
+  const double now = static_cast<double>(tick) / static_cast<double>(MIEN_TICKS_PER_SECOND);
+  float sum = 0;
+  for (const auto& [layer, talk] : talks_) {
+    const double at = (talk.start + (now - talk.begin) * talk.speed) * kSpeechRate;
+    const std::vector<float>& up = talk.clip->head_up;
+    if (at >= 0 && at < static_cast<double>(up.size())) sum += up[static_cast<size_t>(at)];
+  }
+  return sum;
+}
+
+const Performance::BoundClip& Performance::clip(const ClipScript& what, const std::string& where) {
+  const auto known = clips_.find(what.path);
   if (known != clips_.end()) return known->second;
   const std::filesystem::path folder = std::filesystem::path(script_.shown).parent_path();
   BoundClip bound;
-  bound.file = open_clip_file((folder / path).string());
+  if (what.speech) {
+    say(*what.speech, bound);
+  } else {
+    bound.file = open_clip_file((folder / what.path).string());
+  }
   const std::vector<MienMatrixEntry> matrix = names_.matrix();
   auto desc = sized<MienClipBindingDesc>();
   desc.matrix = matrix.data();
@@ -96,7 +130,7 @@ const Performance::BoundClip& Performance::clip(const std::string& path, const s
                        std::to_string(names.size()) + " channels, the first is " +
                        one_line(names[info.missing_channels.data[0]]));
   }
-  return clips_.emplace(path, std::move(bound)).first->second;
+  return clips_.emplace(what.path, std::move(bound)).first->second;
 }
 
 /// Eyes look at gaze.x, gaze.y and gaze.z: meters to the left, up and to the front of their middle.
@@ -179,7 +213,7 @@ void Performance::add_layers() {
       layer.mask = parts.mask.data();
       layer.mask_count = static_cast<uint32_t>(parts.mask.size());
     }
-    if (from.source == MIEN_LAYER_SOURCE_CLIP) clip(from.clip.path, where + ".source.clip");
+    if (from.source == MIEN_LAYER_SOURCE_CLIP) clip(from.clip, where + ".source");
     if (from.source == MIEN_LAYER_SOURCE_POSES) {
       layer.first_pose = static_cast<uint32_t>(poses_.size());
       layer.pose_count = static_cast<uint32_t>(from.poses.size());
@@ -326,7 +360,12 @@ void Performance::make_mix(const MienDeformer* deformer) {
 
 void Performance::play(uint32_t layer, const ClipScript& what, uint32_t transition, double duration,
                        const std::string& where) {
-  const BoundClip& bound = clip(what.path, where);
+  const BoundClip& bound = clip(what, where);
+  talks_.erase(layer);
+  if (!bound.head_up.empty()) {
+    const double now = static_cast<double>(now_) / static_cast<double>(MIEN_TICKS_PER_SECOND);
+    talks_[layer] = {&bound, now, what.start, what.speed};
+  }
   auto desc = sized<MienPlayDesc>();
   desc.start_tick = ticks_of(what.start);
   desc.transition = transition;
@@ -401,6 +440,7 @@ void Performance::apply(const EventScript& event) {
       break;
     case EventKind::kStop:
       checked(mien_mixer_stop(mixer, event.target, fade), error, event.where);
+      talks_.erase(event.target);
       break;
     case EventKind::kTrigger:
       checked(mien_mixer_trigger(mixer, event.target, event.weight, ticks_of(event.hold)), error,
@@ -471,6 +511,7 @@ void Performance::run(double rate, double seconds, const std::function<bool(int6
     }
     for (const auto& place : gaze_places_)
       row[place.first] = of_scene(place.first, row[place.first]);
+    if (!talks_.empty()) row[curves_.variable(kHeadUp)] += head_up(tick);
     use(f, time, row.data());
   }
 }

@@ -77,6 +77,12 @@ class Performance {
   struct BoundClip {
     ClipFile file;
     ClipBinding binding;
+    std::vector<float> head_up;  // of each frame of speech: its beats of the head
+  };
+  /// Speech that a layer plays, for the head.
+  struct Talk {
+    const BoundClip* clip = nullptr;
+    double begin = 0, start = 0, speed = 1;  // seconds
   };
   struct LayerParts {
     std::vector<float> mask;
@@ -87,7 +93,10 @@ class Performance {
     float scale = 1, offset = 0;
   };
 
-  const BoundClip& clip(const std::string& path, const std::string& where);
+  const BoundClip& clip(const ClipScript& what, const std::string& where);
+  void say(const speech::SpeechSource& source, BoundClip& bound);
+  /// What speech adds to head.up.
+  float head_up(int64_t tick) const;
   uint32_t add_pose(CurveValues values);
   CurveValues of_mixer(CurveValues values, uint32_t mode, const std::string& where) const;
   float of_scene(size_t curve, float value) const;
@@ -110,6 +119,7 @@ class Performance {
   const NamesFile& names_;
   RigCurves curves_;
   std::map<std::string, BoundClip> clips_;
+  std::map<uint32_t, Talk> talks_;       // by layer
   std::deque<CurveValues> pose_values_;  // where poses point to
   std::deque<LayerParts> parts_;
   std::deque<std::vector<MienMixStroke>> strokes_;

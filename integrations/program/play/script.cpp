@@ -104,11 +104,37 @@ NamedValues read_values(const Node& node, double most = 1e6) {
   return values;
 }
 
+speech::SpeechSource read_speech(const Node& node) {
+  node.require_object({"text", "voice", "audio", "phonemes"});
+  speech::SpeechSource speech;
+  const auto read = [&](const char* key, std::string& text) {
+    if (!node.has(key)) return;
+    text = node.at(key).text();
+    if (text.empty()) node.at(key).wrong("it is empty", "leave it out");
+  };
+  read("text", speech.text);
+  read("voice", speech.voice);
+  read("audio", speech.audio);
+  read("phonemes", speech.phonemes);
+  const bool is_given = !speech.text.empty() || !speech.audio.empty() || !speech.phonemes.empty();
+  if (!is_given) node.wrong("there is nothing to say", "add text, audio or phonemes");
+  if (!speech.phonemes.empty() && (!speech.text.empty() || !speech.audio.empty())) {
+    node.wrong("it has both phonemes and something to say", "keep one of them");
+  }
+  return speech;
+}
+
 ClipScript read_clip(const Node& node) {
-  node.require_object({"clip", "loop", "speed", "start"});
+  node.require_object({"clip", "speech", "loop", "speed", "start"});
   ClipScript clip;
-  clip.path = node.at("clip").text();
-  if (clip.path.empty()) node.at("clip").wrong("the path is empty", "name a clip");
+  if (node.has("speech")) {
+    if (node.has("clip")) node.wrong("it has both a clip and speech", "keep one of them");
+    clip.speech = read_speech(node.at("speech"));
+    clip.path = node.at("speech").value.dump();
+  } else {
+    clip.path = node.at("clip").text();
+    if (clip.path.empty()) node.at("clip").wrong("the path is empty", "name a clip");
+  }
   if (node.has("loop")) clip.loop = node.at("loop").truth();
   if (node.has("speed")) clip.speed = node.at("speed").number(-1000, 1000);
   if (node.has("start")) clip.start = node.at("start").seconds();
@@ -168,7 +194,7 @@ LayerScript read_layer(const Node& node) {
     if (mask.has("invert")) layer.invert_mask = mask.at("invert").truth();
   }
   const Node source = node.at("source");
-  if (source.has("clip")) {
+  if (source.has("clip") || source.has("speech")) {
     layer.clip = read_clip(source);
   } else if (source.has("poses")) {
     layer.source = MIEN_LAYER_SOURCE_POSES;
@@ -181,8 +207,8 @@ LayerScript read_layer(const Node& node) {
     if (!source.at("live").truth()) source.at("live").wrong("it must be true", "write true");
     layer.source = MIEN_LAYER_SOURCE_STREAM;
   } else {
-    source.require_object({"clip", "poses", "generator", "live"});
-    source.wrong("it names no source", "give a clip, poses, a generator or \"live\": true");
+    source.require_object({"clip", "speech", "poses", "generator", "live"});
+    source.wrong("it names no source", "give a clip, speech, poses, a generator or \"live\": true");
   }
   return layer;
 }

@@ -10,13 +10,16 @@
 #include <utility>
 #include <vector>
 
+#include "integrations/program/speech/source.h"
+
 namespace mien::cli {
 
 using NamedValues = std::vector<std::pair<std::string, float>>;
 
 struct ClipScript {
-  std::string path;
-  std::optional<bool> loop;  // else as the clip says
+  std::string path;                            // of speech: its JSON, which tells one from another
+  std::optional<speech::SpeechSource> speech;  // said in place of a clip from a file
+  std::optional<bool> loop;                    // else as the clip says
   double speed = 1, start = 0;
 };
 

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+#include "integrations/program/tests/speech/spoken_head.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "integrations/program/io/rig_file.h"
+
+namespace mien::speech {
+
+namespace {
+
+constexpr double kMillimeters = 10;  // the head is in centimeters
+
+template <class Point>
+double distance(const Point& a, const Point& b) {
+  return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
+}
+
+void expect_ok(MienStatus status) { ASSERT_EQ(status, MIEN_OK); }
+
+}  // namespace
+
+SpokenHead::SpokenHead() {
+  auto desc = cli::sized<MienGenerateDesc>();
+  desc.preset = MIEN_PRESET_HEAD;
+  MienDna* dna = nullptr;
+  MienRig* rig = nullptr;
+  MienDeformer* deformer = nullptr;
+  MienInstance* instance = nullptr;
+  MienDeformerInstance* body = nullptr;
+  expect_ok(mien_dna_generate(&desc, &dna, nullptr));
+  dna_.reset(dna);
+  expect_ok(mien_rig_create(dna, nullptr, &rig, nullptr));
+  rig_.reset(rig);
+  expect_ok(mien_deformer_create(dna, rig, nullptr, &deformer, nullptr));
+  deformer_.reset(deformer);
+  expect_ok(mien_instance_create(rig, nullptr, &instance, nullptr));
+  instance_.reset(instance);
+  expect_ok(mien_deformer_instance_create(deformer, nullptr, &body, nullptr));
+  body_.reset(body);
+
+  for (uint32_t c = 0; c < cli::rig_count(rig, MIEN_KIND_RAW_CONTROL); ++c) {
+    controls_[cli::rig_name(rig, MIEN_KIND_RAW_CONTROL, c)] = c;
+  }
+  skin_ = mesh_named("head_lod0");
+  teeth_ = mesh_named("teeth_lod0");
+  pose({});
+  const std::vector<Point> skin = positions(skin_), teeth = positions(teeth_);
+  pose({{"jawOpen", 1}});
+  const std::vector<Point> open = positions(skin_), open_teeth = positions(teeth_);
+
+  // Lips touch in the neutral pose and part when the jaw opens.
+  std::vector<uint32_t> near;
+  for (uint32_t i = 0; i < skin.size(); ++i) {
+    if (std::abs(skin[i].x) < 0.8) near.push_back(i);
+  }
+  std::sort(near.begin(), near.end(),
+            [&](uint32_t a, uint32_t b) { return skin[a].y < skin[b].y; });
+  std::set<uint32_t> upper, lower;
+  for (size_t a = 0; a < near.size(); ++a) {
+    for (size_t b = a + 1; b < near.size() && skin[near[b]].y - skin[near[a]].y < 0.05; ++b) {
+      if (distance(skin[near[a]], skin[near[b]]) > 0.05) continue;
+      const double apart = distance(open[near[a]], open[near[b]]);
+      if (apart < 0.8) continue;
+      const bool a_is_upper = open[near[a]].y > open[near[b]].y;
+      upper.insert(near[a_is_upper ? a : b]);
+      lower.insert(near[a_is_upper ? b : a]);
+    }
+  }
+  upper_contact_.assign(upper.begin(), upper.end());
+  lower_contact_.assign(lower.begin(), lower.end());
+  // The lower lip: what goes with the jaw within a centimeter of where the lips touch.
+  for (const uint32_t i : near) {
+    if (distance(skin[i], open[i]) < 2 || std::abs(skin[i].x) > 0.6) continue;
+    const bool is_lip = std::any_of(lower.begin(), lower.end(), [&](uint32_t contact) {
+      return distance(skin[i], skin[contact]) < 1;
+    });
+    if (is_lip) lower_lip_.push_back(i);
+  }
+  double front = -1e9;
+  for (const Point& tooth : teeth) front = std::max(front, tooth.z);
+  for (uint32_t i = 0; i < teeth.size(); ++i) {
+    if (std::abs(teeth[i].x) > 0.8 || teeth[i].z < front - 0.5) continue;
+    const bool moves = distance(teeth[i], open_teeth[i]) > 0.5;
+    (moves ? lower_teeth_ : upper_teeth_).push_back(i);
+    if (moves) lower_teeth_at_rest_.push_back(teeth[i]);
+  }
+}
+
+uint32_t SpokenHead::mesh_named(const std::string& part) const {
+  for (uint32_t m = 0; m < cli::rig_count(rig_.get(), MIEN_KIND_MESH); ++m) {
+    if (cli::rig_name(rig_.get(), MIEN_KIND_MESH, m).rfind(part, 0) == 0) return m;
+  }
+  ADD_FAILURE() << "no mesh " << part;
+  return 0;
+}
+
+void SpokenHead::pose(const std::vector<std::pair<std::string, float>>& values, bool only_teeth) {
+  MienMutableFloatView raw{};
+  expect_ok(mien_instance_raw_controls(instance_.get(), &raw));
+  std::fill(raw.data, raw.data + raw.count, 0.0f);
+  for (const auto& [name, value] : values) {
+    ASSERT_EQ(controls_.count(name), 1u) << name;
+    raw.data[controls_[name]] = value;
+  }
+  expect_ok(mien_rig_evaluate(rig_.get(), instance_.get(), 0));
+  expect_ok(mien_deformer_instance_update(body_.get(), instance_.get()));
+  for (const uint32_t mesh : {skin_, teeth_}) {
+    if (mesh == skin_ && only_teeth) continue;
+    expect_ok(mien_deformer_instance_deform(body_.get(), mesh, MIEN_NORMALS_NONE, nullptr));
+  }
+}
+
+std::vector<SpokenHead::Point> SpokenHead::positions(uint32_t mesh) {
+  MienFloatView view{};
+  expect_ok(mien_deformer_instance_positions(body_.get(), mesh, &view));
+  std::vector<Point> points;
+  for (size_t i = 0; i + 2 < view.count; i += 3) {
+    points.push_back({static_cast<double>(view.data[i]), static_cast<double>(view.data[i + 1]),
+                      static_cast<double>(view.data[i + 2])});
+  }
+  return points;
+}
+
+MouthShape SpokenHead::shape(const std::vector<std::pair<std::string, float>>& values) {
+  pose(values);
+  const std::vector<Point> skin = positions(skin_), teeth = positions(teeth_);
+  MouthShape shape{};
+  // In strips from left to right: how far apart the lips are where they are nearest to each other.
+  constexpr int kStrips = 7;
+  double gaps[kStrips];
+  std::fill(std::begin(gaps), std::end(gaps), 1e9);
+  for (const uint32_t upper : upper_contact_) {
+    for (const uint32_t lower : lower_contact_) {
+      const Point &u = skin[upper], &l = skin[lower];
+      if (std::abs(u.x - l.x) > 0.12) continue;
+      const auto strip = static_cast<int>(std::floor((u.x + 0.7) / 0.2));
+      if (strip < 0 || strip >= kStrips) continue;
+      // Parts at different depths cannot touch.
+      const double apart = std::abs(u.z - l.z) > 0.4 ? std::abs(u.z - l.z) : 0;
+      gaps[strip] = std::min(gaps[strip], std::max(u.y - l.y, apart));
+    }
+  }
+  shape.lip_gap = kMillimeters * *std::max_element(std::begin(gaps), std::end(gaps));
+  shape.lip_to_teeth = 1e9;
+  for (const uint32_t lip : lower_lip_) {
+    for (const uint32_t tooth : upper_teeth_) {
+      shape.lip_to_teeth =
+          std::min(shape.lip_to_teeth, kMillimeters * distance(skin[lip], teeth[tooth]));
+    }
+  }
+  shape.jaw = jaw_of(teeth);
+  return shape;
+}
+
+namespace {
+
+std::vector<std::pair<std::string, float>> values_of(const SpokenTake& take, size_t frame) {
+  std::vector<std::pair<std::string, float>> values;
+  const Curves& curves = take.curves;
+  for (size_t c = 0; c < curves.controls.size(); ++c) {
+    values.emplace_back(curves.controls[c], curves.values[frame * curves.controls.size() + c]);
+  }
+  return values;
+}
+
+}  // namespace
+
+MouthShape SpokenHead::shape(const SpokenTake& take, size_t frame) {
+  return shape(values_of(take, frame));
+}
+
+double SpokenHead::jaw(const SpokenTake& take, size_t frame) {
+  pose(values_of(take, frame), true);
+  return jaw_of(positions(teeth_));
+}
+
+double SpokenHead::jaw_of(const std::vector<Point>& teeth) const {
+  double sum = 0;
+  for (size_t i = 0; i < lower_teeth_.size(); ++i) {
+    sum += kMillimeters * distance(teeth[lower_teeth_[i]], lower_teeth_at_rest_[i]);
+  }
+  return sum / static_cast<double>(lower_teeth_.size());
+}
+
+SpokenHead& spoken_head() {
+  static SpokenHead head;
+  return head;
+}
+
+}  // namespace mien::speech

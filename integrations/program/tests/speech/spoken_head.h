@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// The generated head with a mouth that can be measured: on its meshes, in millimeters.
+#pragma once
+
+#include <mien.h>
+#include <mien_author.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "integrations/program/io/handles.h"
+#include "integrations/program/speech/take.h"
+
+namespace mien::speech {
+
+/// What a frame of a take does to the mouth.
+struct MouthShape {
+  double lip_gap;  // the least distance up from the lower lip to the upper one, near the middle
+  double lip_to_teeth;  // the least distance between the lower lip and the upper front teeth
+  double jaw;           // how far the lower front teeth are from where they rest
+};
+
+class SpokenHead {
+ public:
+  SpokenHead();
+
+  /// `take` names ARKit's controls.
+  MouthShape shape(const SpokenTake& take, size_t frame);
+  /// MouthShape.jaw alone, which is quick.
+  double jaw(const SpokenTake& take, size_t frame);
+  MouthShape shape(const std::vector<std::pair<std::string, float>>& values);
+  const MienRig* rig() const { return rig_.get(); }
+
+ private:
+  struct Point {
+    double x, y, z;
+  };
+  void pose(const std::vector<std::pair<std::string, float>>& values, bool only_teeth = false);
+  double jaw_of(const std::vector<Point>& teeth) const;
+  std::vector<Point> positions(uint32_t mesh);
+  uint32_t mesh_named(const std::string& part) const;
+
+  cli::Dna dna_;
+  cli::Rig rig_;
+  cli::Deformer deformer_;
+  cli::Instance instance_;
+  cli::DeformerInstance body_;
+  std::map<std::string, uint32_t> controls_;
+  uint32_t skin_ = 0, teeth_ = 0;
+  // Positions near the middle that touch in the neutral pose and part when the jaw opens.
+  std::vector<uint32_t> upper_contact_, lower_contact_;
+  std::vector<uint32_t> lower_lip_;                  // outside and inside
+  std::vector<uint32_t> upper_teeth_, lower_teeth_;  // of the front
+  std::vector<Point> lower_teeth_at_rest_;
+};
+
+/// The head, made once.
+SpokenHead& spoken_head();
+
+}  // namespace mien::speech
