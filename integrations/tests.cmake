@@ -107,6 +107,14 @@ foreach(standard 17 20)
   endforeach()
 endforeach()
 
+add_executable(cpp_solve_test ${integrations}/cpp/mien_solve_test.cpp)
+set_target_properties(cpp_solve_test PROPERTIES CXX_STANDARD 17)
+target_compile_options(cpp_solve_test PRIVATE ${quick} ${strict_cxx} -fno-exceptions -fno-rtti)
+target_include_directories(cpp_solve_test PRIVATE ${integrations}/cpp)
+target_link_libraries(cpp_solve_test PRIVATE mien_author mien_solve)
+add_test(NAME cpp_solve_test COMMAND cpp_solve_test)
+set_tests_properties(cpp_solve_test PROPERTIES LABELS abi)
+
 # Both ways in one program.
 add_library(cpp_linking_exceptions OBJECT ${integrations}/cpp/linking_test.cpp)
 set_target_properties(cpp_linking_exceptions PROPERTIES CXX_STANDARD 20)

@@ -77,7 +77,7 @@ LATER_IN_ALL = (
     "mien_rig_evaluate_twist_", "mien_rig_initial_", "mien_rig_psd_", "mien_rig_statistics", "mien_rig_variable_",
     "mien_solver_", *_SOLVING)
 LATER = {
-    "C++": _SOLVING, "Rust": _SOLVING, "JavaScript": _SOLVING,
+    "Rust": _SOLVING, "JavaScript": _SOLVING,
     "Lua": LATER_IN_ALL + ("mien_deformer_bind_", "mien_deformer_influences", "mien_deformer_instance_local_",
                            "mien_deformer_inverse_", "mien_deformer_target"),
     "Go": LATER_IN_ALL + ("MienCoordinateSystem.", "MienMixDesc.custom_", "MienVertexOutput.tangents",
