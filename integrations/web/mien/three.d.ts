@@ -20,8 +20,9 @@ export interface FaceObjectOptions {
   skinning?: "mien" | "gpu";
   /** How Mien makes normals. */
   normals?: Normals;
-  /** Makes the material of a mesh; default: a MeshStandardMaterial by its class. */
-  material?: (kind: MeshClass, name: string) => Material;
+  /** Makes the material of a mesh; undefined: a MeshStandardMaterial by its class. Colors of vertices that the rig
+   * has are multiplied by its color, unless its userData.hasColor is true. */
+  material?: (kind: MeshClass, name: string) => Material | undefined;
   /** Show tears and shells, which need textures to look right. Default: false. */
   showFilms?: boolean;
 }

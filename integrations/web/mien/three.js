@@ -159,7 +159,7 @@ export class FaceObject extends Group {
     this.skinning = skinning;
     this.normals = normals;
     this.showFilms = showFilms;
-    this.makeMaterial = material ?? ((kind) => new MeshStandardMaterial(MATERIALS[kind]));
+    this.makeMaterial = (kind, name) => material?.(kind, name) ?? new MeshStandardMaterial(MATERIALS[kind]);
     this.matrix.copy(rigMatrix(rig));
     this.matrixAutoUpdate = false;
     if (skinning === "gpu") this.#skeleton = new FaceSkeleton(rig.deformer.info.jointCount);
@@ -215,7 +215,7 @@ export class FaceObject extends Group {
     const bytes = storedColors(rig, name, neutral.positionCount) ??
       (kind === "eye" ? eyeColors(neutral.positions, front) : null);
     const material = this.makeMaterial(kind, name);
-    if (bytes && "vertexColors" in material) {
+    if (bytes && "vertexColors" in material && !material.userData.hasColor) {
       geometry.setAttribute("color", new BufferAttribute(vertexColors(bytes, indices), 3));
       material.vertexColors = true;
       material.color?.set(0xffffff);

@@ -5,6 +5,7 @@ import { existsSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSy
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
+import { deflateSync } from "node:zlib";
 import { serve } from "../serve.mjs";
 import { findChromium, Page } from "./browser.mjs";
 import { mien, project, sameBits } from "./support.mjs";
@@ -138,6 +139,76 @@ test("the built-in head opens by its button", options, async () => {
   assert.equal(await text("count"), "52 controls");
   assert.match(await text("facts"), /109 joints.*8 LODs/);
   assert.deepEqual(page.errors, []);
+});
+
+/** The bytes of a PNG of 2 x 2 pixels: the color above, black below. */
+function png(color) {
+  const chunk = (kind, body) => {
+    const data = Buffer.concat([Buffer.from(kind), body]);
+    const [size, check] = [Buffer.alloc(4), Buffer.alloc(4)];
+    size.writeUInt32BE(body.length);
+    check.writeUInt32BE(checksum(data));
+    return Buffer.concat([size, data, check]);
+  };
+  const rows = Buffer.from([0, ...color, ...color, 0, 0, 0, 0, 0, 0, 0]);
+  return Buffer.concat([Buffer.from([0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a]),
+    chunk("IHDR", Buffer.from([0, 0, 0, 2, 0, 0, 0, 2, 8, 2, 0, 0, 0])), chunk("IDAT", deflateSync(rows)),
+    chunk("IEND", Buffer.alloc(0))]);
+}
+
+/** CRC-32 as PNG has it; node:zlib has it in newer versions only. */
+function checksum(bytes) {
+  let sum = ~0;
+  for (const byte of bytes) {
+    sum ^= byte;
+    for (let bit = 0; bit < 8; ++bit) sum = (sum >>> 1) ^ (sum & 1 ? 0xedb88320 : 0);
+  }
+  return ~sum >>> 0;
+}
+
+const materialOf = (mesh) => page.run((name) => {
+  const { material } = window.viewer.model.object.children.find((child) => child.name === name);
+  const { map, normalMap, roughnessMap, roughness, opacity, color, vertexColors } = material;
+  return { map: map?.image.width ?? null, normalMap: normalMap?.image.width ?? null, opacity, roughness, vertexColors,
+    roughnessMap: roughnessMap?.image.width ?? null, color: color.toArray() };
+}, mesh);
+
+test("materials beside a rig are shown, with their textures", options, async () => {
+  const file = join(work, "head.materials.json");
+  const paths = ["color.png", "normal.png", "rough.png"].map((name) => join(work, name));
+  writeFileSync(paths[0], png([255, 0, 0]));
+  writeFileSync(paths[1], png([128, 128, 255]));
+  writeFileSync(paths[2], png([200, 200, 200]));
+  writeFileSync(file, JSON.stringify({
+    materials: [
+      { name: "skin", roughness: 0.9, textures: { base_color: "color.png", normal: "maps/normal.png", roughness: "rough.png" } },
+      { name: "tooth", base_color: [0, 0.25, 1, 0.5] },
+      { name: "lost", textures: { base_color: "lost.png" } },
+    ],
+    meshes: { head_lod0_mesh: "skin", teeth_lod0_mesh: "tooth", tongue_lod0_mesh: "lost" },
+  }));
+  await open(dna, file, ...paths);
+  assert.deepEqual(await materialOf("head_lod0_mesh"), {
+    map: 2, normalMap: 2, roughnessMap: 2, roughness: 0.9, opacity: 1, vertexColors: false, color: [1, 1, 1] });
+  const tooth = await materialOf("teeth_lod0_mesh");
+  assert.deepEqual([tooth.map, tooth.opacity, tooth.color, tooth.vertexColors], [null, 0.5, [0, 0.25, 1], false]);
+  assert.match(await text("error"), /Some textures are missing: lost\.png/);
+  const reds = (await canvas()).filter((value, i, all) => i % 4 === 0 && value > 40 && all[i + 2] < value / 3).length;
+  assert.ok(reds > 100, `${reds} of 4096 pixels are red`);
+  page.errors.length = 0;
+  // They stay when the rig is opened with other options, and go with another rig.
+  await page.run(() => { window.viewerModel = window.viewer.model; });
+  await choose("films", true);
+  await page.until("() => window.viewer.model !== window.viewerModel && !document.body.hasAttribute('aria-busy')", "reopened");
+  assert.equal((await materialOf("head_lod0_mesh")).map, 2);
+  await choose("films", false);
+  await page.until("() => !document.body.hasAttribute('aria-busy')", "reopened");
+  writeFileSync(file, "[1]");
+  await open(dna, file);
+  assert.match(await text("error"), /head\.materials\.json could not be read: it is no list of materials/);
+  assert.equal((await materialOf("head_lod0_mesh")).map, null);
+  page.errors.length = 0;
+  await open(dna);
 });
 
 test("sliders give the values of the native program, bit for bit", options, async () => {

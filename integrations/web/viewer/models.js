@@ -6,11 +6,11 @@ import { ArkitControls } from "./arkit.js";
 
 /** A rig of a DNA file or a baked file. */
 export class RigModel {
-  static async open(mien, bytes, { isa = Isa.SSE2, skinning = "mien", showFilms = false } = {}) {
+  static async open(mien, bytes, { isa = Isa.SSE2, skinning = "mien", showFilms = false, materials } = {}) {
     const rig = await mien.openRig(bytes, { isa });
     try {
       if (!rig.deformer) throw new Error("this rig has no meshes to show: it was written or baked without geometry");
-      return new RigModel(mien, rig, { skinning, showFilms });
+      return new RigModel(mien, rig, { skinning, showFilms, materials });
     } catch (error) {
       rig.dispose();
       throw error;
@@ -19,7 +19,9 @@ export class RigModel {
 
   constructor(mien, rig, options) {
     this.rig = rig;
-    this.object = new FaceObject(rig, options);
+    const { materials, ...shown } = options;
+    this.materials = materials;
+    this.object = new FaceObject(rig, { ...shown, material: (kind, name) => materials?.of(name) });
     this.face = this.object.face;
     this.times = { evaluation: 0, deformation: 0 };
     this.kinds = [["raw", "Raw controls"]];

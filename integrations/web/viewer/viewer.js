@@ -2,6 +2,7 @@
 // The page: opens files, and connects its controls with what is shown.
 import { Isa, Mien, Preset, TICKS_PER_SECOND } from "mien";
 import { readCsv, readJson } from "./files.js";
+import { Materials } from "./materials.js";
 import { GlbModel, RigModel } from "./models.js";
 import { Panel } from "./panel.js";
 import { PRESETS } from "./presets.js";
@@ -67,9 +68,9 @@ async function loadModule() {
   mien ??= await Mien.load({ threads: Number(new URLSearchParams(location.search).get("threads") ?? 1) });
 }
 
-async function openModel(name, bytes) {
+async function openModel(name, bytes, materials) {
   const options = {
-    isa: Number($("isa").value) || Isa.SSE2, skinning: $("skinning").value, showFilms: $("films").checked,
+    isa: Number($("isa").value) || Isa.SSE2, skinning: $("skinning").value, showFilms: $("films").checked, materials,
   };
   const isGlb = bytes.length >= 4 && String.fromCharCode(...bytes.subarray(0, 4)) === "glTF";
   if (!isGlb) await loadModule();
@@ -78,7 +79,8 @@ async function openModel(name, bytes) {
   heat.end();
   model?.dispose();
   model = made;
-  opened = { name, bytes };
+  if (opened?.materials !== materials) opened?.materials?.dispose();
+  opened = { name, bytes, materials };
   $("welcome").hidden = true;
   stage.show(model.object);
   fillView(isGlb);
@@ -112,7 +114,7 @@ function openClip(clip) {
   play();
 }
 
-async function openBytes(name, bytes) {
+async function openBytes(name, bytes, materials) {
   clearError();
   const ending = name.slice(name.lastIndexOf(".") + 1).toLowerCase();
   if (ending === "csv") return openTake(readCsv(new TextDecoder().decode(bytes)));
@@ -133,19 +135,53 @@ async function openBytes(name, bytes) {
   say(`Opening ${name} …`);
   const before = opened?.name ?? "No file is open.";
   try {
-    return await openModel(name, bytes);
+    return await openModel(name, bytes, materials);
   } catch (error) {
     say(before);
     throw error;
   }
 }
 
+/** The materials, and what tells why there are none. */
+async function openMaterials(name, text, find) {
+  try {
+    return [await Materials.open(text, find), () => {}];
+  } catch (error) {
+    return [undefined, () => fail(`${name} could not be read`, error)];
+  }
+}
+
+/** Once the rig is open, because that clears messages. */
+function sayAboutMaterials(materials, sayFailure) {
+  sayFailure?.();
+  if (!materials?.missing.length) return;
+  fail("Some textures are missing", new Error(`${materials.missing.slice(0, 5).join(", ")}; drop them together with the rig`));
+}
+
 async function openFiles(files) {
+  const is = (ending) => (file) => ending.test(file.name);
+  const list = [...files];
+  // Images are found by their names alone: a page does not learn the folders of files.
+  const images = list.filter(is(/\.(png|jpe?g)$/i));
+  const ofMaterials = list.find(is(/\.materials\.json$/i));
+  const [materials, sayFailure] = !ofMaterials ? [] : await openMaterials(ofMaterials.name, await ofMaterials.text(), async (path) => {
+    const name = path.slice(path.lastIndexOf("/") + 1);
+    return images.find((image) => image.name === name) ?? null;
+  });
   // Rigs before what they play.
   const order = (file) => (/\.(csv|json|clip)$/i.test(file.name) ? 1 : 0);
-  for (const file of [...files].sort((a, b) => order(a) - order(b))) {
-    await attempt(`${file.name} could not be opened`, async () => openBytes(file.name, new Uint8Array(await file.arrayBuffer())));
+  const others = list.filter((file) => file !== ofMaterials && !(ofMaterials && images.includes(file)));
+  if (materials && others.length === 0 && opened) {
+    // For the rig that is open.
+    const before = opened.materials;
+    opened.materials = materials;
+    await reopen();
+    before?.dispose();
   }
+  for (const file of others.sort((a, b) => order(a) - order(b))) {
+    await attempt(`${file.name} could not be opened`, async () => openBytes(file.name, new Uint8Array(await file.arrayBuffer()), materials));
+  }
+  sayAboutMaterials(materials, sayFailure);
 }
 
 function openHead() {
@@ -332,7 +368,7 @@ function reopen() {
     const view = [stage.camera.position.clone(), stage.controls.target.clone()];
     const { lod } = model.object;
     dropTake();
-    await openModel(opened.name, opened.bytes);
+    await openModel(opened.name, opened.bytes, opened.materials);
     model.setPose(kept);
     setLod(lod);
     stage.camera.position.copy(view[0]);
@@ -438,14 +474,27 @@ window.viewer = {
   openBytes, openHead, pose,
 };
 
-// ?file=ADDRESS opens a file of the place that the page is from.
-const wanted = new URLSearchParams(location.search).get("file");
+// ?file=ADDRESS opens a file of the place that the page is from, with the materials of &materials=ADDRESS.
+const query = new URLSearchParams(location.search);
+const wanted = query.get("file");
+async function fetchMaterials(address) {
+  if (!address) return [];
+  const answer = await fetch(address);
+  if (!answer.ok) return [];
+  const folder = address.slice(0, address.lastIndexOf("/") + 1);
+  return openMaterials(decodeURIComponent(address), await answer.text(), async (path) => {
+    const image = await fetch(folder + path.split("/").map(encodeURIComponent).join("/"));
+    return image.ok ? image.blob() : null;
+  });
+}
 if (wanted) {
   const name = decodeURIComponent(wanted.slice(wanted.lastIndexOf("/") + 1));
   attempt(`${name} could not be opened`, async () => {
     const answer = await fetch(wanted);
     if (!answer.ok) throw new Error(`${answer.status} ${answer.statusText}`);
-    await openBytes(name, new Uint8Array(await answer.arrayBuffer()));
+    const [materials, sayFailure] = await fetchMaterials(query.get("materials"));
+    await openBytes(name, new Uint8Array(await answer.arrayBuffer()), materials);
+    sayAboutMaterials(materials, sayFailure);
   });
 }
 document.body.dataset.ready = "true";
