@@ -138,6 +138,15 @@ foreach(name example_cpp example_mix_cpp)
   target_link_libraries(${name} PRIVATE mien_author)
 endforeach()
 
+add_executable(example_engine ${PROJECT_SOURCE_DIR}/examples/engine/engine.cpp)
+target_compile_options(example_engine PRIVATE ${strict_cxx})
+target_include_directories(example_engine PRIVATE ${integrations}/cpp)
+target_link_libraries(example_engine PRIVATE mien_author Threads::Threads)
+if(NOT CMAKE_CROSSCOMPILING)
+  add_test(NAME example_engine COMMAND example_engine --check --pak ${PROJECT_BINARY_DIR}/example_engine.pak)
+  set_tests_properties(example_engine PROPERTIES LABELS abi TIMEOUT 300)
+endif()
+
 # ---- the examples -----------------------------------------------------------------------------------
 
 if(NOT MIEN_SANITIZE AND NOT CMAKE_CROSSCOMPILING)
