@@ -2,12 +2,15 @@
 // Documents: creating, fields, undoing, and converting to files. mien_author.h is the manual.
 #include "author/capi/document.h"
 
+#include "author/document/document_file.h"
 #include "author/document/field_edit.h"
+#include "runtime/base/mapped_file.h"
 #include "runtime/load/dna/format/dna_writer.h"
 
 using namespace mien;
 using namespace mien::capi;
 using author::Document;
+using author::FilePieces;
 
 namespace {
 
@@ -23,7 +26,8 @@ Status open_document(const MienDna* dna, Document& document, MienError* error) {
   }
   const MienStatus written = mien_dna_write_memory(dna, nullptr, bytes, size, &size, error);
   Error detail;
-  const Status opened = document.open(bytes, size, detail);
+  const MappedFile copy{bytes, size, false, size, document.allocator()};
+  const Status opened = document.open(copy, true, detail);
   if (written != MIEN_OK) return static_cast<Status>(written);
   if (opened != Status::kOk) give_error(detail, error);
   return opened;
@@ -71,6 +75,72 @@ MienStatus write_to(MienDocument* document, const char* given, MienError* error,
   return finish(write(path, detail), detail, error);
 }
 
+/// Creates a document, which `open` fills; it says what is wrong if it fails.
+template <class Open>
+MienStatus create(const MienDocumentDesc* desc, MienDocument** out_document, MienError* error,
+                  const Open& open) {
+  MienDocumentDesc known;
+  if (MienStatus status = read_desc(desc, known, "MienDocumentDesc", error)) return status;
+  Allocator allocator;
+  if (MienStatus status = read_allocator(known.allocator, allocator, error)) return status;
+  const MienStatus in_range = check_fields(
+      {{"MienDocumentDesc.file_access", known.file_access, MIEN_FILE_READ},
+       {"MienDocumentDesc.unknown_layers", known.unknown_layers, MIEN_UNKNOWN_LAYERS_DROP}},
+      error);
+  if (in_range != MIEN_OK) return in_range;
+  MienDocument* made = create_object<MienDocument>(allocator);
+  if (!made) return give_error(error, MIEN_ERROR_MEMORY, "no memory for a document");
+  const Status status = open(made->document, known);
+  if (status != Status::kOk) {
+    mien_document_destroy(made);
+    return static_cast<MienStatus>(status);
+  }
+  *out_document = made;
+  return succeed(error);
+}
+
+/// Calls write(view, options, size) with the file that the document becomes.
+template <class Write>
+MienStatus write_document(const MienDocument* document, const MienWriteDesc* desc, MienError* error,
+                          const Write& write) {
+  if (MienStatus status = check_document(document, error)) return status;
+  MienWriteDesc known;
+  if (MienStatus status = read_desc(desc, known, "MienWriteDesc", error)) return status;
+  const MienStatus in_range = check_fields(
+      {{"MienWriteDesc.version", known.version, 8},
+       {"MienWriteDesc.unknown_layers", known.unknown_layers, MIEN_UNKNOWN_LAYERS_DROP}},
+      error);
+  if (in_range != MIEN_OK) return in_range;
+  const Document& of = document->document;
+  dna::WriteOptions options;
+  options.version = known.version ? static_cast<uint16_t>(known.version) : of.view().version;
+  options.keep_unknown = known.unknown_layers == MIEN_UNKNOWN_LAYERS_KEEP;
+  Arena arena(of.allocator());
+  dna::DnaView view;
+  uint64_t size = 0;
+  Error detail;
+  if (author::plan_file(of, options, arena, view, size, detail) != Status::kOk) {
+    return give_error(detail, error);
+  }
+  return write(view, options, static_cast<size_t>(size));
+}
+
+/// Calls write(pieces).
+template <class Write>
+MienStatus write_pieces(const MienDocument* document, const MienWriteDesc* desc, MienError* error,
+                        const Write& write) {
+  return write_document(
+      document, desc, error,
+      [&](const dna::DnaView& view, const dna::WriteOptions& options, size_t size) {
+        Arena arena(document->document.allocator());
+        FilePieces pieces(view, options, size);
+        if (!pieces.begin(arena)) {
+          return give_error(error, MIEN_ERROR_MEMORY, "no memory for a piece of the file");
+        }
+        return write(pieces);
+      });
+}
+
 MienStatus check_values(const void* values, uint64_t count, const char* name, MienError* error) {
   if (check_error(error) != MIEN_OK) return MIEN_ERROR_STRUCT_SIZE;
   if (values || count == 0) return MIEN_OK;
@@ -82,26 +152,30 @@ MienStatus check_values(const void* values, uint64_t count, const char* name, Mi
 MienStatus mien_document_create(const MienDna* dna, const MienDocumentDesc* desc,
                                 MienDocument** out_document, MienError* error) {
   if (MienStatus status = clear_output(out_document, error)) return status;
-  MienDocumentDesc known;
-  if (MienStatus status = read_desc(desc, known, "MienDocumentDesc", error)) return status;
-  Allocator allocator;
-  if (MienStatus status = read_allocator(known.allocator, allocator, error)) return status;
-  MienDocument* made = create_object<MienDocument>(allocator);
-  if (!made) return give_error(error, MIEN_ERROR_MEMORY, "no memory for a document");
-  Status status;
-  if (dna) {
-    status = open_document(dna, made->document, error);
-  } else {
+  return create(desc, out_document, error, [&](Document& document, const MienDocumentDesc&) {
+    if (dna) return open_document(dna, document, error);
     Error detail;
-    status = made->document.create_empty(detail);
+    const Status status = document.create_empty(detail);
     if (status != Status::kOk) give_error(detail, error);
-  }
-  if (status != Status::kOk) {
-    mien_document_destroy(made);
-    return static_cast<MienStatus>(status);
-  }
-  *out_document = made;
-  return succeed(error);
+    return status;
+  });
+}
+
+MienStatus mien_document_open_file(const char* path, const MienDocumentDesc* desc,
+                                   MienDocument** out_document, MienError* error) {
+  if (MienStatus status = clear_output(out_document, error)) return status;
+  if (!path) return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "path is NULL");
+  return create(desc, out_document, error, [&](Document& document, const MienDocumentDesc& known) {
+    MappedFile file;
+    Error detail;
+    Status status = open_file(path, static_cast<FileAccess>(known.file_access), {"DNA", 3},
+                              document.allocator(), file, detail);
+    if (status == Status::kOk) {
+      status = document.open(file, known.unknown_layers == MIEN_UNKNOWN_LAYERS_KEEP, detail);
+    }
+    if (status != Status::kOk) give_error(detail, error);
+    return status;
+  });
 }
 
 void mien_document_destroy(MienDocument* document) {
@@ -302,6 +376,59 @@ MienStatus mien_document_to_dna(const MienDocument* document, const MienDocument
   MienDnaDesc open = mien_dna_desc_default();
   open.allocator = known.allocator;
   return mien_dna_open_stream(&stream, &open, out_dna, error);
+}
+
+MienStatus mien_document_write_file(const MienDocument* document, const char* path,
+                                    const MienWriteDesc* desc, MienError* error) {
+  if (check_error(error) != MIEN_OK) return MIEN_ERROR_STRUCT_SIZE;
+  if (!path) return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "path is NULL");
+  return write_pieces(document, desc, error, [&](FilePieces& pieces) {
+    const auto next = [](void* user) { return static_cast<FilePieces*>(user)->next(); };
+    Error detail;
+    const Status status = write_file(path, {&pieces, next}, document->document.allocator(), detail);
+    return finish(status, detail, error);
+  });
+}
+
+MienStatus mien_document_write_stream(const MienDocument* document, const MienByteSink* sink,
+                                      const MienWriteDesc* desc, MienError* error) {
+  if (check_error(error) != MIEN_OK) return MIEN_ERROR_STRUCT_SIZE;
+  if (!sink || !sink->write) {
+    return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "sink or sink->write is NULL");
+  }
+  return write_pieces(document, desc, error, [&](FilePieces& pieces) {
+    while (true) {
+      const Span<const uint8_t> piece = pieces.next();
+      if (piece.empty()) return succeed(error);
+      if (sink->write(sink->user, piece.data, piece.count) != piece.count) {
+        return give_error(error, MIEN_ERROR_FILE_WRITE, "the sink did not take %zu bytes",
+                          piece.count);
+      }
+    }
+  });
+}
+
+MienStatus mien_document_write_memory(const MienDocument* document, const MienWriteDesc* desc,
+                                      void* buffer, size_t capacity, size_t* out_size,
+                                      MienError* error) {
+  if (MienStatus status = clear_output(out_size, error)) return status;
+  if (!buffer && capacity != 0) {
+    return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "buffer is NULL");
+  }
+  return write_document(
+      document, desc, error,
+      [&](const dna::DnaView& view, const dna::WriteOptions& options, size_t size) {
+        *out_size = size;
+        if (!buffer) return succeed(error);
+        if (capacity < size) {
+          return give_error(
+              error, MIEN_ERROR_INVALID_ARGUMENT,
+              "the file has %zu bytes, the buffer %zu: call again with a buffer of this size", size,
+              capacity);
+        }
+        dna::encode(view, options, static_cast<uint8_t*>(buffer));
+        return succeed(error);
+      });
 }
 
 MienStatus mien_document_validate(const MienDocument* document, const MienValidateDesc* desc,

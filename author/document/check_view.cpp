@@ -24,6 +24,16 @@ Status check_view(const dna::DnaView& view, Error& error) {
   return found.status;
 }
 
+Status check_document(const Document& document, Error& error) {
+  return document.checked() ? Status::kOk : check_view(document.view(), error);
+}
+
+Status check_document(Document& document, Error& error) {
+  const Status status = check_document(static_cast<const Document&>(document), error);
+  if (status == Status::kOk) document.set_checked();
+  return status;
+}
+
 Status check_indices(Span<const uint32_t> indices, uint32_t count, const char* what, Error& error) {
   for (uint32_t index : indices) {
     if (index < count) continue;

@@ -15,9 +15,19 @@ using dna::NewArray;
 bool place_joints(dna::DnaView& view, Span<const Vec3> places, Arena& arena) {
   ControlPoses poses;
   NewVec3s out;
+  const dna::Vec3Array& old = view.defn.neutral_translations;
   if (!poses.prepare(view, arena) || !out.allocate(arena, places.count)) return false;
   for (uint32_t j = 0; j < places.count; ++j) {
     const uint32_t parent = view.defn.joint_hierarchy[j];
+    const auto stays = [&](uint32_t joint) {
+      return is_zero(places[joint] - poses.bind(joint).place);
+    };
+    if (stays(j) && stays(parent)) {
+      out.xs.set(j, old.xs[j]);
+      out.ys.set(j, old.ys[j]);
+      out.zs.set(j, old.zs[j]);
+      continue;
+    }
     // The parent's orientation stays, its place is the new one.
     out.set(j, parent == j
                    ? places[j]
@@ -51,8 +61,8 @@ namespace {
 /// What moves with the surface.
 class Follower {
  public:
-  Follower(dna::DnaView& view, const Warp& warp, Arena& arena)
-      : view_(view), warp_(warp), arena_(arena) {}
+  Follower(dna::DnaView& view, const Warp& warp, Arena& arena, const Allocator& allocator)
+      : view_(view), warp_(warp), arena_(arena), allocator_(allocator) {}
 
   bool joints(ConformResult& out) {
     const uint32_t count = view_.defn.joint_names.count;
@@ -62,26 +72,37 @@ class Follower {
     if (!poses.prepare(view_, arena_) || !make(arena_, count, places) ||
         !make(arena_, count, scales))
       return false;
+    bool any = false;
     for (uint32_t j = 0; j < count; ++j) {
       const Vec3 old = poses.bind(j).place;
-      const Similarity motion = warp_.at(old);
+      const Similarity motion = motion_at(old);
       places[j] = motion(old);
       scales[j] = std::abs(motion.scale - 1) < 1e-9 ? 1 : motion.scale;
+      any |= !motion.is_identity();
       const double moved = length(places[j] - old);
       if (moved > out.farthest_joint) out = {moved, j};
     }
+    if (!any) return true;
     return place_joints(view_, places, arena_) && scale_translations(view_, scales, arena_);
   }
 
   /// Targets and normals of a mesh; its positions, too, unless they have been set.
   bool mesh(dna::Mesh& mesh, bool positions, Span<const Vec3> old) {
+    Arena scratch(allocator_);
     Span<Similarity> motions;
-    if (!make(arena_, old.count, motions)) return false;
-    for (size_t v = 0; v < old.count; ++v) motions[v] = warp_.at(old[v]);
+    Span<uint8_t> moves;  // [position]
+    if (!make(scratch, old.count, motions) || !make(scratch, old.count, moves)) return false;
+    bool any = false;
+    for (size_t v = 0; v < old.count; ++v) {
+      motions[v] = motion_at(old[v]);
+      moves[v] = !motions[v].is_identity();
+      any |= moves[v] != 0;
+    }
+    if (!any) return true;
     if (positions) {
       NewVec3s moved;
       if (!moved.allocate(arena_, old.count)) return false;
-      for (size_t v = 0; v < old.count; ++v) moved.set(v, motions[v](old[v]));
+      for (size_t v = 0; v < old.count; ++v) moved.set(v, moves[v] ? motions[v](old[v]) : old[v]);
       mesh.positions = moved;
     }
     NewVec3s normals;
@@ -89,6 +110,7 @@ class Follower {
     if (!normals.allocate(arena_, normal_count)) return false;
     for (uint32_t n = 0; n < normal_count; ++n) normals.set(n, vector_of(mesh.normals, n));
     for (uint32_t k = 0; k < mesh.layouts.normals.count; ++k) {
+      if (!moves[mesh.layouts.positions[k]]) continue;
       const uint32_t n = mesh.layouts.normals[k];
       normals.set(n, turned(vector_of(mesh.normals, n), motions[mesh.layouts.positions[k]].turn));
     }
@@ -97,6 +119,9 @@ class Follower {
     for (dna::BlendShapeTarget& target : mesh.blend_shape_targets) {
       NewVec3s deltas;
       const uint32_t count = target.vertex_indices.count;
+      bool moving = false;
+      for (uint32_t i = 0; i < count && !moving; ++i) moving = moves[target.vertex_indices[i]] != 0;
+      if (!moving) continue;
       if (!deltas.allocate(arena_, count)) return false;
       for (uint32_t i = 0; i < count; ++i) {
         deltas.set(i, motions[target.vertex_indices[i]].direction(vector_of(target.deltas, i)));
@@ -107,9 +132,15 @@ class Follower {
   }
 
  private:
+  Similarity motion_at(Vec3 place) {
+    return warp_.stays(place, hint_) ? Similarity() : warp_.at(place, hint_);
+  }
+
   dna::DnaView& view_;
   const Warp& warp_;
   Arena& arena_;
+  const Allocator& allocator_;
+  WarpHint hint_;
 };
 
 }  // namespace
@@ -117,7 +148,7 @@ class Follower {
 Status conform(Document& document, uint32_t mesh, const float* positions, size_t count, bool others,
                ConformResult& out, Error& error) {
   out = {};
-  if (Status s = check_view(document.view(), error); s != Status::kOk) return s;
+  if (Status s = check_document(document, error); s != Status::kOk) return s;
   Edit edit(document);
   if (!edit.begin(error)) return error.status;
   dna::DnaView& view = edit.view;
@@ -148,7 +179,7 @@ Status conform(Document& document, uint32_t mesh, const float* positions, size_t
     given.set(v, after[v]);
   }
   if (!warp.build(before, after, scratch)) return no_memory(error, "an edit");
-  Follower follower(view, warp, arena);
+  Follower follower(view, warp, arena, document.allocator());
   if (!follower.joints(out)) return no_memory(error, "an edit");
   view.geom.meshes[mesh].positions = given;
   for (uint32_t m = 0; m < view.geom.meshes.count; ++m) {

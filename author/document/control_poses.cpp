@@ -16,7 +16,8 @@ bool ControlPoses::prepare(const dna::DnaView& view, Arena& arena) {
   const uint32_t joints = view.defn.joint_names.count;
   Span<uint8_t> done;
   Span<uint32_t> chain;
-  if (!make(arena, joints, order_) || !make(arena, joints, binds_) || !make(arena, joints, done) ||
+  if (!make(arena, joints, order_) || !make(arena, joints, binds_) ||
+      !make(arena, joints, neutrals_) || !make(arena, joints, done) ||
       !make(arena, joints, chain)) {
     return false;
   }
@@ -29,7 +30,7 @@ bool ControlPoses::prepare(const dna::DnaView& view, Arena& arena) {
     }
     while (length != 0) {
       const uint32_t joint = chain[--length], parent = view.defn.joint_hierarchy[joint];
-      const Rigid local = neutral_of(view, convention_, joint);
+      const Rigid local = neutrals_[joint] = neutral_of(view, convention_, joint);
       binds_[joint] = parent == joint ? local : local * binds_[parent];
       order_[ordered++] = joint;
     }
@@ -121,9 +122,16 @@ bool ControlPoses::skin(Span<const double> controls, Arena& scratch, Span<Rigid>
   for (uint32_t i = 0; i < joints; ++i) {
     const uint32_t joint = order_[i], parent = view_->defn.joint_hierarchy[joint];
     const double* delta = values.data + size_t{joint} * 9;
-    Rigid local = neutral_of(*view_, convention_, joint);
+    Rigid local = neutrals_[joint];
+    const bool quaternion = quaternions_ && dna::is_quaternion_joint(*view_, joint);
+    bool moves = quaternion;
+    for (int k = 0; k < 9; ++k) moves |= delta[k] != 0;
+    if (!moves) {
+      out[joint] = parent == joint ? local : local * out[parent];
+      continue;
+    }
     Matrix3 turn;
-    if (dna::is_quaternion_joint(*view_, joint)) {
+    if (quaternion) {
       turn = matrix_from_quaternion(turns[joint]);
     } else {
       const float angles[3] = {float(delta[3]), float(delta[4]), float(delta[5])};
@@ -159,15 +167,18 @@ void ControlPoses::deform(uint32_t mesh, Span<const Rigid> skin, Span<const doub
       p = p + vector_of(target.deltas, i) * weight;
     }
   }
-  for (uint32_t v = 0; v < out.count && v < of.skin_weights.count; ++v) {
-    const dna::VertexSkinWeights& vertex = of.skin_weights[v];
-    if (vertex.weights.count == 0) continue;
-    Vec3 sum;
-    for (uint32_t i = 0; i < vertex.weights.count; ++i) {
-      sum = sum + apply(out[v], skin[vertex.joint_indices[i]]) * double{vertex.weights[i]};
-    }
-    out[v] = sum;
+  for (uint32_t v = 0; v < out.count && v < of.skin_weights.count; ++v)
+    out[v] = skinned(of.skin_weights[v], skin, out[v]);
+}
+
+Vec3 ControlPoses::skinned(const dna::VertexSkinWeights& vertex, Span<const Rigid> skin,
+                           Vec3 position) {
+  if (vertex.weights.count == 0) return position;
+  Vec3 sum;
+  for (uint32_t i = 0; i < vertex.weights.count; ++i) {
+    sum = sum + apply(position, skin[vertex.joint_indices[i]]) * double{vertex.weights[i]};
   }
+  return sum;
 }
 
 }  // namespace mien::author

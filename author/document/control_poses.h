@@ -36,6 +36,9 @@ class ControlPoses {
   void deform(uint32_t mesh, Span<const Rigid> skin, Span<const double> channels,
               Span<Vec3> out) const;
 
+  /// A position with these weights and skin matrices.
+  static Vec3 skinned(const dna::VertexSkinWeights& vertex, Span<const Rigid> skin, Vec3 position);
+
   const Rigid& bind(uint32_t joint) const { return binds_[joint]; }
   /// Parents come before children.
   uint32_t ordered(uint32_t i) const { return order_[i]; }
@@ -47,7 +50,7 @@ class ControlPoses {
   const dna::DnaView* view_ = nullptr;
   RotationConvention convention_;
   Span<uint32_t> order_;
-  Span<Rigid> binds_;
+  Span<Rigid> binds_, neutrals_;
   bool quaternions_ = false;  // some joint is represented by one
 };
 

@@ -92,8 +92,8 @@ Status copy_layers(Document& document, const Document& from, uint32_t layers, Er
 Status copy_mesh(Document& document, const Document& from, uint32_t mesh, uint32_t& out_mesh,
                  Error& error) {
   out_mesh = 0;
-  if (Status s = check_view(document.view(), error); s != Status::kOk) return s;
-  if (Status s = check_view(from.view(), error); s != Status::kOk) return s;
+  if (Status s = check_document(document, error); s != Status::kOk) return s;
+  if (Status s = check_document(from, error); s != Status::kOk) return s;
   const dna::DnaView& other = from.view();
   if (Status s =
           check_indices({&mesh, 1}, std::min(other.geom.meshes.count, other.defn.mesh_names.count),
@@ -203,8 +203,8 @@ Status copy_mesh(Document& document, const Document& from, uint32_t mesh, uint32
 // Joints --------------------------------------------------------------------------------------------
 
 Status merge_joints(Document& document, const Document& from, double tolerance, Error& error) {
-  if (Status s = check_view(document.view(), error); s != Status::kOk) return s;
-  if (Status s = check_view(from.view(), error); s != Status::kOk) return s;
+  if (Status s = check_document(document, error); s != Status::kOk) return s;
+  if (Status s = check_document(from, error); s != Status::kOk) return s;
   if (Status s = check_same_system(document.view(), from.view(), error); s != Status::kOk) return s;
   const dna::DnaView& other = from.view();
   Edit edit(document);

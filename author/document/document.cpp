@@ -90,7 +90,7 @@ Document::~Document() {
   }
   release_edits_after(nullptr);
   if (base_) base_->destroy();
-  allocator_.put(bytes_, size_, kBlockAlignment);
+  close_file(file_);
 }
 
 void Document::release_edits_after(EditMemory* end) {
@@ -108,24 +108,26 @@ Status Document::create_empty(Error& error) {
   return Status::kOk;
 }
 
-Status Document::open(uint8_t* bytes, size_t size, Error& error) {
-  bytes_ = bytes;
-  size_ = size;
+Status Document::open(const MappedFile& file, bool keep_unknown, Error& error) {
+  file_ = file;
   base_ = EditMemory::create(allocator_);
   if (!base_) return no_memory(error, "a document");
-  const Status status = dna::read_dna(bytes, size, {}, base_->arena, view_, error);
+  dna::ReadOptions options;
+  options.keep_unknown = keep_unknown;
+  const Status status = dna::read_dna(file.bytes, file.size, options, base_->arena, view_, error);
   if (status != Status::kOk) return status;
   // Offsets in the file mean nothing once it changes.
   view_.file = nullptr;
   view_.segments = nullptr;
   original_ = view_;
+  checked_ = original_checked_ = true;
   return Status::kOk;
 }
 
 Status Document::mark(uint64_t& out, Error& error) {
   void* memory = allocator_.get(sizeof(Mark), alignof(Mark));
   if (!memory) return no_memory(error, "a mark");
-  marks_ = new (memory) Mark{view_, edits_, ++last_mark_, marks_};
+  marks_ = new (memory) Mark{view_, edits_, checked_, ++last_mark_, marks_};
   out = last_mark_;
   return Status::kOk;
 }
@@ -144,6 +146,7 @@ Status Document::undo(uint64_t number, Error& error) {
     marks_ = older;
   }
   view_ = number == 0 ? original_ : marks_->view;
+  checked_ = number == 0 ? original_checked_ : marks_->checked;
   release_edits_after(number == 0 ? nullptr : marks_->edits);
   return Status::kOk;
 }
@@ -161,11 +164,12 @@ bool Edit::begin(Error& error) {
   return memory_ != nullptr;
 }
 
-void Edit::commit() {
+void Edit::commit(bool keeps_valid) {
   view.ml_control_count = view.mlbh.control_names.count;
   memory_->older = document_.edits_;
   document_.edits_ = memory_;
   document_.view_ = view;
+  document_.checked_ = document_.checked_ && keeps_valid;
   memory_ = nullptr;
 }
 

@@ -14,6 +14,7 @@
 #pragma once
 
 #include "runtime/base/arena.h"
+#include "runtime/base/mapped_file.h"
 #include "runtime/base/status.h"
 #include "runtime/load/dna/format/dna_view.h"
 
@@ -48,6 +49,7 @@ class EditMemory {
 struct Mark {
   dna::DnaView view;
   EditMemory* edits;  // the newest at that time
+  bool checked;
   uint64_t number;
   Mark* older;
 };
@@ -62,11 +64,15 @@ class Document {
   /// A file of version 2.8 with all layers, empty.
   Status create_empty(Error& error);
 
-  /// `size` bytes of a file that passed all checks, from this document's allocator, aligned to
-  /// kBlockAlignment. Takes ownership of them, even if it fails.
-  Status open(uint8_t* bytes, size_t size, Error& error);
+  /// Reads a file and checks it. Takes ownership of it, even if it fails. Errors of read_dna().
+  Status open(const MappedFile& file, bool keep_unknown, Error& error);
 
   const dna::DnaView& view() const { return view_; }
+
+  /// True if the view is known to pass check_view(): it was read from a file and only changed by edits that
+  /// keep it valid, or has been checked since.
+  bool checked() const { return checked_; }
+  void set_checked() { checked_ = true; }
   const Allocator& allocator() const { return allocator_; }
 
   /// The state before the first edit.
@@ -84,10 +90,10 @@ class Document {
   void release_edits_after(EditMemory* end);
 
   Allocator allocator_;
-  uint8_t* bytes_ = nullptr;
-  size_t size_ = 0;
+  MappedFile file_;
   EditMemory* base_ = nullptr;  // lists of the file
   dna::DnaView view_, original_;
+  bool checked_ = false, original_checked_ = false;
   EditMemory* edits_ = nullptr;
   Mark* marks_ = nullptr;
   uint64_t last_mark_ = 0;
@@ -107,7 +113,8 @@ class Edit {
   ~Edit();
 
   bool begin(Error& error);
-  void commit();
+  /// `keeps_valid`: a view that was valid before still is. Otherwise it is checked before it is used again.
+  void commit(bool keeps_valid = false);
 
   dna::DnaView view;
   Arena& arena() { return memory_->arena; }

@@ -242,12 +242,8 @@ Status rename_element(Document& document, Kind kind, uint32_t index, const char*
 
 Status remove_elements(Document& document, Kind kind, Span<const uint32_t> indices, Error& error) {
   const uint32_t count = count_of(document.view(), kind);
-  if (kind == Kind::kMlControl || kind == Kind::kRbfControl) {
-    return fail(error, Status::kInvalidArgument, kNoOffset,
-                "a %s cannot be removed: it belongs to a network or solver", word_of(kind));
-  }
   if (Status s = check_indices(indices, count, word_of(kind), error); s != Status::kOk) return s;
-  if (Status s = check_view(document.view(), error); s != Status::kOk) return s;
+  if (Status s = check_document(document, error); s != Status::kOk) return s;
   if (kind < Kind::kJoint) return remove_controls(document, kind, indices, error);
   Edit edit(document);
   if (!edit.begin(error)) return error.status;
@@ -275,7 +271,7 @@ Status remove_elements(Document& document, Kind kind, Span<const uint32_t> indic
 Status clear_joint_animation(Document& document, Span<const uint32_t> joints, Error& error) {
   const uint32_t count = document.view().defn.joint_names.count;
   if (Status s = check_indices(joints, count, "joint", error); s != Status::kOk) return s;
-  if (Status s = check_view(document.view(), error); s != Status::kOk) return s;
+  if (Status s = check_document(document, error); s != Status::kOk) return s;
   Edit edit(document);
   if (!edit.begin(error)) return error.status;
   Span<uint8_t> keep;

@@ -21,6 +21,7 @@ class FieldEdit {
   /// Null if memory ran out. The newest edit if it is of field writes and no mark has seen it.
   static EditMemory* memory_of(Document& document) {
     EditMemory* newest = document.edits_;
+    document.checked_ = false;
     const EditMemory* marked = document.marks_ ? document.marks_->edits : nullptr;
     if (newest && newest != marked && newest->for_fields) return newest;
     EditMemory* memory = EditMemory::create(document.allocator_);

@@ -49,7 +49,7 @@ Status begin_mesh(Edit& edit, uint32_t mesh, Error& error) {
 
 Status set_neutral(Document& document, uint32_t first, uint32_t count, const float* translations,
                    const float* rotations, Error& error) {
-  if (Status s = check_view(document.view(), error); s != Status::kOk) return s;
+  if (Status s = check_document(document, error); s != Status::kOk) return s;
   Edit edit(document);
   if (!edit.begin(error)) return error.status;
   dna::Definition& defn = edit.view.defn;
@@ -134,7 +134,7 @@ bool set_pair(Edit& edit, uint32_t mesh, uint32_t channel, bool there) {
 
 Status set_target(Document& document, uint32_t mesh, uint32_t channel, const uint32_t* vertices,
                   const float* deltas, size_t count, Error& error) {
-  if (Status s = check_view(document.view(), error); s != Status::kOk) return s;
+  if (Status s = check_document(document, error); s != Status::kOk) return s;
   Edit edit(document);
   if (Status s = begin_mesh(edit, mesh, error); s != Status::kOk) return s;
   const uint32_t channels = edit.view.defn.channel_names.count;
@@ -206,7 +206,7 @@ Status prune_targets(Document& document, float epsilon, uint64_t& out_deltas, ui
     return fail(error, Status::kInvalidArgument, kNoOffset,
                 "epsilon is %g; it is a length from 0 on", static_cast<double>(epsilon));
   }
-  if (Status s = check_view(document.view(), error); s != Status::kOk) return s;
+  if (Status s = check_document(document, error); s != Status::kOk) return s;
   Edit edit(document);
   if (!edit.begin(error)) return error.status;
   Arena& arena = edit.arena();
@@ -312,7 +312,7 @@ Status place_character(Document& document, const CharacterPlacement& placement, 
                 "the scale is %g; it is above 0 (mirroring would need another rig)",
                 placement.scale);
   }
-  if (Status s = check_view(document.view(), error); s != Status::kOk) return s;
+  if (Status s = check_document(document, error); s != Status::kOk) return s;
   const dna::DnaView& old = document.view();
   const bool turns =
       placement.rotation[0] != 0 || placement.rotation[1] != 0 || placement.rotation[2] != 0;

@@ -11,7 +11,7 @@ namespace {
 
 /// The checks, and a view whose lists may change in place.
 Status begin(Document& document, Edit& edit, Error& error) {
-  if (Status s = check_view(document.view(), error); s != Status::kOk) return s;
+  if (Status s = check_document(document, error); s != Status::kOk) return s;
   if (!edit.begin(error)) return error.status;
   return copy_all_lists(edit.arena(), edit.view) ? Status::kOk : no_memory(error, "an edit");
 }

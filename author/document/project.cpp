@@ -6,6 +6,7 @@
 #include "author/base/dna_making.h"
 #include "author/document/check_view.h"
 #include "author/document/renumber.h"
+#include "author/document/rows.h"
 
 namespace mien::author {
 
@@ -66,27 +67,51 @@ bool project_weights(const dna::Mesh& source, const SurfaceMatch& match, Span<co
 }
 
 bool project_targets(const dna::Mesh& source, const SurfaceMatch& match,
-                     Span<const uint32_t> new_channels, Span<const Similarity> turns, Arena& arena,
+                     Span<const uint32_t> new_channels, Span<const Similarity> turns,
+                     const Allocator& allocator, Arena& arena,
                      dna::List<dna::BlendShapeTarget>& out) {
   const uint32_t old_positions = source.positions.xs.count;
   Span<Vec3> dense;
   Span<dna::BlendShapeTarget> targets;
-  if (!make(arena, old_positions, dense) || !make(arena, source.blend_shape_targets.count, targets))
+  // The positions whose place is on a triangle with a position of the source.
+  Rows followers;
+  Span<uint32_t> moved, seen;  // by the target; [position] the last target that may move it
+  const auto visit = [&](const auto& put) {
+    for (uint32_t v = 0; v < match.places.count; ++v) {
+      for (int k = 0; k < 3; ++k) {
+        if (match.places[v].weights[k] != 0) put(match.places[v].positions[k], v);
+      }
+    }
+  };
+  Arena scratch(allocator);
+  if (!make(scratch, old_positions, dense) || !make(scratch, match.places.count, moved) ||
+      !make(scratch, match.places.count, seen) ||
+      !make_rows(scratch, old_positions, visit, followers) ||
+      !make(arena, source.blend_shape_targets.count, targets)) {
     return false;
-  uint32_t kept = 0;
+  }
+  uint32_t kept = 0, number = 0;
   for (const dna::BlendShapeTarget& target : source.blend_shape_targets) {
     const uint32_t channel = new_channels[target.channel_index];
     if (channel == kGone) continue;
+    ++number;
+    size_t count = 0;
     for (uint32_t i = 0; i < target.vertex_indices.count; ++i) {
       dense[target.vertex_indices[i]] = vector_of(target.deltas, i);
+      for (uint32_t v : followers[target.vertex_indices[i]]) {
+        if (seen[v] == number) continue;
+        seen[v] = number;
+        moved[count++] = v;
+      }
     }
+    std::sort(moved.data, moved.data + count);
     uint32_t moving = 0;
-    for (size_t v = 0; v < match.places.count; ++v) moving += !is_zero(match.at(v, dense));
+    for (size_t i = 0; i < count; ++i) moving += !is_zero(match.at(moved[i], dense));
     NewVec3s deltas;
     NewArray<uint32_t> vertices;
     if (!deltas.allocate(arena, moving) || !make(arena, moving, vertices)) return false;
     uint32_t next = 0;
-    for (uint32_t v = 0; v < match.places.count; ++v) {
+    for (const uint32_t v : moved.first(count)) {
       const Vec3 delta = match.at(v, dense);
       if (is_zero(delta)) continue;
       deltas.set(next, turns.empty() ? delta : turns[v].direction(delta));
@@ -184,7 +209,8 @@ Status project_in(Edit& edit, uint32_t mesh, uint32_t source, const Projection& 
     changed.maximum_influence_per_vertex = static_cast<uint16_t>(most);
   }
   if (how.targets) {
-    if (!project_targets(from, match, kept_channels, {}, arena, changed.blend_shape_targets) ||
+    if (!project_targets(from, match, kept_channels, {}, allocator, arena,
+                         changed.blend_shape_targets) ||
         !pair_channels(view, mesh, arena)) {
       return no_memory(error, "targets");
     }
@@ -225,7 +251,7 @@ bool inherit_list(dna::LodMap& map, uint32_t lod, uint32_t source, Arena& arena)
 Status project_mesh(Document& document, uint32_t mesh, uint32_t source, const Projection& how,
                     ProjectionResult& out, Error& error) {
   out = {};
-  if (Status s = check_view(document.view(), error); s != Status::kOk) return s;
+  if (Status s = check_document(document, error); s != Status::kOk) return s;
   Edit edit(document);
   if (!edit.begin(error)) return error.status;
   if (Status s = project_in(edit, mesh, source, how, document.allocator(), out, error);
@@ -238,7 +264,7 @@ Status project_mesh(Document& document, uint32_t mesh, uint32_t source, const Pr
 Status make_lod(Document& document, uint32_t lod, uint32_t source_lod, const Projection& how,
                 ProjectionResult& out, Error& error) {
   out = {};
-  if (Status s = check_view(document.view(), error); s != Status::kOk) return s;
+  if (Status s = check_document(document, error); s != Status::kOk) return s;
   Edit edit(document);
   if (!edit.begin(error)) return error.status;
   dna::Definition& defn = edit.view.defn;

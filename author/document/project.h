@@ -41,7 +41,8 @@ bool project_weights(const dna::Mesh& source, const SurfaceMatch& match, Span<co
 /// The targets of `source` at the places of a match, of channels with new_channels[channel] != kGone,
 /// rotated and scaled by turns[position] if there are any.
 bool project_targets(const dna::Mesh& source, const SurfaceMatch& match,
-                     Span<const uint32_t> new_channels, Span<const Similarity> turns, Arena& arena,
+                     Span<const uint32_t> new_channels, Span<const Similarity> turns,
+                     const Allocator& allocator, Arena& arena,
                      dna::List<dna::BlendShapeTarget>& out);
 
 }  // namespace mien::author

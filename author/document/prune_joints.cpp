@@ -65,55 +65,6 @@ bool drop_zeros(JointGroup& group, Arena& arena) {
 
 }  // namespace
 
-Status measure_difference(const dna::DnaView& before, const dna::DnaView& after,
-                          Span<const uint8_t> changed, const Allocator& allocator,
-                          PoseDifference& out, Error& error) {
-  out = {};
-  Arena arena(allocator);
-  ControlPoses old_poses, new_poses;
-  const uint32_t joints = before.defn.joint_names.count;
-  const dna::Array<uint16_t> meshes = before.defn.lod_meshes.at(0);
-  uint32_t most = 0;
-  for (uint32_t i = 0; i < meshes.count; ++i) {
-    most = std::max(most, before.geom.meshes.count > meshes[i]
-                              ? before.geom.meshes[meshes[i]].positions.xs.count
-                              : 0);
-  }
-  Span<double> controls, channels;
-  Span<Rigid> old_skin, new_skin;
-  Span<Vec3> old_positions, new_positions;
-  if (!old_poses.prepare(before, arena) || !new_poses.prepare(after, arena) ||
-      !make(arena, kMaxControls, controls) ||
-      !make(arena, before.defn.channel_names.count, channels) || !make(arena, joints, old_skin) ||
-      !make(arena, joints, new_skin) || !make(arena, most, old_positions) ||
-      !make(arena, most, new_positions)) {
-    return no_memory(error, "measuring");
-  }
-  for (uint32_t p = 0; p < old_poses.count(); ++p) {
-    old_poses.controls(p, controls);
-    bool concerned = false;
-    for (uint32_t c = 0; c < controls.count && c < changed.count; ++c)
-      concerned |= changed[c] && controls[c] != 0;
-    if (!concerned) continue;
-    Arena scratch(allocator);
-    if (!old_poses.skin(controls, scratch, old_skin) ||
-        !new_poses.skin(controls, scratch, new_skin)) {
-      return no_memory(error, "measuring");
-    }
-    old_poses.channels(controls, channels);
-    for (uint32_t i = 0; i < meshes.count && meshes[i] < before.geom.meshes.count; ++i) {
-      const size_t count = before.geom.meshes[meshes[i]].positions.xs.count;
-      old_poses.deform(meshes[i], old_skin, channels, old_positions.first(count));
-      new_poses.deform(meshes[i], new_skin, channels, new_positions.first(count));
-      for (size_t v = 0; v < count; ++v) {
-        const double distance = length(old_positions[v] - new_positions[v]);
-        if (distance > out.distance) out = {distance, p, meshes[i], static_cast<uint32_t>(v)};
-      }
-    }
-  }
-  return Status::kOk;
-}
-
 Status prune_joint_matrix(Document& document, const JointPruning& pruning, PrunedJoints& out,
                           Error& error) {
   out = {};
@@ -123,7 +74,7 @@ Status prune_joint_matrix(Document& document, const JointPruning& pruning, Prune
     return fail(error, Status::kInvalidArgument, kNoOffset,
                 "an epsilon is %g; epsilons are from 0 on", static_cast<double>(limit));
   }
-  if (Status s = check_view(document.view(), error); s != Status::kOk) return s;
+  if (Status s = check_document(document, error); s != Status::kOk) return s;
   Edit edit(document);
   if (!edit.begin(error)) return error.status;
   Arena& arena = edit.arena();
@@ -152,7 +103,9 @@ Status prune_joint_matrix(Document& document, const JointPruning& pruning, Prune
     group.values = values;
     if (!drop_zeros(group, arena)) return no_memory(error, "an edit");
   }
-  const Status measured = measure_difference(document.view(), edit.view, changed,
+  size_t controls = changed.count;
+  while (controls != 0 && !changed[controls - 1]) --controls;
+  const Status measured = measure_difference(document.view(), edit.view, changed.first(controls),
                                              document.allocator(), out.worst, error);
   if (measured != Status::kOk) return measured;
   if (out.removed != 0) edit.commit();

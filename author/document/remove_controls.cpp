@@ -3,6 +3,7 @@
 
 #include "author/document/check_view.h"
 #include "author/document/renumber.h"
+#include "runtime/load/dna/format/dna_writer.h"
 
 namespace mien::author {
 
@@ -22,9 +23,11 @@ void mark_products(const dna::PsdTable& psds, const Span<uint8_t>& gone) {
 
 Status check_operations(const dna::DnaView& view, const Span<uint8_t>& gone, Error& error) {
   const auto refuse = [&](const char* what, uint32_t control) {
-    return fail(error, Status::kInvalidArgument, kNoOffset,
-                "%s refers to control %u, which would be removed: change mlbe or mlbh first", what,
-                control);
+    return fail(
+        error, Status::kInvalidArgument, kNoOffset,
+        "%s refers to control %u, which would be removed, and its trained weights need all of "
+        "them: keep the control, or open the file without machine-learned behavior",
+        what, control);
   };
   for (const dna::MlType& type : view.mlbe.types) {
     for (const auto& set : type.operations) {
@@ -38,6 +41,7 @@ Status check_operations(const dna::DnaView& view, const Span<uint8_t>& gone, Err
     }
   }
   for (const dna::NeuralNetwork& network : view.mlbh.networks) {
+    if (network.layers.count != 0 && view.mlbe.types.count == 0) continue;  // loses an output
     for (uint32_t i = 0; i < network.output_indices.count; ++i) {
       const uint32_t control = network.output_indices[i];
       if (control < gone.count && gone[control]) return refuse("the output of a network", control);
@@ -51,9 +55,21 @@ Status check_operations(const dna::DnaView& view, const Span<uint8_t>& gone, Err
 Status remove_controls(Document& document, Kind kind, Span<const uint32_t> indices, Error& error) {
   Edit edit(document);
   if (!edit.begin(error)) return error.status;
-  const uint32_t first = kind == Kind::kPsdControl ? edit.view.first_psd() : 0;
-  const uint32_t count =
-      kind == Kind::kGuiControl ? edit.view.defn.gui_control_names.count : edit.view.first_ml();
+  uint32_t first = 0;
+  switch (kind) {
+    case Kind::kPsdControl: first = edit.view.first_psd(); break;
+    case Kind::kMlControl: first = edit.view.first_ml(); break;
+    case Kind::kRbfControl: first = edit.view.first_rbf(); break;
+    default: break;
+  }
+  const dna::LayerKind& rbfe = dna::kLayerKinds[static_cast<size_t>(dna::LayerId::kRbfe)];
+  if (kind == Kind::kRbfControl && !dna::is_written(edit.view, rbfe, {edit.view.version, true})) {
+    return fail(error, Status::kInvalidArgument, kNoOffset,
+                "in version 2.%u every RBF pose has a control: write the file in version 2.5 first",
+                unsigned{edit.view.version});
+  }
+  const uint32_t count = kind == Kind::kGuiControl ? edit.view.defn.gui_control_names.count
+                                                   : edit.view.control_count();
   const Span<uint8_t> gone = edit.arena().array<uint8_t>(count);
   if (gone.count != count) return no_memory(error, "an edit");
   for (uint32_t index : indices) gone[first + index] = 1;

@@ -410,12 +410,23 @@ void renumber_controls_of_behavior(dna::Behavior& bhvr, Renumberer& r) {
 void renumber_controls_of_networks(dna::DnaView& view, Renumberer& r) {
   if (!r.copy(view.mlbh.networks)) return;
   for (dna::NeuralNetwork& network : view.mlbh.networks) {
-    r.renamed(network.output_indices);
     if (network.layers.count == 0) {
+      r.renamed(network.output_indices);
       r.listed(network.input_indices);
-    } else if (r.copy(network.layers)) {
-      r.columns(network.input_indices, network.layers[0].weights, network.layers[0].biases.count);
+      continue;
     }
+    if (!r.copy(network.layers)) return;
+    r.columns(network.input_indices, network.layers[0].weights, network.layers[0].biases.count);
+    if (!r.any_gone(network.output_indices)) {
+      r.renamed(network.output_indices);
+      continue;
+    }
+    // Values of the last layer that no control gets are not needed.
+    dna::NetworkLayer& last = network.layers[network.layers.count - 1];
+    const size_t inputs = last.biases.count ? last.weights.count / last.biases.count : 0;
+    last.weights = last.weights.first(inputs * network.output_indices.count);
+    last.biases = last.biases.first(network.output_indices.count);
+    r.rows(1, network.output_indices, last.weights, last.biases);
   }
   r.rows(1, view.mlbe.joints.input_indices, view.mlbe.joints.output_indices);
 }
@@ -467,21 +478,30 @@ bool renumber_controls(dna::DnaView& view, Span<const uint8_t> gone, Arena& aren
   constexpr uint32_t kNumbers = 65536;
   const uint32_t raw_count = view.first_psd();
   const Renumbering numbers{arena.array<uint32_t>(kNumbers), {}};
-  const Span<uint8_t> keep_raw = arena.array<uint8_t>(raw_count);
-  Renumbering raw;
-  if (numbers.new_of.count != kNumbers || keep_raw.count != raw_count) return false;
+  const uint32_t first_ml = view.first_ml(), first_rbf = view.first_rbf(),
+                 end = view.control_count();
+  const Span<uint8_t> keep = arena.array<uint8_t>(end);
+  Renumbering raw, ml, rbf;
+  if (numbers.new_of.count != kNumbers || keep.count != end) return false;
   uint32_t next = 0, kept_columns = 0, kept_psds = 0;
   for (uint32_t c = 0; c < kNumbers; ++c) {
     const bool kept = c >= gone.count || !gone[c];
-    if (c < raw_count) keep_raw[c] = kept;
-    if (c >= raw_count && c < gone.count) kept_psds += kept;
+    if (c < end) keep[c] = kept;
+    if (c >= raw_count && c < first_ml) kept_psds += kept;
     if (c < view.bhvr.joints.col_count) kept_columns += kept;
     numbers.new_of[c] = kept ? next++ : kGone;
   }
-  if (!number_kept(keep_raw, arena, raw)) return false;
-  Renumberer of_raw(raw, arena), r(numbers, arena);
+  if (!number_kept(keep.first(raw_count), arena, raw) ||
+      !number_kept(keep.slice(first_ml, first_rbf - first_ml), arena, ml) ||
+      !number_kept(keep.slice(first_rbf, end - first_rbf), arena, rbf)) {
+    return false;
+  }
+  Renumberer of_raw(raw, arena), of_ml(ml, arena), of_rbf(rbf, arena), r(numbers, arena);
   if (!clear_columns(view, r, arena)) return false;
   of_raw.owned(view.defn.raw_control_names);
+  of_ml.owned(view.mlbh.control_names);
+  of_rbf.owned(view.rbfe.pose_control_names);
+  view.ml_control_count = view.mlbh.control_names.count;
   renumber_controls_of_behavior(view.bhvr, r);
   view.bhvr.controls.psd_count = static_cast<uint16_t>(kept_psds);
   view.bhvr.joints.col_count = static_cast<uint16_t>(kept_columns);
@@ -499,7 +519,8 @@ bool renumber_controls(dna::DnaView& view, Span<const uint8_t> gone, Arena& aren
   };
   of_setups(view.twsw.twists);
   of_setups(view.twsw.swings);
-  return of_raw.ok() && r.ok() && renumber_controls_of_operations(view.mlbe, r, arena);
+  return of_raw.ok() && of_ml.ok() && of_rbf.ok() && r.ok() &&
+         renumber_controls_of_operations(view.mlbe, r, arena);
 }
 
 bool pair_channels(dna::DnaView& view, uint32_t mesh, Arena& arena) {

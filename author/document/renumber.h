@@ -36,9 +36,9 @@ inline bool lists_controls(const dna::MlOperation& operation) {
   return type == dna::MlOperationType::kGather || type == dna::MlOperationType::kScatter;
 }
 
-/// Renumbers raw and PSD controls, and with them ML and RBF controls, which are numbered behind them: `gone` has
-/// an element for each raw and each PSD control. What reads a control that is gone goes, or reads one less.
-/// Expects that a PSD control of which an input is gone is gone, and that no ML operation refers to one.
+/// Renumbers controls of all kinds: `gone` has an element for each. What reads a control that is gone goes, or
+/// reads one less; networks and solvers no longer write it. Expects that a PSD control of which an input is gone is
+/// gone, and that no ML operation, nor a network that operations run, refers to one.
 bool renumber_controls(dna::DnaView& view, Span<const uint8_t> gone, Arena& arena);
 bool renumber_gui_controls(dna::DnaView& view, const Renumbering& numbers, Arena& arena);
 

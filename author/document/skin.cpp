@@ -18,9 +18,9 @@ using dna::VertexSkinWeights;
 namespace {
 
 /// Begins an edit of the weights of a mesh, whose lists are copies then.
-Status begin_weights(Edit& edit, uint32_t mesh, Error& error) {
+Status begin_weights(Document& document, Edit& edit, uint32_t mesh, Error& error) {
+  if (Status s = check_document(document, error); s != Status::kOk) return s;
   if (!edit.begin(error)) return error.status;
-  if (Status s = check_view(edit.view, error); s != Status::kOk) return s;
   if (Status s = check_indices({&mesh, 1}, edit.view.geom.meshes.count, "mesh", error);
       s != Status::kOk)
     return s;
@@ -36,7 +36,7 @@ void commit_weights(Edit& edit, uint32_t mesh) {
   for (const VertexSkinWeights& vertex : changed.skin_weights)
     most = std::max(most, vertex.weights.count);
   changed.maximum_influence_per_vertex = static_cast<uint16_t>(std::min(most, 65535u));
-  edit.commit();
+  edit.commit(true);
 }
 
 /// Weights of a vertex in native order.
@@ -86,7 +86,7 @@ Status check_limit(uint32_t influences, Error& error) {
 Status set_skin_weights(Document& document, uint32_t mesh, const uint16_t* joints,
                         const float* weights, size_t positions, uint32_t influences, Error& error) {
   Edit edit(document);
-  if (Status s = begin_weights(edit, mesh, error); s != Status::kOk) return s;
+  if (Status s = begin_weights(document, edit, mesh, error); s != Status::kOk) return s;
   dna::Mesh& changed = edit.view.geom.meshes[mesh];
   if (positions != changed.positions.xs.count) {
     return fail(error, Status::kInvalidArgument, kNoOffset, "mesh %u has %u positions, not %zu",
@@ -129,7 +129,7 @@ template <class Concerns, class Change>
 Status change_weights(Document& document, uint32_t mesh, const Concerns& concerns,
                       const Change& change, Error& error) {
   Edit edit(document);
-  if (Status s = begin_weights(edit, mesh, error); s != Status::kOk) return s;
+  if (Status s = begin_weights(document, edit, mesh, error); s != Status::kOk) return s;
   dna::Mesh& changed = edit.view.geom.meshes[mesh];
   uint32_t most = 0;
   for (const VertexSkinWeights& vertex : changed.skin_weights)
@@ -229,7 +229,7 @@ Status smooth_skin_weights(Document& document, uint32_t mesh, uint32_t iteration
                 static_cast<double>(strength), iterations);
   }
   Edit edit(document);
-  if (Status s = begin_weights(edit, mesh, error); s != Status::kOk) return s;
+  if (Status s = begin_weights(document, edit, mesh, error); s != Status::kOk) return s;
   dna::Mesh& changed = edit.view.geom.meshes[mesh];
   const uint32_t vertices = changed.skin_weights.count;
   if (vertices == 0 || iterations == 0) return Status::kOk;

@@ -53,7 +53,7 @@ class Transplanter {
   Transplanter(const dna::DnaView& character, const dna::DnaView& rig, const Transplant& how,
                Edit& edit, const Allocator& allocator)
       : character_(character), rig_(rig), how_(how), view_(edit.view), arena_(edit.arena()),
-        scratch_(allocator) {}
+        allocator_(allocator), scratch_(allocator) {}
 
   Status run(Error& error) {
     if (!take_rig() ||
@@ -193,6 +193,7 @@ class Transplanter {
   }
 
   bool move_meshes(const Warp& warp) {
+    WarpHint hint;
     Span<uint32_t> joints, channels;
     const uint32_t joint_count = view_.defn.joint_names.count,
                    channel_count = view_.defn.channel_names.count;
@@ -209,7 +210,7 @@ class Transplanter {
         NewVec3s moved;
         if (!moved.allocate(arena_, rig_positions.count)) return false;
         for (size_t v = 0; v < rig_positions.count; ++v)
-          moved.set(v, warp.at(rig_positions[v])(rig_positions[v]));
+          moved.set(v, warp.at(rig_positions[v], hint)(rig_positions[v]));
         mesh.positions = moved;
         continue;
       }
@@ -223,7 +224,7 @@ class Transplanter {
         return false;
       }
       for (size_t v = 0; v < own_positions.count; ++v)
-        turns[v] = warp.at(match.at(v, rig_positions));
+        turns[v] = warp.at(match.at(v, rig_positions), hint);
       if (mesh.skin_weights.count != 0 &&
           !project_weights(mesh, match, joints, joint_count, how_.influences, arena_,
                            made.skin_weights)) {
@@ -233,7 +234,8 @@ class Transplanter {
       for (const dna::VertexSkinWeights& vertex : made.skin_weights)
         most = std::max(most, vertex.weights.count);
       made.maximum_influence_per_vertex = static_cast<uint16_t>(most);
-      if (!project_targets(mesh, match, channels, turns, arena_, made.blend_shape_targets))
+      if (!project_targets(mesh, match, channels, turns, allocator_, arena_,
+                           made.blend_shape_targets))
         return false;
       mesh = made;
       if (!pair_channels(view_, m, arena_)) return false;
@@ -246,6 +248,7 @@ class Transplanter {
   const Transplant& how_;
   dna::DnaView& view_;
   Arena& arena_;
+  const Allocator& allocator_;
   Arena scratch_;
   Span<uint32_t> own_mesh_, own_joint_;  // [of the template] kGone, or the character's
   Span<Vec3> own_places_, rig_places_;   // of joints, in the model
@@ -319,8 +322,8 @@ Status measure_controls(const dna::DnaView& old_view, const dna::DnaView& new_vi
 Status transplant(Document& document, const Document& rig, const Transplant& how,
                   Span<ControlError> out_errors, uint32_t& out_count, Error& error) {
   out_count = 0;
-  if (Status s = check_view(document.view(), error); s != Status::kOk) return s;
-  if (Status s = check_view(rig.view(), error); s != Status::kOk) return s;
+  if (Status s = check_document(document, error); s != Status::kOk) return s;
+  if (Status s = check_document(rig, error); s != Status::kOk) return s;
   if (Status s = check_same_system(document.view(), rig.view(), error); s != Status::kOk) return s;
   if (how.influences == 0) {
     return fail(error, Status::kInvalidArgument, kNoOffset,

@@ -31,6 +31,8 @@ bool PointTree::build(Span<const Vec3> points, Arena& arena) {
   points_ = points;
   order_ = arena.array<uint32_t>(points.count);
   splits_ = arena.array<uint8_t>(points.count);
+  sorted_ = arena.unwritten_array<Vec3>(points.count);
+  if (sorted_.count != points.count) return false;
   if (order_.count != points.count || splits_.count != points.count) return false;
   for (uint32_t i = 0; i < order_.count; ++i) order_[i] = i;
   struct Range {
@@ -60,12 +62,13 @@ bool PointTree::build(Span<const Vec3> points, Arena& arena) {
     stack[depth++] = {range.from, middle};
     stack[depth++] = {middle + 1, range.to};
   }
+  for (uint32_t i = 0; i < order_.count; ++i) sorted_[i] = points[order_[i]];
   return true;
 }
 
 void PointTree::search(Query& query, uint32_t from, uint32_t to) const {
   const auto look_at = [&](uint32_t slot) {
-    const Vec3 d = points_[order_[slot]] - query.at;
+    const Vec3 d = sorted_[slot] - query.at;
     query.offer({dot(d, d), order_[slot]});
   };
   if (to - from <= kLeafPoints) {
@@ -74,7 +77,7 @@ void PointTree::search(Query& query, uint32_t from, uint32_t to) const {
   }
   const uint32_t middle = from + (to - from) / 2;
   const uint32_t axis = splits_[middle];
-  const double offset = along(query.at, axis) - along(points_[order_[middle]], axis);
+  const double offset = along(query.at, axis) - along(sorted_[middle], axis);
   look_at(middle);
   const bool below = offset < 0;
   if (below) {
@@ -90,6 +93,54 @@ void PointTree::search(Query& query, uint32_t from, uint32_t to) const {
     } else {
       search(query, from, middle);
     }
+  }
+}
+
+struct PointTree::Ball {
+  Vec3 at;
+  double squared_distance;
+  uint32_t found, capacity;
+  Near* out;
+};
+
+void PointTree::collect(Ball& ball, uint32_t from, uint32_t to) const {
+  const auto look_at = [&](uint32_t slot) {
+    const Vec3 d = sorted_[slot] - ball.at;
+    const double squares = dot(d, d);
+    if (!(squares <= ball.squared_distance)) return;
+    if (ball.found < ball.capacity) ball.out[ball.found] = {squares, order_[slot]};
+    ++ball.found;
+  };
+  if (to - from <= kLeafPoints) {
+    for (uint32_t i = from; i < to; ++i) look_at(i);
+    return;
+  }
+  const uint32_t middle = from + (to - from) / 2;
+  const uint32_t axis = splits_[middle];
+  const double offset = along(ball.at, axis) - along(sorted_[middle], axis);
+  const bool across = offset * offset <= ball.squared_distance;
+  if (offset <= 0 || across) collect(ball, from, middle);
+  look_at(middle);
+  if (offset >= 0 || across) collect(ball, middle + 1, to);
+}
+
+uint32_t PointTree::within(Vec3 at, double squared_distance, uint32_t capacity, Near* out) const {
+  Ball ball = {at, squared_distance, 0, capacity, out};
+  collect(ball, 0, static_cast<uint32_t>(points_.count));
+  return ball.found;
+}
+
+void PointTree::range_of(Vec3 at, uint32_t least, uint32_t& from, uint32_t& to) const {
+  from = 0;
+  to = static_cast<uint32_t>(points_.count);
+  while (to - from > kLeafPoints) {
+    const uint32_t middle = from + (to - from) / 2;
+    const uint32_t axis = splits_[middle];
+    const bool below = along(at, axis) < along(sorted_[middle], axis);
+    const uint32_t inner_from = below ? from : middle + 1, inner_to = below ? middle : to;
+    if (inner_to - inner_from < least) return;
+    from = inner_from;
+    to = inner_to;
   }
 }
 

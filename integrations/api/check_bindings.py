@@ -54,7 +54,9 @@ WITHOUT = {
     **{name: {"JavaScript": "there is no file system"} for name in (
         "mien_dna_open_file", "mien_dna_write_file", "mien_dna_validate_file", "mien_bake_file",
         "mien_baked_open_file", "mien_clip_open_file", "mien_clip_write_file",
-        "mien_mix_open_file", "mien_mix_write_file")},
+        "mien_mix_open_file", "mien_mix_write_file", "mien_document_open_file", "mien_document_write_file")},
+    **{"mien_document_write_stream": {language: "files and memory are written" for language in (
+        "Python", "Rust", "JavaScript")}},
     **{name: {"JavaScript": "a stream reads the caller's bytes, without a copy that has to be kept"}
        for name in ("mien_dna_open_memory", "mien_baked_open_memory", "mien_clip_open_memory")},
     "mien_derivatives_bytes": {"Python": "memory of the library is not Python's"},

@@ -9,7 +9,7 @@ from c_header import HeaderError, POINTER_SIZES, joined
 
 VIEWS = {"MienStringView", "MienFloatView", "MienMutableFloatView", "MienIndex16View",
          "MienIndex32View"}
-CALLBACKS = {"MienParallelFor", "MienStream", "MienAllocator"}
+CALLBACKS = {"MienParallelFor", "MienStream", "MienByteSink", "MienAllocator"}
 NUMBERS = {"count", "size", "capacity", "first", "value", "numerator", "denominator", "tick", "ticks",
            "stride", "mark", "lods", "weight", "strength", "level", "activation", "tolerance"}
 FIRST_RELEASE = "0.1.0"

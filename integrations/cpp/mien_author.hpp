@@ -64,6 +64,12 @@ class Document : public Owner<MienDocument, mien_document_destroy> {
   static Result<Document> of(const Dna& dna, const DocumentDesc& desc = {}) {
     return create(dna.get(), desc);
   }
+  /// Of a whole file, which is mapped: without a copy in memory.
+  static Result<Document> open_file(const char* path, const DocumentDesc& desc = {}) {
+    return make<Document>([&](MienDocument** out, MienError* error) {
+      return mien_document_open_file(path, &desc, out, error);
+    });
+  }
   /// Without anything: version 2.8.
   static Result<Document> empty(const DocumentDesc& desc = {}) { return create(nullptr, desc); }
 
@@ -247,6 +253,17 @@ class Document : public Owner<MienDocument, mien_document_destroy> {
     return make<Dna>([&](MienDna** out, MienError* error) {
       return mien_document_to_dna(get(), &desc, out, error);
     });
+  }
+  Result<void> write_file(const char* path, const WriteDesc& desc = {}) const {
+    return done(mien_document_write_file, path, &desc);
+  }
+  /// In pieces of at most 8 MiB.
+  Result<void> write_stream(const MienByteSink& sink, const WriteDesc& desc = {}) const {
+    return done(mien_document_write_stream, &sink, &desc);
+  }
+  /// The size of the file. Writes nothing to a buffer that is too small.
+  Result<size_t> write_memory(Span<uint8_t> buffer, const WriteDesc& desc = {}) const {
+    return result<size_t>(mien_document_write_memory, &desc, buffer.data(), buffer.size());
   }
   Result<Report> validate(const ValidateDesc& desc = {}) const {
     return make<Report>([&](MienReport** out, MienError* error) {

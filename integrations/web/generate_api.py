@@ -35,7 +35,7 @@ LETTERS = {"u32": "u", "i32": "i", "u64": "U", "i64": "I", "f32": "f", "f64": "f
 HIDDEN = {"struct_size", "reserved", "allocator", "file_access"}
 # Numbers for "none"; classes take null or nothing instead, so types do not have them.
 NOTHING = {"MIEN_NO_MESH", "MIEN_NO_CONTROL", "MIEN_NO_JOINT"}
-INTERNAL = set(VIEWS) | {"MienAllocator", "MienParallelFor", "MienStream"}
+INTERNAL = set(VIEWS) | {"MienAllocator", "MienParallelFor", "MienStream", "MienByteSink"}
 
 HEADING = """\
 // SPDX-License-Identifier: MIT

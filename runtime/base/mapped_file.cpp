@@ -16,6 +16,18 @@ Status fail_file(Error& error, Status status, const char* action, const char* pa
               shown, reason);
 }
 
+Status write_file(const char* path, const uint8_t* bytes, size_t size, const Allocator& allocator,
+                  Error& error) {
+  Span<const uint8_t> left{bytes, size};
+  const auto next = [](void* user) {
+    Span<const uint8_t>& rest = *static_cast<Span<const uint8_t>*>(user);
+    const Span<const uint8_t> piece = rest;
+    rest = {};
+    return piece;
+  };
+  return write_file(path, {&left, next}, allocator, error);
+}
+
 // Grows by half, so the memory taken stays within a small multiple of the bytes read.
 Status read_to_end(const ByteSource& source, const char* path, size_t expected,
                    const FileLimits& limits, const Allocator& allocator, MappedFile& out,

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "runtime/base/allocator.h"
+#include "runtime/base/span.h"
 #include "runtime/base/status.h"
 
 namespace mien {
@@ -36,10 +37,17 @@ Status open_file(const char* path, FileAccess access, const FileLimits& limits,
                  const Allocator& allocator, MappedFile& out, Error& error);
 void close_file(MappedFile& file);
 
+/// The bytes of a file to be written: each call gives the next piece, and an empty one at the end.
+struct Pieces {
+  void* user;
+  Span<const uint8_t> (*next)(void* user);
+};
+
 /// Writes to a temporary name in the same folder, then renames: a reader sees the old file or the whole
 /// new one, and a failure leaves nothing behind. An existing file keeps its permissions; if its group
 /// cannot be kept, the new group gets no more permissions than everyone had. A symbolic link is followed,
 /// and refused if it leads nowhere. Devices and pipes are written to directly.
+Status write_file(const char* path, const Pieces& pieces, const Allocator& allocator, Error& error);
 Status write_file(const char* path, const uint8_t* bytes, size_t size, const Allocator& allocator,
                   Error& error);
 

@@ -44,6 +44,14 @@ bool write_all(int descriptor, const uint8_t* bytes, size_t size) {
   return true;
 }
 
+bool write_all(int descriptor, const Pieces& pieces) {
+  while (true) {
+    const Span<const uint8_t> piece = pieces.next(pieces.user);
+    if (piece.empty()) return true;
+    if (!write_all(descriptor, piece.data, piece.count)) return false;
+  }
+}
+
 /// Gives a new file the owner, group and permissions of the one that it will replace.
 bool take_over(int descriptor, const struct stat& old) {
   struct stat now;
@@ -58,9 +66,8 @@ bool take_over(int descriptor, const struct stat& old) {
 }
 
 /// Writes, closes, and tells why not; `old` is null if there is no file to be replaced.
-bool fill_temporary(int descriptor, const uint8_t* bytes, size_t size, const struct stat* old,
-                    int& reason) {
-  bool good = write_all(descriptor, bytes, size) && (!old || take_over(descriptor, *old));
+bool fill_temporary(int descriptor, const Pieces& pieces, const struct stat* old, int& reason) {
+  bool good = write_all(descriptor, pieces) && (!old || take_over(descriptor, *old));
   if (!good) reason = errno;
   if (close(descriptor) != 0 && good) {
     reason = errno;
@@ -117,7 +124,7 @@ void close_file(MappedFile& file) {
   file = {};
 }
 
-Status write_file(const char* path, const uint8_t* bytes, size_t size, const Allocator& allocator,
+Status write_file(const char* path, const Pieces& pieces, const Allocator& allocator,
                   Error& error) {
   struct stat old;
   bool exists = lstat(path, &old) == 0;
@@ -132,7 +139,7 @@ Status write_file(const char* path, const uint8_t* bytes, size_t size, const All
   if (exists && !S_ISREG(old.st_mode)) {
     const int device = open(to, O_WRONLY | O_CLOEXEC);
     int reason = errno;
-    if (device >= 0 && fill_temporary(device, bytes, size, nullptr, reason)) return Status::kOk;
+    if (device >= 0 && fill_temporary(device, pieces, nullptr, reason)) return Status::kOk;
     return fail_with(error, Status::kFileWrite, path, reason);
   }
 
@@ -153,7 +160,7 @@ Status write_file(const char* path, const uint8_t* bytes, size_t size, const All
       open(temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, exists ? 0600 : 0666);
   int reason = errno;
   bool written =
-      descriptor >= 0 && fill_temporary(descriptor, bytes, size, exists ? &old : nullptr, reason);
+      descriptor >= 0 && fill_temporary(descriptor, pieces, exists ? &old : nullptr, reason);
   if (written && rename(temporary, to) != 0) {
     written = false;
     reason = errno;

@@ -100,6 +100,14 @@ bool write_all(HANDLE file, const uint8_t* bytes, size_t size) {
   return true;
 }
 
+bool write_all(HANDLE file, const Pieces& pieces) {
+  while (true) {
+    const Span<const uint8_t> piece = pieces.next(pieces.user);
+    if (piece.empty()) return true;
+    if (!write_all(file, piece.data, piece.count)) return false;
+  }
+}
+
 }  // namespace
 
 Status open_file(const char* path, FileAccess access, const FileLimits& limits,
@@ -144,7 +152,7 @@ void close_file(MappedFile& file) {
 }
 
 // Links are followed by the system, and a file that is replaced gives its name only.
-Status write_file(const char* path, const uint8_t* bytes, size_t size, const Allocator& allocator,
+Status write_file(const char* path, const Pieces& pieces, const Allocator& allocator,
                   Error& error) {
   const WidePath to(path, allocator);
   if (!to.text) {
@@ -165,7 +173,7 @@ Status write_file(const char* path, const uint8_t* bytes, size_t size, const All
   DWORD reason = GetLastError();
   bool written = file != INVALID_HANDLE_VALUE;
   if (written) {
-    written = write_all(file, bytes, size);
+    written = write_all(file, pieces);
     if (!written) reason = GetLastError();
     if (!CloseHandle(file) && written) {
       reason = GetLastError();

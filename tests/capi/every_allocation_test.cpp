@@ -465,6 +465,32 @@ std::vector<Call> calls_of_documents(const World& w, const DocumentHandle& other
                                        return makes(mien_dna_close, desc, mien_document_to_dna,
                                                     d)(error);
                                      })},
+      {"mien_document_open_file",
+       [desc](MienError* error) {
+         MienDocument* made = nullptr;
+         const std::string path = golden::path_of("tiny");
+         const MienStatus status = mien_document_open_file(path.c_str(), &desc, &made, error);
+         mien_document_destroy(made);
+         return status;
+       }},
+      {"mien_document_write_file", edits(w,
+                                         [&w](MienDocument* d, MienError* error) {
+                                           return mien_document_write_file(
+                                               d, w.written_file.c_str(), nullptr, error);
+                                         })},
+      {"mien_document_write_stream",
+       edits(w,
+             [](MienDocument* d, MienError* error) {
+               const auto take = [](void*, const void*, size_t size) { return size; };
+               const MienByteSink sink = {nullptr, take};
+               return mien_document_write_stream(d, &sink, nullptr, error);
+             })},
+      {"mien_document_write_memory", edits(w,
+                                           [](MienDocument* d, MienError* error) {
+                                             size_t size = 0;
+                                             return mien_document_write_memory(d, nullptr, nullptr,
+                                                                               0, &size, error);
+                                           })},
       {"mien_document_validate", edits(w,
                                        [validate](MienDocument* d, MienError* error) {
                                          return makes(mien_report_destroy, validate,

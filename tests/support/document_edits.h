@@ -94,6 +94,16 @@ inline std::vector<DocumentEdit> document_edits() {
          const uint32_t control = pick(d, "defn.guiControlNames", random);
          return mien_document_remove(d, MIEN_KIND_GUI_CONTROL, &control, 1, error);
        }},
+      {"mien_document_remove",
+       [=](D d, O, Random& random, E error) {
+         const uint32_t control = pick(d, "mlbh.mlControlNames", random);
+         return mien_document_remove(d, MIEN_KIND_ML_CONTROL, &control, 1, error);
+       }},
+      {"mien_document_remove",
+       [=](D d, O, Random& random, E error) {
+         const uint32_t control = pick(d, "rbfe.poseControlNames", random);
+         return mien_document_remove(d, MIEN_KIND_RBF_CONTROL, &control, 1, error);
+       }},
       {"mien_document_add_layer",
        [=](D d, O, Random&, E error) {
          return mien_document_add_layer(d, "note", 1, 2, "bytes", 5, error);

@@ -38,10 +38,29 @@ inline DnaHandle dna_of(const DocumentHandle& document, MienStatus expected = MI
   return DnaHandle(dna);
 }
 
-/// The file that a document becomes, checked.
+/// The file that a document becomes in version 2.`version`, straight from its fields; none if it is not valid.
+inline std::vector<uint8_t> written_directly(const DocumentHandle& document, MienStatus* out_status,
+                                             uint32_t version = 0) {
+  MienWriteDesc desc = sized<MienWriteDesc>();
+  desc.version = version;
+  size_t size = 0;
+  *out_status = mien_document_write_memory(document.get(), &desc, nullptr, 0, &size, nullptr);
+  std::vector<uint8_t> bytes(size);
+  if (*out_status == MIEN_OK) {
+    *out_status = mien_document_write_memory(document.get(), &desc, bytes.data(), bytes.size(),
+                                             &size, nullptr);
+  }
+  return bytes;
+}
+
+/// The file that a document becomes, checked: by opening it and straight from its fields.
 inline std::vector<uint8_t> bytes_of(const DocumentHandle& document) {
   const DnaHandle dna = dna_of(document);
-  return dna ? write_dna(dna.get()) : std::vector<uint8_t>();
+  const std::vector<uint8_t> bytes = dna ? write_dna(dna.get()) : std::vector<uint8_t>();
+  MienStatus status = MIEN_OK;
+  EXPECT_TRUE(written_directly(document, &status) == bytes) << status;
+  EXPECT_EQ(status == MIEN_OK, dna != nullptr);
+  return bytes;
 }
 
 inline MienDnaField field_of(const DocumentHandle& document, const std::string& path) {

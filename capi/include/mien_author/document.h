@@ -17,13 +17,15 @@ extern "C" {
 
 /* A DNA file that can be changed: field by field, with the paths of mien_dna_field(), and by operations
  * that keep all references consistent. Every change happens completely or, if the call fails, not at all.
- * Everything else stays as it is, byte for byte. Memory is taken for a copy of the file that was opened,
- * and for changed fields. */
+ * Everything else stays as it is, byte for byte. Memory is taken for the file that was opened, unless it
+ * is mapped, and for changed fields. */
 typedef struct MienDocument MienDocument;
 
 typedef struct MienDocumentDesc {
     size_t struct_size;
     const MienAllocator* allocator;
+    uint32_t file_access;    /* MIEN_FILE_...; for mien_document_open_file() only */
+    uint32_t unknown_layers; /* MIEN_UNKNOWN_LAYERS_...; for mien_document_open_file() only */
 } MienDocumentDesc;
 MIEN_DEFAULT(MienDocumentDesc, mien_document_desc_default)
 
@@ -35,6 +37,14 @@ MIEN_DEFAULT(MienDocumentDesc, mien_document_desc_default)
  * not open by itself, MIEN_ERROR_DNA_LIMIT if it exceeds 4 GiB. */
 MIEN_AUTHOR_CHECKED MienStatus mien_document_create(const MienDna* dna, const MienDocumentDesc* desc,
                                                     MienDocument** out_document, MienError* error);
+
+/* Opens a whole DNA file as a document, with the checks of mien_dna_open_file(), without a second copy in
+ * memory. Do not truncate or overwrite a mapped file while the document exists; replacing it by renaming is safe,
+ * and so is mien_document_write_file() to the same path, except on Windows, where a mapped file cannot be
+ * replaced: use MIEN_FILE_READ. Destroy with mien_document_destroy().
+ * Fails like mien_dna_open_file(), but not with MIEN_ERROR_LOD. */
+MIEN_AUTHOR_CHECKED MienStatus mien_document_open_file(const char* path, const MienDocumentDesc* desc,
+                                                       MienDocument** out_document, MienError* error);
 
 /* Destroys a document. */
 MIEN_AUTHOR_API void mien_document_destroy(MienDocument* document);
@@ -196,19 +206,20 @@ MIEN_AUTHOR_CHECKED MienStatus mien_document_rename(MienDocument* document, uint
                                                     uint32_t index, const char* name,
                                                     MienError* error);
 
-/* Removes GUI, raw or PSD controls, joints, blend shape channels, animated maps or meshes, and everything that
+/* Removes controls, joints, blend shape channels, animated maps or meshes, and everything that
  * refers to them: names, LOD lists, rows of tables, targets, regions of networks. `indices` has
- * `index_count` elements; PSD controls are numbered from 0.
+ * `index_count` elements; PSD, ML and RBF controls are numbered from 0.
  * Children of a joint go to its nearest ancestor that stays, or become roots, and keep their neutral place
  * in the world; motions that are relative to the parent keep their numbers. The joint's skin weights go to
  * the same ancestor, or to the first joint that stays. Quaternion joints move as before within 1e-2
  * degrees; where the columns of a joint group would rotate them in another order, each quaternion joint of
  * the group gets a joint group of its own.
- * A raw or PSD control is removed as if it stayed 0: with it go its columns of joint groups, its rows of
- * channels and animated maps, PSD controls that are products of it, RBF solvers, twists and swings that
- * read it, and its inputs of networks.
- * Fails with MIEN_ERROR_INDEX if an index is past the end, MIEN_ERROR_INVALID_ARGUMENT if elements of the
- * kind cannot be removed, ML operations gather or scatter a control, or no joint would be left for the skin
+ * A raw, PSD, ML or RBF control is removed as if it stayed 0: with it go its columns of joint groups, its rows
+ * of channels and animated maps, PSD controls that are products of it, RBF solvers, twists and swings that
+ * read it, its inputs of networks, and the outputs of networks and RBF poses that set it. Networks that ML
+ * operations run cannot lose one: their controls are refused. Files before 2.5 cannot lose RBF controls.
+ * Fails with MIEN_ERROR_INDEX if an index is past the end, MIEN_ERROR_INVALID_ARGUMENT if the
+ * networks or the version need a control, or no joint would be left for the skin
  * weights, MIEN_ERROR_DNA_STRUCTURE, MIEN_ERROR_DNA_REFERENCE, MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE
  * if the document is not valid, MIEN_ERROR_MEMORY if the allocator returns NULL. */
 MIEN_AUTHOR_CHECKED MienStatus mien_document_remove(MienDocument* document, uint32_t kind,
@@ -538,6 +549,38 @@ MIEN_AUTHOR_CHECKED MienStatus mien_document_transplant(MienDocument* document,
 MIEN_AUTHOR_CHECKED MienStatus mien_document_to_dna(const MienDocument* document,
                                                     const MienDocumentDesc* desc, MienDna** out_dna,
                                                     MienError* error);
+
+/* Takes the bytes of a file, in pieces and in order. `write` is called only during the call that takes the
+ * struct, and on the same thread. */
+typedef struct MienByteSink {
+    void* user; /* passed to the function */
+    /* Takes `size` bytes and returns the number of bytes taken; any number but `size` ends the call. */
+    size_t(MIEN_CALLBACK* write)(void* user, const void* bytes, size_t size);
+} MienByteSink;
+
+/* Writes the document to a file, like mien_dna_write_file(), with all checks of opening it as a file.
+ * Fails with MIEN_ERROR_FILE_WRITE if the file cannot be written, MIEN_ERROR_DNA_STRUCTURE,
+ * MIEN_ERROR_DNA_REFERENCE or MIEN_ERROR_DNA_VALUE if the document is not a valid file, or would not be one in
+ * the requested version, MIEN_ERROR_DNA_LIMIT if the file would exceed 4 GiB, MIEN_ERROR_MEMORY if the
+ * allocator returns NULL. */
+MIEN_AUTHOR_CHECKED MienStatus mien_document_write_file(const MienDocument* document, const char* path,
+                                                        const MienWriteDesc* desc, MienError* error);
+
+/* Passes the bytes of the file to `sink`, in pieces of at most 8 MiB.
+ * Fails like mien_document_write_file(), also with MIEN_ERROR_FILE_WRITE if `sink` does not take a piece. */
+MIEN_AUTHOR_CHECKED MienStatus mien_document_write_stream(const MienDocument* document,
+                                                          const MienByteSink* sink,
+                                                          const MienWriteDesc* desc,
+                                                          MienError* error);
+
+/* Writes the document to memory and returns its size in `out_size`. `buffer` may be NULL with capacity 0 to get
+ * the size only. Writes nothing if `capacity` is too small; `out_size` is set nevertheless.
+ * Fails like mien_document_write_file(), but not with MIEN_ERROR_FILE_WRITE, and with
+ * MIEN_ERROR_INVALID_ARGUMENT if `capacity` is too small. */
+MIEN_AUTHOR_CHECKED MienStatus mien_document_write_memory(const MienDocument* document,
+                                                          const MienWriteDesc* desc, void* buffer,
+                                                          size_t capacity, size_t* out_size,
+                                                          MienError* error);
 
 /* Checks the document like mien_dna_validate_memory() its file. `document` may be destroyed afterwards.
  * Destroy with mien_report_destroy().

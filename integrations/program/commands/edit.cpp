@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // mien edit: a DNA file changed, by options that are applied one after the other, all or none.
+#include <exception>
+
 #include "integrations/program/commands/edit_options.h"
 #include "integrations/program/commands/options.h"
 #include "integrations/program/diff/dna_diff.h"
 #include "integrations/program/edit/json_document.h"
 #include "integrations/program/io/output.h"
-#include "integrations/program/io/write_dna.h"
 
 namespace mien::cli {
 
@@ -50,6 +51,38 @@ void print_dry_run(const MienDna* before, const MienDna* after,
   output.commit();
 }
 
+/// Passes pieces of a file to the output. Exceptions wait until the library has returned.
+struct OutputSink {
+  Output output;
+  std::exception_ptr failure;
+
+  explicit OutputSink(const std::string& path) : output(path) {}
+  static size_t MIEN_CALLBACK write(void* user, const void* bytes, size_t size) {
+    OutputSink& self = *static_cast<OutputSink*>(user);
+    try {
+      self.output.write(bytes, size);
+      return size;
+    } catch (...) {
+      self.failure = std::current_exception();
+      return 0;
+    }
+  }
+};
+
+void write_document(Document document, const std::string& path, const Session& session) {
+  auto desc = sized<MienWriteDesc>();
+  desc.version = document.version;
+  auto error = sized<MienError>();
+  OutputSink sink(path);
+  const MienByteSink bytes = {&sink, OutputSink::write};
+  const MienStatus status = mien_document_write_stream(document.get(), &bytes, &desc, &error);
+  if (sink.failure) std::rethrow_exception(sink.failure);
+  check(status, &error, "cannot edit", document.shown);
+  document.handle.reset();  // on Windows a mapped file cannot be replaced
+  sink.output.commit();
+  note_written(session, path, sink.output.size());
+}
+
 void run(const EditCommand& command, const Session& session) {
   if (command.output.path.empty() && !command.dry_run) {
     fail_usage("mien edit", "there is no file to write", "give -o OUT.dna, or --dry-run");
@@ -74,15 +107,9 @@ void run(const EditCommand& command, const Session& session) {
     note_written(session, command.output.path, output.size());
     return;
   }
-  auto write = sized<MienWriteDesc>();
-  write.version = document.version;
-  write.unknown_layers = MIEN_UNKNOWN_LAYERS_KEEP;
-  const std::string shown = document.shown;
-  const Dna dna = finished(document);
-  document.handle.reset();  // its memory is for the file to be written
-  if (command.dry_run) return print_dry_run(before.get(), dna.get(), done);
-  for (const std::string& sentence : done) note(session, shown + ": " + sentence);
-  write_dna(dna.get(), write, command.output.path, session);
+  if (command.dry_run) return print_dry_run(before.get(), finished(document).get(), done);
+  for (const std::string& sentence : done) note(session, document.shown + ": " + sentence);
+  write_document(std::move(document), command.output.path, session);
 }
 
 }  // namespace

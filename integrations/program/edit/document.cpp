@@ -33,17 +33,30 @@ const KindNames& names_of_kind(uint32_t kind) {
   return *found;
 }
 
+/// Maps a DNA file; null if it is not one but may hold one.
+DocumentHandle map_document(const std::string& path) {
+  auto desc = sized<MienDocumentDesc>();
+  MienDocument* made = nullptr;
+  auto error = sized<MienError>();
+  const MienStatus status = mien_document_open_file(path.c_str(), &desc, &made, &error);
+  if (status != MIEN_ERROR_DNA_SIGNATURE) check(status, &error, "cannot open rig", path);
+  return DocumentHandle(made);
+}
+
 }  // namespace
 
 Document open_document(const std::string& path, const Session& session) {
+  Document document;
+  document.session = &session;
+  document.shown = shown_name(path);
+  if (!is_stream(path)) document.handle = map_document(path);
+  if (document.handle) return document;
   auto desc = sized<MienDnaDesc>();
   desc.layers = MIEN_LAYER_ALL;
   desc.unknown_layers = MIEN_UNKNOWN_LAYERS_KEEP;
   desc.file_access = MIEN_FILE_MAP;
   const RigFile file = open_rig_file(path, desc, session);
-  Document document;
   document.shown = file.shown;
-  document.session = &session;
   MienDocument* made = nullptr;
   auto error = sized<MienError>();
   check(mien_document_create(file.dna.get(), nullptr, &made, &error), &error, "cannot edit",

@@ -7,11 +7,11 @@ import ctypes
 from typing import Any, Iterable, List, NamedTuple, Optional, Sequence, Union
 
 from . import _api
-from ._api import (Conformed, CoordinateSystem, DnaField, FieldType, Finding, Kind, Match,
+from ._api import (Conformed, CoordinateSystem, DnaField, FieldType, FileAccess, Finding, Kind, Match,
                    MienError, PrunedJoints, PrunedTargets, UnknownLayers)
 from ._library import author
-from ._memory import (Closable, DnaHandle, DocumentHandle, ReportHandle, floats_of, lod_bits,
-                      new_array, numpy, shaped, terminated, uint32)
+from ._memory import (Closable, DnaHandle, DocumentHandle, ReportHandle, as_path, floats_of,
+                      lod_bits, new_array, numpy, shaped, terminated, uint32)
 from .dna import Dna, coordinate_system, findings_of
 from .errors import ArgumentError, fail, raises
 
@@ -78,11 +78,21 @@ class Document(Closable):
         self._handle = handle
 
     @classmethod
-    @raises("mien_dna_open_file")
-    def open(cls, path: Any, unknown_layers: int = UnknownLayers.KEEP) -> Document:
-        """A document of a whole file."""
-        with Dna.open(path, unknown_layers=unknown_layers) as dna:
-            return cls(dna)
+    @raises("mien_document_open_file")
+    def open(cls, path: Any, unknown_layers: int = UnknownLayers.KEEP,
+             access: int = FileAccess.READ) -> Document:
+        """A document of a whole file. `FileAccess.MAP` does not copy it to memory; a mapped file must not be
+        truncated while the document is open."""
+        handle, error = DocumentHandle(), MienError()
+        desc = _api.MienDocumentDesc(file_access=uint32(access, "access"),
+                                     unknown_layers=uint32(unknown_layers, "unknown_layers"))
+        status = author().mien_document_open_file(as_path(path), _byref(desc), _byref(handle),
+                                                  _byref(error))
+        if status:
+            fail(status, f"cannot open {path}", error, path)
+        document = cls.__new__(cls)
+        document._handle = handle
+        return document
 
     def _call(self, function: str, *arguments: Any, what: str = "cannot edit") -> None:
         error = MienError()
@@ -535,15 +545,27 @@ class Document(Closable):
         self._call("mien_document_validate", None, _byref(handle))
         return findings_of(handle)
 
+    @raises("mien_document_write_file")
     def save(self, path: Any, version: int = 0) -> None:
         """Writes the document to a file, as `Dna.save`."""
-        with self.to_dna() as dna:
-            dna.save(path, version)
+        error = MienError()
+        status = author().mien_document_write_file(self._open(), as_path(path),
+                                                   _byref(self._write_desc(version)), _byref(error))
+        if status:
+            fail(status, f"cannot write {path}", error, path)
 
+    @raises("mien_document_write_memory")
     def to_bytes(self, version: int = 0) -> bytes:
         """The same to memory."""
-        with self.to_dna() as dna:
-            return dna.to_bytes(version)
+        desc, size = self._write_desc(version), ctypes.c_size_t()
+        self._call("mien_document_write_memory", _byref(desc), None, 0, _byref(size))
+        buffer = ctypes.create_string_buffer(size.value)
+        self._call("mien_document_write_memory", _byref(desc), buffer, size.value, _byref(size))
+        return buffer.raw
+
+    @staticmethod
+    def _write_desc(version: int) -> Any:
+        return _api.MienWriteDesc(version=uint32(version, "version"))
 
     def __repr__(self) -> str:
         if self.closed:

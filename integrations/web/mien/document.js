@@ -336,13 +336,10 @@ export class Document extends Handle {
   }
 
   /** The bytes of the DNA file. */
-  toBytes(desc) {
-    const dna = this.toDna();
-    try {
-      return dna.write(desc);
-    } finally {
-      dna.dispose();
-    }
+  toBytes(desc = {}) {
+    return this.bytes((buffer, capacity, size, error, scratch) =>
+      this.memory.exports.mien_document_write_memory(this.handle, scratch.struct("WriteDesc", desc), buffer,
+        capacity, size, error));
   }
 
   validate() {

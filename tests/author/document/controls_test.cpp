@@ -143,14 +143,82 @@ TEST(RemoveControls, OfTheGuiLeaveTheOtherSlidersAlone) {
   EXPECT_TRUE(dna_of(after));
 }
 
-TEST(RemoveControls, RefusesThoseOfNetworksAndSolvers) {
-  const DocumentHandle ml = document_of(golden::read_rig("ml"));
-  MienError error = sized<MienError>();
-  const uint32_t first = 0;
-  for (uint32_t kind : {MIEN_KIND_ML_CONTROL, MIEN_KIND_RBF_CONTROL}) {
-    const MienStatus status = mien_document_remove(ml.get(), kind, &first, 1, &error);
-    EXPECT_EQ(status, MIEN_ERROR_INVALID_ARGUMENT) << error.message;
+/// Sets the columns of a control to 0 in all joint groups.
+void silence(const DocumentHandle& document, int64_t control) {
+  for (size_t g = 0; g < field_of(document, "bhvr.joints.jointGroups").count; ++g) {
+    const std::string group = "bhvr.joints.jointGroups[" + std::to_string(g) + "]";
+    const auto inputs = integers_of(document, group + ".inputIndices");
+    auto values = floats_of(document, group + ".values");
+    for (size_t i = 0; i < values.size(); ++i) {
+      if (inputs[i % inputs.size()] == control) values[i] = 0;
+    }
+    ASSERT_EQ(write_floats(document, group + ".values", values), MIEN_OK);
   }
+}
+
+// What a network or a solver computed for the control is gone; everything else is as with columns of zeros.
+TEST(RemoveControls, OfNetworksAndSolversIsAsIfTheyStayedZero) {
+  size_t compared = 0;
+  for (const char* name : {"tiny", "ml", "small", "body"}) {
+    const Bytes bytes = golden::read_rig(name);
+    const DocumentHandle without = document_of(bytes), zero = document_of(bytes);
+    for (uint32_t kind : {MIEN_KIND_ML_CONTROL, MIEN_KIND_RBF_CONTROL}) {
+      const bool ml = kind == MIEN_KIND_ML_CONTROL;
+      const Names controls =
+          strings_of(without, ml ? "mlbh.mlControlNames" : "rbfe.poseControlNames");
+      int64_t first = static_cast<int64_t>(field_of(without, "defn.rawControlNames").count) +
+                      integers_of(without, "bhvr.controls.psdCount")[0];
+      if (!ml) first += static_cast<int64_t>(field_of(without, "mlbh.mlControlNames").count);
+      for (size_t c = 0; c < controls.size(); c += 1 + controls.size() / 4) {
+        SCOPED_TRACE(std::string(name) + " without " + controls[c]);
+        MienError error = sized<MienError>();
+        ASSERT_EQ(remove_control(without, kind, controls[c], &error), MIEN_OK) << error.message;
+        Names left = controls;
+        left.erase(left.begin() + static_cast<std::ptrdiff_t>(c));
+        EXPECT_EQ(strings_of(without, ml ? "mlbh.mlControlNames" : "rbfe.poseControlNames"), left);
+        const int64_t control = first + static_cast<int64_t>(c);
+        silence(zero, control);
+        const auto inputs = integers_of(zero, "bhvr.blendShapeChannels.inputIndices"),
+                   outputs = integers_of(zero, "bhvr.blendShapeChannels.outputIndices");
+        const DnaHandle before_dna = dna_of(zero), after_dna = dna_of(without);
+        const RigHandle before_rig = create_rig(before_dna.get()),
+                        after_rig = create_rig(after_dna.get());
+        ASSERT_TRUE(before_rig && after_rig);
+        Character before(before_rig), after(after_rig);
+        Random random(c, 5);
+        for (int frame = 0; frame < 3; ++frame) {
+          for (size_t i = 0; i < before.raw.count; ++i) {
+            before.raw[i] = after.raw[i] = static_cast<float>(random.below(1024)) / 1024;
+          }
+          before.evaluate(0);
+          after.evaluate(0);
+          const auto floats = [](const auto& span) {
+            return std::vector<float>(span.begin(), span.end());
+          };
+          expect_close(floats(before.joints), floats(after.joints), 1e-2, "joints");
+          for (size_t i = 0; i < inputs.size(); ++i) {
+            if (inputs[i] == control) continue;
+            const auto output = static_cast<size_t>(outputs[i]);
+            EXPECT_NEAR(before.channels[output], after.channels[output], 1e-5);
+          }
+        }
+        ++compared;
+        ASSERT_EQ(mien_document_undo(without.get(), 0, nullptr), MIEN_OK);
+        ASSERT_EQ(mien_document_undo(zero.get(), 0, nullptr), MIEN_OK);
+      }
+    }
+    EXPECT_EQ(bytes_of(without), bytes);
+  }
+  EXPECT_GT(compared, 12u);
+}
+
+TEST(RemoveControls, RefusesWhatTrainedWeightsOrTheVersionNeed) {
+  MienError error = sized<MienError>();
+  const DocumentHandle old = document_of(golden::read_rig("tiny_v24"));
+  const uint32_t first = 0;
+  EXPECT_EQ(mien_document_remove(old.get(), MIEN_KIND_RBF_CONTROL, &first, 1, &error),
+            MIEN_ERROR_INVALID_ARGUMENT);
+  EXPECT_NE(std::string(error.message).find("2.5"), std::string::npos) << error.message;
   // Networks whose operations list controls.
   const Bytes bytes = golden::read_rig("ml_ext");
   const DocumentHandle extended = document_of(bytes);

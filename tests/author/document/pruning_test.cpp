@@ -221,5 +221,48 @@ TEST(PruneJoints, SetsSmallEntriesToZeroAndSaysWhatItCost) {
   }
 }
 
+// By all positions in all poses, although only a few of them are computed.
+TEST(PruneJoints, FindsTheWorstPositionOfAllPoses) {
+  for (const char* rig : {"small", "small_rot", "tiny", "body"}) {
+    SCOPED_TRACE(rig);
+    const Bytes bytes = golden::read_rig(rig);
+    const DocumentHandle document = document_of(bytes);
+    MienPruneJointsDesc desc = sized<MienPruneJointsDesc>();
+    desc.translation = 0.02f;
+    desc.rotation = 0.5f;
+    desc.scale = 0.01f;
+    MienPrunedJoints pruned = sized<MienPrunedJoints>();
+    ASSERT_EQ(mien_document_prune_joints(document.get(), &desc, &pruned, nullptr), MIEN_OK);
+    const DnaHandle old_dna = open_dna(bytes), new_dna = dna_of(document);
+    const dna::DnaView* const views[2] = {&old_dna->view, &new_dna->view};
+    Arena arena(default_allocator());
+    author::ControlPoses poses[2];
+    ASSERT_TRUE(poses[0].prepare(*views[0], arena) && poses[1].prepare(*views[1], arena));
+    const Span<double> controls = arena.array<double>(author::kMaxControls);
+    const Span<double> channels = arena.array<double>(views[0]->defn.channel_names.count);
+    const dna::Array<uint16_t> meshes = views[0]->defn.lod_meshes.at(0);
+    double worst = 0;
+    for (uint32_t pose = 0; pose < poses[0].count(); ++pose) {
+      poses[0].controls(pose, controls);
+      poses[0].channels(controls, channels);
+      for (uint32_t i = 0; i < meshes.count && meshes[i] < views[0]->geom.meshes.count; ++i) {
+        const size_t count = views[0]->geom.meshes[meshes[i]].positions.xs.count;
+        Span<Vec3> positions[2];
+        Arena scratch(default_allocator());
+        for (int k = 0; k < 2; ++k) {
+          const auto skin = scratch.array<author::Rigid>(views[0]->defn.joint_names.count);
+          positions[k] = scratch.array<Vec3>(count);
+          ASSERT_TRUE(poses[k].skin(controls, scratch, skin));
+          poses[k].deform(meshes[i], skin, channels, positions[k]);
+        }
+        for (size_t v = 0; v < count; ++v)
+          worst = std::max(worst, length(positions[0][v] - positions[1][v]));
+      }
+    }
+    EXPECT_NEAR(pruned.worst_distance, worst, 1e-9 + worst * 1e-9);
+    EXPECT_GT(pruned.removed_count, 0u);
+  }
+}
+
 }  // namespace
 }  // namespace mien

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
 
-use crate::convert::{bytes, empty_string, index, terminated, utf8};
+use crate::convert::{bytes, empty_string, index, path_string, terminated, utf8};
 use crate::error::checked;
 use crate::{
     Allocator, Conformed, CoordinateSystem, Dna, DnaField, DnaLayer, Error, Kind, Layers, Match,
-    PrunedJoints, PrunedTargets, Report, Result, Status,
+    PrunedJoints, PrunedTargets, Report, Result, Status, UnknownLayers,
 };
 use mien_sys as sys;
 use std::borrow::Cow;
+use std::ffi::c_void;
+use std::path::Path;
 use std::ptr::{null, null_mut, NonNull};
 
 /// A DNA file that can be changed: its fields by the paths of [`Dna::field`], and as a whole by operations
@@ -100,6 +102,27 @@ impl Document {
     #[doc = errors!(mien_document_create)]
     pub fn new_in(dna: &Dna<'_>, allocator: &Allocator) -> Result<Self> {
         Self::create(dna.raw(), Some(allocator))
+    }
+
+    /// A document of a whole file, which is read into memory once.
+    ///
+    /// # Errors
+    ///
+    #[doc = errors!(mien_document_open_file)]
+    pub fn open(path: impl AsRef<Path>) -> Result<Self> {
+        let path = path_string(path.as_ref())?;
+        let desc = sys::MienDocumentDesc {
+            file_access: sys::MIEN_FILE_READ,
+            unknown_layers: UnknownLayers::KEEP.0,
+            ..Default::default()
+        };
+        let mut handle = null_mut();
+        // SAFETY: a terminated path and a sized struct.
+        checked(|error| unsafe {
+            sys::mien_document_open_file(path.as_ptr(), &desc, &mut handle, error)
+        })?;
+        let handle = NonNull::new(handle).expect("a handle after success");
+        Ok(Self { handle, allocator: None })
     }
 
     /// A file of version 2.8 with all layers, and nothing in them.
@@ -824,6 +847,44 @@ impl Document {
             // SAFETY: a live handle and a sized struct.
             unsafe { sys::mien_document_to_dna(self.raw(), &desc, out, error) }
         })
+    }
+
+    /// Writes the document to a file of version 2.`version`, or of its own version for 0. Goes to a temporary name
+    /// first, so a failure leaves `path` as it was.
+    ///
+    /// # Errors
+    ///
+    #[doc = errors!(mien_document_write_file)]
+    pub fn write(&self, path: impl AsRef<Path>, version: u32) -> Result<()> {
+        let path = path_string(path.as_ref())?;
+        let desc = sys::MienWriteDesc { version, ..Default::default() };
+        // SAFETY: a live handle, a terminated path, a sized struct.
+        checked(|error| unsafe {
+            sys::mien_document_write_file(self.raw(), path.as_ptr(), &desc, error)
+        })
+    }
+
+    /// The same bytes, to memory.
+    ///
+    /// # Errors
+    ///
+    #[doc = errors!(mien_document_write_memory)]
+    pub fn to_bytes(&self, version: u32) -> Result<Vec<u8>> {
+        let desc = sys::MienWriteDesc { version, ..Default::default() };
+        let write = |buffer: *mut c_void, capacity, size: &mut usize| {
+            // SAFETY: a live handle, a sized struct, and room for `capacity` bytes.
+            checked(|error| unsafe {
+                sys::mien_document_write_memory(self.raw(), &desc, buffer, capacity, size, error)
+            })
+        };
+        let mut size = 0;
+        write(null_mut(), 0, &mut size)?;
+        let mut bytes = Vec::<u8>::with_capacity(size);
+        write(bytes.as_mut_ptr().cast(), bytes.capacity(), &mut size)?;
+        assert!(size <= bytes.capacity());
+        // SAFETY: the call succeeded, so it has written all of them.
+        unsafe { bytes.set_len(size) };
+        Ok(bytes)
     }
 
     /// Every finding, as [`Report::of_bytes`] gives of a file.

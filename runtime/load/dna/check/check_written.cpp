@@ -23,7 +23,8 @@ bool keep_first(void* user, const Finding& finding) {
   return false;
 }
 
-/// False if all layers are written.
+}  // namespace
+
 bool leave_out_layers(DnaView& view, const WriteOptions& options) {
   bool changed = false;
   for (const LayerKind& kind : kLayerKinds) {
@@ -34,8 +35,6 @@ bool leave_out_layers(DnaView& view, const WriteOptions& options) {
   view.ml_control_count = view.mlbh.control_names.count;
   return changed;
 }
-
-}  // namespace
 
 Status check_written(const DnaView& view, const WriteOptions& options, Arena& arena, Error& error) {
   if (view.has(kLayerRbf) && !view.has(kLayerMachineLearned) && view.ml_control_count != 0) {

@@ -13,4 +13,7 @@ namespace mien::dna {
 /// machine-learned behavior of its file, kDnaLimit for a file of 4 GiB, kMemory.
 Status check_written(const DnaView& view, const WriteOptions& options, Arena& arena, Error& error);
 
+/// Empties the layers that will not be written. False if all are.
+bool leave_out_layers(DnaView& view, const WriteOptions& options);
+
 }  // namespace mien::dna
