@@ -1237,6 +1237,10 @@ type GenerateDesc struct {
 type DocumentDesc struct {
 	structSize uint64
 	allocator  unsafe.Pointer
+	// MIEN_FILE_...; for mien_document_open_file() only
+	FileAccess FileAccess
+	// MIEN_UNKNOWN_LAYERS_...; for mien_document_open_file() only
+	UnknownLayers UnknownLayers
 }
 
 // How many deltas and targets mien_document_prune_targets() removed.
@@ -1372,7 +1376,7 @@ var structSizes = [][2]uintptr{
 	{unsafe.Sizeof(SolverStackInfo{}), 32},
 	{unsafe.Sizeof(SolverStateDesc{}), 16},
 	{unsafe.Sizeof(GenerateDesc{}), 32},
-	{unsafe.Sizeof(DocumentDesc{}), 16},
+	{unsafe.Sizeof(DocumentDesc{}), 24},
 	{unsafe.Sizeof(PrunedTargets{}), 24},
 	{unsafe.Sizeof(PruneJointsDesc{}), 24},
 	{unsafe.Sizeof(PrunedJoints{}), 48},

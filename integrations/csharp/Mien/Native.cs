@@ -706,7 +706,7 @@ namespace Mien.Native {
       new[] { sizeof(MienAuthorBone), 48 },
       new[] { sizeof(MienAuthorLod), 24 },
       new[] { sizeof(MienAuthorDesc), 224 },
-      new[] { sizeof(MienDocumentDesc), 16 },
+      new[] { sizeof(MienDocumentDesc), 24 },
       new[] { sizeof(MienPrunedTargets), 24 },
       new[] { sizeof(MienPruneJointsDesc), 24 },
       new[] { sizeof(MienPrunedJoints), 48 },
@@ -715,6 +715,7 @@ namespace Mien.Native {
       new[] { sizeof(MienConformed), 24 },
       new[] { sizeof(MienTransplantDesc), 16 },
       new[] { sizeof(MienControlError), 32 },
+      new[] { sizeof(MienByteSink), 16 },
       new[] { sizeof(MienSolvePoint), 28 },
       new[] { sizeof(MienFitDesc), 104 },
       new[] { sizeof(MienFitCamera), 64 },
@@ -2435,6 +2436,10 @@ namespace Mien.Native {
   public unsafe struct MienDocumentDesc {
     public UIntPtr StructSize;
     public MienAllocator* Allocator;
+    /// <summary>MIEN_FILE_...; for mien_document_open_file() only</summary>
+    public FileAccess FileAccess;
+    /// <summary>MIEN_UNKNOWN_LAYERS_...; for mien_document_open_file() only</summary>
+    public UnknownLayers UnknownLayers;
 
     /// <summary>All fields zero but StructSize.</summary>
     public static MienDocumentDesc Create() {
@@ -2572,6 +2577,16 @@ namespace Mien.Native {
     /// <summary>its index in the new rig</summary>
     public uint Control;
     public uint Reserved;
+  }
+
+  /// <summary>Takes the bytes of a file, in pieces and in order. `write` is called only during the call that takes the
+  /// struct, and on the same thread.</summary>
+  [StructLayout(LayoutKind.Sequential)]
+  public unsafe struct MienByteSink {
+    /// <summary>passed to the function</summary>
+    public void* User;
+    /// <summary>Takes `size` bytes and returns the number of bytes taken; any number but `size` ends the call.</summary>
+    public IntPtr Write;
   }
 
   /// <summary>A point of a surface: the weighted sum of three positions of a mesh. One position: weights 1 0 0.</summary>
@@ -2929,8 +2944,8 @@ namespace Mien.Native {
 
   /// <summary>A DNA file that can be changed: field by field, with the paths of mien_dna_field(), and by operations
   /// that keep all references consistent. Every change happens completely or, if the call fails, not at all.
-  /// Everything else stays as it is, byte for byte. Memory is taken for a copy of the file that was opened,
-  /// and for changed fields.</summary>
+  /// Everything else stays as it is, byte for byte. Memory is taken for the file that was opened, unless it
+  /// is mapped, and for changed fields.</summary>
   public sealed class DocumentHandle : Handle {
     /// <summary>For parameters that may be NULL.</summary>
     public static readonly DocumentHandle Null = new DocumentHandle(IntPtr.Zero);
@@ -4271,6 +4286,14 @@ namespace Mien.Native {
     [DllImport("mien-author", CallingConvention = CallingConvention.Cdecl)]
     public static extern Status mien_document_create(DnaHandle dna, MienDocumentDesc* desc, out IntPtr out_document, MienError* error);
 
+    /// <summary>Opens a whole DNA file as a document, with the checks of mien_dna_open_file(), without a second copy in
+    /// memory. Do not truncate or overwrite a mapped file while the document exists; replacing it by renaming is safe,
+    /// and so is mien_document_write_file() to the same path, except on Windows, where a mapped file cannot be
+    /// replaced: use MIEN_FILE_READ. Destroy with mien_document_destroy().
+    /// Fails like mien_dna_open_file(), but not with MIEN_ERROR_LOD.</summary>
+    [DllImport("mien-author", CallingConvention = CallingConvention.Cdecl)]
+    public static extern Status mien_document_open_file(byte* path, MienDocumentDesc* desc, out IntPtr out_document, MienError* error);
+
     /// <summary>Destroys a document.</summary>
     [DllImport("mien-author", CallingConvention = CallingConvention.Cdecl)]
     public static extern void mien_document_destroy(IntPtr document);
@@ -4415,19 +4438,20 @@ namespace Mien.Native {
     [DllImport("mien-author", CallingConvention = CallingConvention.Cdecl)]
     public static extern Status mien_document_rename(DocumentHandle document, Kind kind, uint index, byte* name, MienError* error);
 
-    /// <summary>Removes GUI, raw or PSD controls, joints, blend shape channels, animated maps or meshes, and everything that
+    /// <summary>Removes controls, joints, blend shape channels, animated maps or meshes, and everything that
     /// refers to them: names, LOD lists, rows of tables, targets, regions of networks. `indices` has
-    /// `index_count` elements; PSD controls are numbered from 0.
+    /// `index_count` elements; PSD, ML and RBF controls are numbered from 0.
     /// Children of a joint go to its nearest ancestor that stays, or become roots, and keep their neutral place
     /// in the world; motions that are relative to the parent keep their numbers. The joint's skin weights go to
     /// the same ancestor, or to the first joint that stays. Quaternion joints move as before within 1e-2
     /// degrees; where the columns of a joint group would rotate them in another order, each quaternion joint of
     /// the group gets a joint group of its own.
-    /// A raw or PSD control is removed as if it stayed 0: with it go its columns of joint groups, its rows of
-    /// channels and animated maps, PSD controls that are products of it, RBF solvers, twists and swings that
-    /// read it, and its inputs of networks.
-    /// Fails with MIEN_ERROR_INDEX if an index is past the end, MIEN_ERROR_INVALID_ARGUMENT if elements of the
-    /// kind cannot be removed, ML operations gather or scatter a control, or no joint would be left for the skin
+    /// A raw, PSD, ML or RBF control is removed as if it stayed 0: with it go its columns of joint groups, its rows
+    /// of channels and animated maps, PSD controls that are products of it, RBF solvers, twists and swings that
+    /// read it, its inputs of networks, and the outputs of networks and RBF poses that set it. Networks that ML
+    /// operations run cannot lose one: their controls are refused. Files before 2.5 cannot lose RBF controls.
+    /// Fails with MIEN_ERROR_INDEX if an index is past the end, MIEN_ERROR_INVALID_ARGUMENT if the
+    /// networks or the version need a control, or no joint would be left for the skin
     /// weights, MIEN_ERROR_DNA_STRUCTURE, MIEN_ERROR_DNA_REFERENCE, MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE
     /// if the document is not valid, MIEN_ERROR_MEMORY if the allocator returns NULL.</summary>
     [DllImport("mien-author", CallingConvention = CallingConvention.Cdecl)]
@@ -4637,6 +4661,26 @@ namespace Mien.Native {
     /// See docs/dna-format.md, 13 "What is checked".</summary>
     [DllImport("mien-author", CallingConvention = CallingConvention.Cdecl)]
     public static extern Status mien_document_to_dna(DocumentHandle document, MienDocumentDesc* desc, out IntPtr out_dna, MienError* error);
+
+    /// <summary>Writes the document to a file, like mien_dna_write_file(), with all checks of opening it as a file.
+    /// Fails with MIEN_ERROR_FILE_WRITE if the file cannot be written, MIEN_ERROR_DNA_STRUCTURE,
+    /// MIEN_ERROR_DNA_REFERENCE or MIEN_ERROR_DNA_VALUE if the document is not a valid file, or would not be one in
+    /// the requested version, MIEN_ERROR_DNA_LIMIT if the file would exceed 4 GiB, MIEN_ERROR_MEMORY if the
+    /// allocator returns NULL.</summary>
+    [DllImport("mien-author", CallingConvention = CallingConvention.Cdecl)]
+    public static extern Status mien_document_write_file(DocumentHandle document, byte* path, MienWriteDesc* desc, MienError* error);
+
+    /// <summary>Passes the bytes of the file to `sink`, in pieces of at most 8 MiB.
+    /// Fails like mien_document_write_file(), also with MIEN_ERROR_FILE_WRITE if `sink` does not take a piece.</summary>
+    [DllImport("mien-author", CallingConvention = CallingConvention.Cdecl)]
+    public static extern Status mien_document_write_stream(DocumentHandle document, MienByteSink* sink, MienWriteDesc* desc, MienError* error);
+
+    /// <summary>Writes the document to memory and returns its size in `out_size`. `buffer` may be NULL with capacity 0 to get
+    /// the size only. Writes nothing if `capacity` is too small; `out_size` is set nevertheless.
+    /// Fails like mien_document_write_file(), but not with MIEN_ERROR_FILE_WRITE, and with
+    /// MIEN_ERROR_INVALID_ARGUMENT if `capacity` is too small.</summary>
+    [DllImport("mien-author", CallingConvention = CallingConvention.Cdecl)]
+    public static extern Status mien_document_write_memory(DocumentHandle document, MienWriteDesc* desc, void* buffer, UIntPtr capacity, UIntPtr* out_size, MienError* error);
 
     /// <summary>Checks the document like mien_dna_validate_memory() its file. `document` may be destroyed afterwards.
     /// Destroy with mien_report_destroy().

@@ -996,6 +996,8 @@ typedef struct MienAuthorDesc {
 typedef struct MienDocumentDesc {
     size_t struct_size;
     MienAllocator const* allocator;
+    uint32_t file_access; /* MIEN_FILE_...; for mien_document_open_file() only */
+    uint32_t unknown_layers; /* MIEN_UNKNOWN_LAYERS_...; for mien_document_open_file() only */
 } MienDocumentDesc;
 
 /* How many deltas and targets mien_document_prune_targets() removed. */
@@ -1067,6 +1069,13 @@ typedef struct MienControlError {
     uint32_t control; /* its index in the new rig */
     uint32_t reserved;
 } MienControlError;
+
+/* Takes the bytes of a file, in pieces and in order. `write` is called only during the call that takes the
+struct, and on the same thread. */
+typedef struct MienByteSink {
+    void* user; /* passed to the function */
+    size_t (*write)(void* user, void const* bytes, size_t size); /* Takes `size` bytes and returns the number of bytes taken; any number but `size` ends the call. */
+} MienByteSink;
 
 /* A point of a surface: the weighted sum of three positions of a mesh. One position: weights 1 0 0. */
 typedef struct MienSolvePoint {
@@ -2271,6 +2280,13 @@ file, MIEN_ERROR_DNA_STRUCTURE, MIEN_ERROR_DNA_REFERENCE or MIEN_ERROR_DNA_VALUE
 not open by itself, MIEN_ERROR_DNA_LIMIT if it exceeds 4 GiB. */
 MienStatus mien_document_create(MienDna const* dna, MienDocumentDesc const* desc, MienDocument** out_document, MienError* error);
 
+/* Opens a whole DNA file as a document, with the checks of mien_dna_open_file(), without a second copy in
+memory. Do not truncate or overwrite a mapped file while the document exists; replacing it by renaming is safe,
+and so is mien_document_write_file() to the same path, except on Windows, where a mapped file cannot be
+replaced: use MIEN_FILE_READ. Destroy with mien_document_destroy().
+Fails like mien_dna_open_file(), but not with MIEN_ERROR_LOD. */
+MienStatus mien_document_open_file(char const* path, MienDocumentDesc const* desc, MienDocument** out_document, MienError* error);
+
 /* Destroys a document. */
 void mien_document_destroy(MienDocument* document);
 
@@ -2395,19 +2411,20 @@ of the kind has the name, or the kind has no names in a document, MIEN_ERROR_MEM
 returns NULL. */
 MienStatus mien_document_rename(MienDocument* document, uint32_t kind, uint32_t index, char const* name, MienError* error);
 
-/* Removes GUI, raw or PSD controls, joints, blend shape channels, animated maps or meshes, and everything that
+/* Removes controls, joints, blend shape channels, animated maps or meshes, and everything that
 refers to them: names, LOD lists, rows of tables, targets, regions of networks. `indices` has
-`index_count` elements; PSD controls are numbered from 0.
+`index_count` elements; PSD, ML and RBF controls are numbered from 0.
 Children of a joint go to its nearest ancestor that stays, or become roots, and keep their neutral place
 in the world; motions that are relative to the parent keep their numbers. The joint's skin weights go to
 the same ancestor, or to the first joint that stays. Quaternion joints move as before within 1e-2
 degrees; where the columns of a joint group would rotate them in another order, each quaternion joint of
 the group gets a joint group of its own.
-A raw or PSD control is removed as if it stayed 0: with it go its columns of joint groups, its rows of
-channels and animated maps, PSD controls that are products of it, RBF solvers, twists and swings that
-read it, and its inputs of networks.
-Fails with MIEN_ERROR_INDEX if an index is past the end, MIEN_ERROR_INVALID_ARGUMENT if elements of the
-kind cannot be removed, ML operations gather or scatter a control, or no joint would be left for the skin
+A raw, PSD, ML or RBF control is removed as if it stayed 0: with it go its columns of joint groups, its rows
+of channels and animated maps, PSD controls that are products of it, RBF solvers, twists and swings that
+read it, its inputs of networks, and the outputs of networks and RBF poses that set it. Networks that ML
+operations run cannot lose one: their controls are refused. Files before 2.5 cannot lose RBF controls.
+Fails with MIEN_ERROR_INDEX if an index is past the end, MIEN_ERROR_INVALID_ARGUMENT if the
+networks or the version need a control, or no joint would be left for the skin
 weights, MIEN_ERROR_DNA_STRUCTURE, MIEN_ERROR_DNA_REFERENCE, MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE
 if the document is not valid, MIEN_ERROR_MEMORY if the allocator returns NULL. */
 MienStatus mien_document_remove(MienDocument* document, uint32_t kind, uint32_t const* indices, size_t index_count, MienError* error);
@@ -2593,6 +2610,23 @@ MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE if the document is not a valid file
 first invalid field, mien_document_validate() lists them all.
 See docs/dna-format.md, 13 "What is checked". */
 MienStatus mien_document_to_dna(MienDocument const* document, MienDocumentDesc const* desc, MienDna** out_dna, MienError* error);
+
+/* Writes the document to a file, like mien_dna_write_file(), with all checks of opening it as a file.
+Fails with MIEN_ERROR_FILE_WRITE if the file cannot be written, MIEN_ERROR_DNA_STRUCTURE,
+MIEN_ERROR_DNA_REFERENCE or MIEN_ERROR_DNA_VALUE if the document is not a valid file, or would not be one in
+the requested version, MIEN_ERROR_DNA_LIMIT if the file would exceed 4 GiB, MIEN_ERROR_MEMORY if the
+allocator returns NULL. */
+MienStatus mien_document_write_file(MienDocument const* document, char const* path, MienWriteDesc const* desc, MienError* error);
+
+/* Passes the bytes of the file to `sink`, in pieces of at most 8 MiB.
+Fails like mien_document_write_file(), also with MIEN_ERROR_FILE_WRITE if `sink` does not take a piece. */
+MienStatus mien_document_write_stream(MienDocument const* document, MienByteSink const* sink, MienWriteDesc const* desc, MienError* error);
+
+/* Writes the document to memory and returns its size in `out_size`. `buffer` may be NULL with capacity 0 to get
+the size only. Writes nothing if `capacity` is too small; `out_size` is set nevertheless.
+Fails like mien_document_write_file(), but not with MIEN_ERROR_FILE_WRITE, and with
+MIEN_ERROR_INVALID_ARGUMENT if `capacity` is too small. */
+MienStatus mien_document_write_memory(MienDocument const* document, MienWriteDesc const* desc, void* buffer, size_t capacity, size_t* out_size, MienError* error);
 
 /* Checks the document like mien_dna_validate_memory() its file. `document` may be destroyed afterwards.
 Destroy with mien_report_destroy().
@@ -3093,7 +3127,7 @@ api.sizes = {
   MienAuthorBone = 48,
   MienAuthorLod = 24,
   MienAuthorDesc = 224,
-  MienDocumentDesc = 16,
+  MienDocumentDesc = 24,
   MienPrunedTargets = 24,
   MienPruneJointsDesc = 24,
   MienPrunedJoints = 48,
@@ -3102,6 +3136,7 @@ api.sizes = {
   MienConformed = 24,
   MienTransplantDesc = 16,
   MienControlError = 32,
+  MienByteSink = 16,
   MienSolvePoint = 28,
   MienFitDesc = 104,
   MienFitCamera = 64,

@@ -2925,14 +2925,22 @@ class MienDocumentDesc(Structure):
     _fields_ = [
         ("struct_size", c_size_t),
         ("allocator", POINTER(MienAllocator)),
+        ("file_access", c_uint32),
+        ("unknown_layers", c_uint32),
     ]
     struct_size: Any
     allocator: Any
+    file_access: Any
+    unknown_layers: Any
 
     def __init__(self, *,
-                 allocator: Any = None) -> None:
-        super().__init__(16)
+                 allocator: Any = None,
+                 file_access: int = 0,
+                 unknown_layers: int = 0) -> None:
+        super().__init__(24)
         self.allocator = allocator
+        self.file_access = file_access
+        self.unknown_layers = unknown_layers
 
 
 class MienPrunedTargets(Structure):
@@ -3092,6 +3100,15 @@ class MienControlError(Structure):
     moved: Any
     control: Any
     reserved: Any
+
+
+class MienByteSink(Structure):
+    _fields_ = [
+        ("user", c_void_p),
+        ("write", CFUNCTYPE(c_size_t, c_void_p, c_void_p, c_size_t)),
+    ]
+    user: Any
+    write: Any
 
 
 class MienSolvePoint(Structure):
@@ -4938,6 +4955,30 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
         (Status.DNA_VALUE,
          "the loaded part would not open by itself"),
     ),
+    "mien_document_open_file": (
+        (Status.INVALID_ARGUMENT,
+         "an argument is outside its range"),
+        (Status.MEMORY,
+         "there is no memory"),
+        (Status.FILE_OPEN,
+         "the file cannot be read"),
+        (Status.FILE_READ,
+         "the file cannot be read"),
+        (Status.DNA_SIGNATURE,
+         "it is not a DNA file of generation 2"),
+        (Status.DNA_VERSION,
+         "it is not a DNA file of generation 2"),
+        (Status.DNA_TRUNCATED,
+         "its contents are not valid or cannot be converted to the requested system"),
+        (Status.DNA_STRUCTURE,
+         "its contents are not valid or cannot be converted to the requested system"),
+        (Status.DNA_REFERENCE,
+         "its contents are not valid or cannot be converted to the requested system"),
+        (Status.DNA_LIMIT,
+         "its contents are not valid or cannot be converted to the requested system"),
+        (Status.DNA_VALUE,
+         "its contents are not valid or cannot be converted to the requested system"),
+    ),
     "mien_document_field": (
         (Status.INDEX,
          "an index in the path is past the end"),
@@ -5081,8 +5122,8 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
     ),
     "mien_document_remove": (
         (Status.INVALID_ARGUMENT,
-         "elements of the kind cannot be removed, ML operations gather or scatter a "
-         "control, or no joint would be left for the skin weights"),
+         "the networks or the version need a control, or no joint would be left for the "
+         "skin weights"),
         (Status.INDEX,
          "an index is past the end"),
         (Status.MEMORY,
@@ -5098,8 +5139,8 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
     ),
     "mien_document_clear": (
         (Status.INVALID_ARGUMENT,
-         "elements of the kind cannot be removed, ML operations gather or scatter a "
-         "control, or no joint would be left for the skin weights"),
+         "the networks or the version need a control, or no joint would be left for the "
+         "skin weights"),
         (Status.MEMORY,
          "the allocator returns NULL"),
         (Status.DNA_STRUCTURE,
@@ -5113,8 +5154,8 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
     ),
     "mien_document_clear_joints": (
         (Status.INVALID_ARGUMENT,
-         "elements of the kind cannot be removed, ML operations gather or scatter a "
-         "control, or no joint would be left for the skin weights"),
+         "the networks or the version need a control, or no joint would be left for the "
+         "skin weights"),
         (Status.INDEX,
          "an index is past the end"),
         (Status.MEMORY,
@@ -5456,6 +5497,52 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
         (Status.DNA_VALUE,
          "the document is not a valid file; the message names the first invalid field, "
          "mien_document_validate() lists them all"),
+    ),
+    "mien_document_write_file": (
+        (Status.INVALID_ARGUMENT,
+         "an argument is outside its range"),
+        (Status.MEMORY,
+         "the allocator returns NULL"),
+        (Status.FILE_WRITE,
+         "the file cannot be written"),
+        (Status.DNA_STRUCTURE,
+         "the document is not a valid file, or would not be one in the requested version"),
+        (Status.DNA_REFERENCE,
+         "the document is not a valid file, or would not be one in the requested version"),
+        (Status.DNA_LIMIT,
+         "the file would exceed 4 GiB"),
+        (Status.DNA_VALUE,
+         "the document is not a valid file, or would not be one in the requested version"),
+    ),
+    "mien_document_write_stream": (
+        (Status.INVALID_ARGUMENT,
+         "an argument is outside its range"),
+        (Status.MEMORY,
+         "the allocator returns NULL"),
+        (Status.FILE_WRITE,
+         "the file cannot be written; or `sink` does not take a piece"),
+        (Status.DNA_STRUCTURE,
+         "the document is not a valid file, or would not be one in the requested version"),
+        (Status.DNA_REFERENCE,
+         "the document is not a valid file, or would not be one in the requested version"),
+        (Status.DNA_LIMIT,
+         "the file would exceed 4 GiB"),
+        (Status.DNA_VALUE,
+         "the document is not a valid file, or would not be one in the requested version"),
+    ),
+    "mien_document_write_memory": (
+        (Status.INVALID_ARGUMENT,
+         "an argument is outside its range"),
+        (Status.MEMORY,
+         "there is no memory"),
+        (Status.DNA_STRUCTURE,
+         "the document is not a valid file, or would not be one in the requested version"),
+        (Status.DNA_REFERENCE,
+         "the document is not a valid file, or would not be one in the requested version"),
+        (Status.DNA_LIMIT,
+         "the file would exceed 4 GiB"),
+        (Status.DNA_VALUE,
+         "the document is not a valid file, or would not be one in the requested version"),
     ),
     "mien_document_validate": (
         (Status.INVALID_ARGUMENT,
@@ -5959,6 +6046,8 @@ AUTHOR_FUNCTIONS: Tuple[Tuple[str, Any, Tuple[Any, ...]], ...] = (
     ("mien_author_report_json", c_int32, (MienAuthorReport, POINTER(MienStringView))),
     ("mien_document_create", c_int32, (MienDna, POINTER(MienDocumentDesc), POINTER(MienDocument),
      POINTER(MienError))),
+    ("mien_document_open_file", c_int32, (c_char_p, POINTER(MienDocumentDesc),
+     POINTER(MienDocument), POINTER(MienError))),
     ("mien_document_destroy", None, (MienDocument,)),
     ("mien_document_field", c_int32, (MienDocument, c_char_p, POINTER(MienDnaField),
      POINTER(MienError))),
@@ -6035,6 +6124,12 @@ AUTHOR_FUNCTIONS: Tuple[Tuple[str, Any, Tuple[Any, ...]], ...] = (
      POINTER(MienControlError), c_size_t, c_void_p, POINTER(MienError))),
     ("mien_document_to_dna", c_int32, (MienDocument, POINTER(MienDocumentDesc), POINTER(MienDna),
      POINTER(MienError))),
+    ("mien_document_write_file", c_int32, (MienDocument, c_char_p, POINTER(MienWriteDesc),
+     POINTER(MienError))),
+    ("mien_document_write_stream", c_int32, (MienDocument, POINTER(MienByteSink),
+     POINTER(MienWriteDesc), POINTER(MienError))),
+    ("mien_document_write_memory", c_int32, (MienDocument, POINTER(MienWriteDesc), c_void_p,
+     c_size_t, c_void_p, POINTER(MienError))),
     ("mien_document_validate", c_int32, (MienDocument, POINTER(MienValidateDesc),
      POINTER(MienReport), POINTER(MienError))),
 )
@@ -6048,6 +6143,7 @@ class AuthorLibrary:
     mien_author_report_close: Any
     mien_author_report_json: Any
     mien_document_create: Any
+    mien_document_open_file: Any
     mien_document_destroy: Any
     mien_document_field: Any
     mien_document_child_name: Any
@@ -6092,6 +6188,9 @@ class AuthorLibrary:
     mien_document_conform: Any
     mien_document_transplant: Any
     mien_document_to_dna: Any
+    mien_document_write_file: Any
+    mien_document_write_stream: Any
+    mien_document_write_memory: Any
     mien_document_validate: Any
 
     def __init__(self, library: ctypes.CDLL) -> None:

@@ -2040,6 +2040,8 @@ export interface AuthorDesc {
 }
 
 export interface DocumentDesc {
+  /** MIEN_UNKNOWN_LAYERS_...; for mien_document_open_file() only */
+  unknownLayers?: UnknownLayers;
 }
 
 /** How many deltas and targets mien_document_prune_targets() removed. */
@@ -3549,19 +3551,20 @@ export interface Exports {
    */
   mien_document_rename(document: number, kind: number, index: number, name: number, error: number): number;
   /**
-   * Removes GUI, raw or PSD controls, joints, blend shape channels, animated maps or meshes, and everything that
+   * Removes controls, joints, blend shape channels, animated maps or meshes, and everything that
    * refers to them: names, LOD lists, rows of tables, targets, regions of networks. `indices` has
-   * `index_count` elements; PSD controls are numbered from 0.
+   * `index_count` elements; PSD, ML and RBF controls are numbered from 0.
    * Children of a joint go to its nearest ancestor that stays, or become roots, and keep their neutral place
    * in the world; motions that are relative to the parent keep their numbers. The joint's skin weights go to
    * the same ancestor, or to the first joint that stays. Quaternion joints move as before within 1e-2
    * degrees; where the columns of a joint group would rotate them in another order, each quaternion joint of
    * the group gets a joint group of its own.
-   * A raw or PSD control is removed as if it stayed 0: with it go its columns of joint groups, its rows of
-   * channels and animated maps, PSD controls that are products of it, RBF solvers, twists and swings that
-   * read it, and its inputs of networks.
-   * Fails with MIEN_ERROR_INDEX if an index is past the end, MIEN_ERROR_INVALID_ARGUMENT if elements of the
-   * kind cannot be removed, ML operations gather or scatter a control, or no joint would be left for the skin
+   * A raw, PSD, ML or RBF control is removed as if it stayed 0: with it go its columns of joint groups, its rows
+   * of channels and animated maps, PSD controls that are products of it, RBF solvers, twists and swings that
+   * read it, its inputs of networks, and the outputs of networks and RBF poses that set it. Networks that ML
+   * operations run cannot lose one: their controls are refused. Files before 2.5 cannot lose RBF controls.
+   * Fails with MIEN_ERROR_INDEX if an index is past the end, MIEN_ERROR_INVALID_ARGUMENT if the
+   * networks or the version need a control, or no joint would be left for the skin
    * weights, MIEN_ERROR_DNA_STRUCTURE, MIEN_ERROR_DNA_REFERENCE, MIEN_ERROR_DNA_LIMIT or MIEN_ERROR_DNA_VALUE
    * if the document is not valid, MIEN_ERROR_MEMORY if the allocator returns NULL.
    */
@@ -3771,6 +3774,18 @@ export interface Exports {
    * See docs/dna-format.md, 13 "What is checked".
    */
   mien_document_to_dna(document: number, desc: number, out_dna: number, error: number): number;
+  /**
+   * Passes the bytes of the file to `sink`, in pieces of at most 8 MiB.
+   * Fails like mien_document_write_file(), also with MIEN_ERROR_FILE_WRITE if `sink` does not take a piece.
+   */
+  mien_document_write_stream(document: number, sink: number, desc: number, error: number): number;
+  /**
+   * Writes the document to memory and returns its size in `out_size`. `buffer` may be NULL with capacity 0 to get
+   * the size only. Writes nothing if `capacity` is too small; `out_size` is set nevertheless.
+   * Fails like mien_document_write_file(), but not with MIEN_ERROR_FILE_WRITE, and with
+   * MIEN_ERROR_INVALID_ARGUMENT if `capacity` is too small.
+   */
+  mien_document_write_memory(document: number, desc: number, buffer: number, capacity: number, out_size: number, error: number): number;
   /**
    * Checks the document like mien_dna_validate_memory() its file. `document` may be destroyed afterwards.
    * Destroy with mien_report_destroy().

@@ -1009,7 +1009,8 @@ export const layouts = {
     lodMeshes: [144, "*AuthorLod", "lodMeshCount"],
     lodMeshCount: [148, "u32"],
   } },
-  DocumentDesc: { size: 8, sized: true, fields: {
+  DocumentDesc: { size: 16, sized: true, fields: {
+    unknownLayers: [12, "u32"],
   } },
   PrunedTargets: { size: 24, sized: true, fields: {
     deltas: [8, "u64"],
@@ -1239,6 +1240,7 @@ export const calls = {
   mien_document_make_lod: "puuppp",
   mien_document_conform: "pupuupp",
   mien_document_transplant: "ppppupp",
+  mien_document_write_memory: "pppupp",
   mien_fit_observability: "ppu",
   mien_fit_keys: "pufpp",
 };

@@ -719,8 +719,8 @@ pub struct MienAuthorReport {
 
 /// A DNA file that can be changed: field by field, with the paths of `mien_dna_field()`, and by
 /// operations that keep all references consistent. Every change happens completely or, if the call
-/// fails, not at all. Everything else stays as it is, byte for byte. Memory is taken for a copy of
-/// the file that was opened, and for changed fields.
+/// fails, not at all. Everything else stays as it is, byte for byte. Memory is taken for the file
+/// that was opened, unless it is mapped, and for changed fields.
 #[repr(C)]
 pub struct MienDocument {
     _size: [u8; 0],
@@ -3125,6 +3125,10 @@ impl Default for MienAuthorDesc {
 pub struct MienDocumentDesc {
     pub struct_size: usize,
     pub allocator: *const MienAllocator,
+    /// `MIEN_FILE_...`; for `mien_document_open_file()` only.
+    pub file_access: u32,
+    /// `MIEN_UNKNOWN_LAYERS_...`; for `mien_document_open_file()` only.
+    pub unknown_layers: u32,
 }
 
 impl Default for MienDocumentDesc {
@@ -3315,6 +3319,26 @@ pub struct MienControlError {
 }
 
 impl Default for MienControlError {
+    /// All zero.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        unsafe { zeroed() }
+    }
+}
+
+/// Takes the bytes of a file, in pieces and in order. `write` is called only during the call that
+/// takes the struct, and on the same thread.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienByteSink {
+    /// Passed to the function.
+    pub user: *mut c_void,
+    /// Takes `size` bytes and returns the number of bytes taken; any number but `size` ends the
+    /// call.
+    pub write: Option<unsafe extern "C" fn(user: *mut c_void, bytes: *const c_void, size: usize) -> usize>,
+}
+
+impl Default for MienByteSink {
     /// All zero.
     fn default() -> Self {
         // SAFETY: numbers, pointers and optional functions may be zero.
@@ -4873,6 +4897,15 @@ extern "C" {
     /// if it exceeds 4 GiB.
     pub fn mien_document_create(dna: *const MienDna, desc: *const MienDocumentDesc, out_document: *mut *mut MienDocument, error: *mut MienError) -> MienStatus;
 
+    /// Opens a whole DNA file as a document, with the checks of `mien_dna_open_file()`, without a
+    /// second copy in memory. Do not truncate or overwrite a mapped file while the document
+    /// exists; replacing it by renaming is safe, and so is `mien_document_write_file()` to the
+    /// same path, except on Windows, where a mapped file cannot be replaced: use `MIEN_FILE_READ`.
+    /// Destroy with `mien_document_destroy()`.
+    ///
+    /// Fails like `mien_dna_open_file()`, but not with `MIEN_ERROR_LOD`.
+    pub fn mien_document_open_file(path: *const c_char, desc: *const MienDocumentDesc, out_document: *mut *mut MienDocument, error: *mut MienError) -> MienStatus;
+
     /// Destroys a document.
     pub fn mien_document_destroy(document: *mut MienDocument);
 
@@ -5030,23 +5063,25 @@ extern "C" {
     /// `MIEN_ERROR_MEMORY` if the allocator returns NULL.
     pub fn mien_document_rename(document: *mut MienDocument, kind: u32, index: u32, name: *const c_char, error: *mut MienError) -> MienStatus;
 
-    /// Removes GUI, raw or PSD controls, joints, blend shape channels, animated maps or meshes,
-    /// and everything that refers to them: names, LOD lists, rows of tables, targets, regions of
-    /// networks. `indices` has `index_count` elements; PSD controls are numbered from 0. Children
-    /// of a joint go to its nearest ancestor that stays, or become roots, and keep their neutral
-    /// place in the world; motions that are relative to the parent keep their numbers. The joint's
-    /// skin weights go to the same ancestor, or to the first joint that stays. Quaternion joints
-    /// move as before within 1e-2 degrees; where the columns of a joint group would rotate them in
-    /// another order, each quaternion joint of the group gets a joint group of its own. A raw or
-    /// PSD control is removed as if it stayed 0: with it go its columns of joint groups, its rows
-    /// of channels and animated maps, PSD controls that are products of it, RBF solvers, twists
-    /// and swings that read it, and its inputs of networks.
+    /// Removes controls, joints, blend shape channels, animated maps or meshes, and everything
+    /// that refers to them: names, LOD lists, rows of tables, targets, regions of networks.
+    /// `indices` has `index_count` elements; PSD, ML and RBF controls are numbered from 0.
+    /// Children of a joint go to its nearest ancestor that stays, or become roots, and keep their
+    /// neutral place in the world; motions that are relative to the parent keep their numbers. The
+    /// joint's skin weights go to the same ancestor, or to the first joint that stays. Quaternion
+    /// joints move as before within 1e-2 degrees; where the columns of a joint group would rotate
+    /// them in another order, each quaternion joint of the group gets a joint group of its own. A
+    /// raw, PSD, ML or RBF control is removed as if it stayed 0: with it go its columns of joint
+    /// groups, its rows of channels and animated maps, PSD controls that are products of it, RBF
+    /// solvers, twists and swings that read it, its inputs of networks, and the outputs of
+    /// networks and RBF poses that set it. Networks that ML operations run cannot lose one: their
+    /// controls are refused. Files before 2.5 cannot lose RBF controls.
     ///
     /// Fails with `MIEN_ERROR_INDEX` if an index is past the end, `MIEN_ERROR_INVALID_ARGUMENT` if
-    /// elements of the kind cannot be removed, ML operations gather or scatter a control, or no
-    /// joint would be left for the skin weights, `MIEN_ERROR_DNA_STRUCTURE`,
-    /// `MIEN_ERROR_DNA_REFERENCE`, `MIEN_ERROR_DNA_LIMIT` or `MIEN_ERROR_DNA_VALUE` if the
-    /// document is not valid, `MIEN_ERROR_MEMORY` if the allocator returns NULL.
+    /// the networks or the version need a control, or no joint would be left for the skin weights,
+    /// `MIEN_ERROR_DNA_STRUCTURE`, `MIEN_ERROR_DNA_REFERENCE`, `MIEN_ERROR_DNA_LIMIT` or
+    /// `MIEN_ERROR_DNA_VALUE` if the document is not valid, `MIEN_ERROR_MEMORY` if the allocator
+    /// returns NULL.
     pub fn mien_document_remove(document: *mut MienDocument, kind: u32, indices: *const u32, index_count: usize, error: *mut MienError) -> MienStatus;
 
     /// Removes all blend shape channels with their targets, all animated maps, or, for
@@ -5276,6 +5311,30 @@ extern "C" {
     ///
     /// See docs/dna-format.md, 13 "What is checked".
     pub fn mien_document_to_dna(document: *const MienDocument, desc: *const MienDocumentDesc, out_dna: *mut *mut MienDna, error: *mut MienError) -> MienStatus;
+
+    /// Writes the document to a file, like `mien_dna_write_file()`, with all checks of opening it
+    /// as a file.
+    ///
+    /// Fails with `MIEN_ERROR_FILE_WRITE` if the file cannot be written,
+    /// `MIEN_ERROR_DNA_STRUCTURE`, `MIEN_ERROR_DNA_REFERENCE` or `MIEN_ERROR_DNA_VALUE` if the
+    /// document is not a valid file, or would not be one in the requested version,
+    /// `MIEN_ERROR_DNA_LIMIT` if the file would exceed 4 GiB, `MIEN_ERROR_MEMORY` if the allocator
+    /// returns NULL.
+    pub fn mien_document_write_file(document: *const MienDocument, path: *const c_char, desc: *const MienWriteDesc, error: *mut MienError) -> MienStatus;
+
+    /// Passes the bytes of the file to `sink`, in pieces of at most 8 MiB.
+    ///
+    /// Fails like `mien_document_write_file()`, also with `MIEN_ERROR_FILE_WRITE` if `sink` does
+    /// not take a piece.
+    pub fn mien_document_write_stream(document: *const MienDocument, sink: *const MienByteSink, desc: *const MienWriteDesc, error: *mut MienError) -> MienStatus;
+
+    /// Writes the document to memory and returns its size in `out_size`. `buffer` may be NULL with
+    /// capacity 0 to get the size only. Writes nothing if `capacity` is too small; `out_size` is
+    /// set nevertheless.
+    ///
+    /// Fails like `mien_document_write_file()`, but not with `MIEN_ERROR_FILE_WRITE`, and with
+    /// `MIEN_ERROR_INVALID_ARGUMENT` if `capacity` is too small.
+    pub fn mien_document_write_memory(document: *const MienDocument, desc: *const MienWriteDesc, buffer: *mut c_void, capacity: usize, out_size: *mut usize, error: *mut MienError) -> MienStatus;
 
     /// Checks the document like `mien_dna_validate_memory()` its file. `document` may be destroyed
     /// afterwards. Destroy with `mien_report_destroy()`.

@@ -166,7 +166,7 @@ fn structs_are_laid_out_as_in_c() {
             144 depth_groups 152 mask 160 lod_joints 168 bone_groups 176 bone_motions 184
             joint_groups 192 overlap_correctives 196 lod_triangles 200 lod_meshes 208 lod_mesh_count
             216;
-        MienDocumentDesc 16 8: struct_size 0 allocator 8;
+        MienDocumentDesc 24 8: struct_size 0 allocator 8 file_access 16 unknown_layers 20;
         MienPrunedTargets 24 8: struct_size 0 deltas 8 targets 16;
         MienPruneJointsDesc 24 8: struct_size 0 translation 8 rotation 12 scale 16 reserved 20;
         MienPrunedJoints 48 8: struct_size 0 entry_count 8 removed_count 16 worst_distance 24
@@ -176,6 +176,7 @@ fn structs_are_laid_out_as_in_c() {
         MienConformed 24 8: struct_size 0 joint_distance 8 joint 16 reserved 20;
         MienTransplantDesc 16 8: struct_size 0 r#match 8 influences 12;
         MienControlError 32 8: worst 0 rms 8 moved 16 control 24 reserved 28;
+        MienByteSink 16 8: user 0 write 8;
         MienSolvePoint 28 4: mesh 0 positions 4 weights 16;
         MienFitDesc 104 8: struct_size 0 deformer 8 controls 16 lower 24 upper 32 symmetric 40
             points 48 joint_weights 56 control_count 64 symmetric_count 72 point_count 80 lod 88

@@ -2555,6 +2555,19 @@ macro_rules! errors {
          - [`Status::DNA_LAYER`](crate::Status::DNA_LAYER) if `dna` has RBF behavior without the machine-learned behavior of its file\n\
          - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if the loaded part would not open by itself"
     };
+    (mien_document_open_file) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::FILE_OPEN`](crate::Status::FILE_OPEN) if the file cannot be read\n\
+         - [`Status::FILE_READ`](crate::Status::FILE_READ) if the file cannot be read\n\
+         - [`Status::DNA_SIGNATURE`](crate::Status::DNA_SIGNATURE) if it is not a DNA file of generation 2\n\
+         - [`Status::DNA_VERSION`](crate::Status::DNA_VERSION) if it is not a DNA file of generation 2\n\
+         - [`Status::DNA_TRUNCATED`](crate::Status::DNA_TRUNCATED) if its contents are not valid or cannot be converted to the requested system\n\
+         - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if its contents are not valid or cannot be converted to the requested system\n\
+         - [`Status::DNA_REFERENCE`](crate::Status::DNA_REFERENCE) if its contents are not valid or cannot be converted to the requested system\n\
+         - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if its contents are not valid or cannot be converted to the requested system\n\
+         - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if its contents are not valid or cannot be converted to the requested system"
+    };
     (mien_document_field) => {
         "- [`Status::INDEX`](crate::Status::INDEX) if an index in the path is past the end\n\
          - [`Status::NAME`](crate::Status::NAME) if there is no such field"
@@ -2644,7 +2657,7 @@ macro_rules! errors {
          - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator returns NULL"
     };
     (mien_document_remove) => {
-        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if elements of the kind cannot be removed, ML operations gather or scatter a control, or no joint would be left for the skin weights\n\
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if the networks or the version need a control, or no joint would be left for the skin weights\n\
          - [`Status::INDEX`](crate::Status::INDEX) if an index is past the end\n\
          - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator returns NULL\n\
          - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if the document is not valid\n\
@@ -2653,7 +2666,7 @@ macro_rules! errors {
          - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if the document is not valid"
     };
     (mien_document_clear) => {
-        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if elements of the kind cannot be removed, ML operations gather or scatter a control, or no joint would be left for the skin weights\n\
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if the networks or the version need a control, or no joint would be left for the skin weights\n\
          - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator returns NULL\n\
          - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if the document is not valid\n\
          - [`Status::DNA_REFERENCE`](crate::Status::DNA_REFERENCE) if the document is not valid\n\
@@ -2661,7 +2674,7 @@ macro_rules! errors {
          - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if the document is not valid"
     };
     (mien_document_clear_joints) => {
-        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if elements of the kind cannot be removed, ML operations gather or scatter a control, or no joint would be left for the skin weights\n\
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if the networks or the version need a control, or no joint would be left for the skin weights\n\
          - [`Status::INDEX`](crate::Status::INDEX) if an index is past the end\n\
          - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator returns NULL\n\
          - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if the document is not valid\n\
@@ -2848,6 +2861,32 @@ macro_rules! errors {
          - [`Status::DNA_REFERENCE`](crate::Status::DNA_REFERENCE) if the document is not a valid file; the message names the first invalid field, `mien_document_validate()` lists them all\n\
          - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if the document is not a valid file; the message names the first invalid field, `mien_document_validate()` lists them all\n\
          - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if the document is not a valid file; the message names the first invalid field, `mien_document_validate()` lists them all"
+    };
+    (mien_document_write_file) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator returns NULL\n\
+         - [`Status::FILE_WRITE`](crate::Status::FILE_WRITE) if the file cannot be written\n\
+         - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if the document is not a valid file, or would not be one in the requested version\n\
+         - [`Status::DNA_REFERENCE`](crate::Status::DNA_REFERENCE) if the document is not a valid file, or would not be one in the requested version\n\
+         - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if the file would exceed 4 GiB\n\
+         - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if the document is not a valid file, or would not be one in the requested version"
+    };
+    (mien_document_write_stream) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator returns NULL\n\
+         - [`Status::FILE_WRITE`](crate::Status::FILE_WRITE) if the file cannot be written; or `sink` does not take a piece\n\
+         - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if the document is not a valid file, or would not be one in the requested version\n\
+         - [`Status::DNA_REFERENCE`](crate::Status::DNA_REFERENCE) if the document is not a valid file, or would not be one in the requested version\n\
+         - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if the file would exceed 4 GiB\n\
+         - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if the document is not a valid file, or would not be one in the requested version"
+    };
+    (mien_document_write_memory) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if the document is not a valid file, or would not be one in the requested version\n\
+         - [`Status::DNA_REFERENCE`](crate::Status::DNA_REFERENCE) if the document is not a valid file, or would not be one in the requested version\n\
+         - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if the file would exceed 4 GiB\n\
+         - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if the document is not a valid file, or would not be one in the requested version"
     };
     (mien_document_validate) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
