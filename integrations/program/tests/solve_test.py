@@ -124,11 +124,12 @@ class Kinds(SolveTest):
 
     def test_a_posed_glb(self):
         mesh, _ = self.obj({})
-        self.ok("export", path(HEAD), "-o", path("shapes.glb"), "--bake", "arkit")
+        shapes = write("shapes.json", json.dumps({"smile": {"mouthSmileLeft": 1}, "open": {"jawOpen": 1}}))
+        self.ok("export", path(HEAD), "-o", path("shapes.glb"), "--bake", shapes)
         rows, report = self.solved(path("shapes.glb"), "--mesh", mesh)
         names = [frame["name"] for frame in report["by_frame"]]
         self.assertEqual(len(rows), len(names))
-        self.compare(rows[names.index("jawOpen")], {"jawOpen": 1}, 0.02, report["unobservable"])
+        self.compare(rows[names.index("open")], {"jawOpen": 1}, 0.02, report["unobservable"])
 
     def test_controls_of_another_rig(self):
         poses = motion(4)
@@ -206,23 +207,23 @@ class Kinds(SolveTest):
 
 class Options(SolveTest):
     def test_keys_are_within_their_tolerance(self):
-        write("take.json", json.dumps({"rate": 30, "frames": [{"raw": pose} for pose in motion(40)]}))
+        poses = motion(24)
+        write("take.json", json.dumps({"rate": 30, "frames": [{"raw": pose} for pose in poses]}))
         from_head = path("take.json"), "--from", path(HEAD)
-        rows, _ = self.solved(*from_head)
         reduced, report = self.solved(*from_head, "--keys", "0.02")
         document = json.loads(read("out.json"))
         self.assertEqual(sum(map(len, document["keys"].values())), report["keys"])
-        self.assertLess(report["keys"], len(rows) * len(rows[0]) / 4)
-        for before, after in zip(rows, reduced):
-            self.compare(after, before, 0.02 + 1e-5)
+        self.assertLess(report["keys"], len(poses) * len(reduced[0]) / 4)
+        for pose, row in zip(poses, reduced):
+            self.compare(row, pose, 0.02 + 0.005)  # and the solve is not exact
         jaw = next(keys for name, keys in document["keys"].items() if name.endswith("jawOpen"))
-        self.assertEqual([jaw[0], jaw[-1]], [0, 39])
+        self.assertEqual([jaw[0], jaw[-1]], [0, 23])
         # What it writes is what other commands take.
         self.ok("eval", path(HEAD), "--input", path("out.json"), "-o", path("eval.json"))
         self.ok("solve", path(HEAD), *from_head, "--keys", "0.02", "-o", path("out.clip"), "-q")
         self.ok("clip", "export", path("out.clip"), "-o", path("back.json"))
         frames = json.loads(read("back.json"))["frames"]
-        self.assertEqual(len(frames), 40)
+        self.assertEqual(len(frames), 24)
         self.assertAlmostEqual(next(v for name, v in frames[7]["raw"].items() if name.endswith("jawOpen")),
                                reduced[7]["jawOpen"], delta=1e-6)
 
@@ -248,14 +249,14 @@ class Options(SolveTest):
         self.assertLess(travel[1], 0.8 * travel[0])
 
     def test_images(self):
-        write("take.json", frames_of(motion(3)))
+        write("take.json", frames_of([POSE]))
         self.ok("solve", path(HEAD), path("take.json"), "--from", path(HEAD), "-o", path("out.json"),
                 "--pictures", path("images"), "-q")
         self.addCleanup(shutil.rmtree, path("images"))
         self.assertEqual(os.listdir(path("images")), ["solve.png"])
         image = Picture(read(os.path.join("images", "solve.png")))
         self.assertGreater(image.width, 3 * 320)
-        self.assertGreater(image.height, 3 * 360)
+        self.assertGreater(image.height, 360)
         joints = self.joints(TINY, [{}])
         self.ok("solve", path(TINY), joints, "--kind", "joints", "-o", path("out.json"), "--pictures",
                 path("images"), "-q")

@@ -57,7 +57,7 @@ class Wheel(unittest.TestCase):
                 self.assertIn(name, names)
             self.assertIn("mien/py.typed", names)
             libraries = [name for name in names if re.match(r"mien/(lib)?mien", name)]
-            self.assertEqual(len(libraries), 2, names)
+            self.assertEqual(len(libraries), 3, names)
 
     def test_it_runs_where_it_is_put(self):
         place = self.directory / "place with spaces"
