@@ -66,7 +66,7 @@ Utterance guess_phonemes(const Sound16& sound) {
   Sound16 heard = resample(sound, kGuessRate);
   Utterance utterance;
   utterance.seconds = sound.seconds();
-  utterance.source = "a guess from energy and spectrum";
+  utterance.source = kGuess;
   heard.samples.resize(std::max(heard.samples.size(), kWindow));
   const size_t count = (heard.samples.size() - kWindow) / kHop + 1;
   std::vector<double> levels(count);

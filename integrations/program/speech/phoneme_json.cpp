@@ -119,6 +119,7 @@ void write_phoneme_json(const Utterance& utterance, Alphabet alphabet, cli::Outp
   using Layout = cli::JsonWriter::Layout;
   json.begin_object(Layout::kLines);
   json.member("alphabet", kAlphabets[static_cast<size_t>(alphabet)]);
+  json.member("source", utterance.source);
   json.key("seconds");
   json.shortest(utterance.seconds);
   json.key("phonemes");

@@ -16,6 +16,9 @@ namespace mien::speech {
 /// few words.
 std::optional<Utterance> recognize(const Sound16& sound, const std::string& text, std::string& why);
 
+/// Utterance.source of a guess.
+constexpr const char* kGuess = "a guess from energy and spectrum";
+
 /// Phonemes in IPA that open and shape the mouth as the sound does: a few vowels by where the energy of the spectrum
 /// is, sibilants, and what is between vowels. It cannot tell m, b, p, f and v, so it has no closures.
 Utterance guess_phonemes(const Sound16& sound);

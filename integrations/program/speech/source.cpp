@@ -75,6 +75,10 @@ Speech read_speech(const SpeechSource& source, const cli::Session& session) {
 
 SpokenTake make_take(const Speech& speech, double rate, const cli::Session& session) {
   SpokenTake take = make_take(speech.utterance, speech.alphabet, rate, speech.bytes, speech.shown);
+  // A take says itself that it was guessed.
+  if (speech.utterance.source == kGuess) {
+    take.events.insert(take.events.begin(), {0, std::string("source: ") + kGuess, 0});
+  }
   if (take.unknown.empty()) return take;
   std::string list;
   for (size_t i = 0; i < take.unknown.size() && i < 12; ++i) {
