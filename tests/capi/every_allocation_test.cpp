@@ -2,6 +2,7 @@
 // Each public function that says it may lack memory, with every one of its requests failing in turn. The list
 // is compared with the headers, so a function that is added later has to be added here.
 #include <gtest/gtest.h>
+#include <mien_solve.h>
 
 #include <filesystem>
 #include <fstream>
@@ -345,6 +346,18 @@ std::vector<Call> calls_of_clips(const World& w) {
   };
 }
 
+std::vector<Call> calls_of_solving(const World& w) {
+  static constexpr uint32_t kControls[] = {0, 1};
+  static constexpr MienSolvePoint kPoint = {0, {0, 1, 2}, {0.25f, 0.25f, 0.5f}};
+  auto desc = w.desc<MienFitDesc>();
+  desc.deformer = w.deformer.object;
+  desc.controls = kControls;
+  desc.control_count = 2;
+  desc.points = &kPoint;
+  desc.point_count = 1;
+  return {{"mien_fit_create", makes(mien_fit_destroy, desc, mien_fit_create, w.rig.object)}};
+}
+
 std::vector<Call> calls_of_mixes(const World& w) {
   return {
       {"mien_mix_create", makes(mien_mix_destroy, w.mix_desc(), mien_mix_create, w.rig.object)},
@@ -540,9 +553,9 @@ TEST(EveryAllocation, MayFailUnderEveryFunctionThatTakesMemory) {
   const DocumentHandle other = create_document(world.tiny.object);
   ASSERT_FALSE(HasFailure());
   std::set<std::string> called;
-  for (const auto& calls :
-       {calls_of_dna(world), calls_of_rigs(world), calls_of_clips(world), calls_of_mixes(world),
-        calls_of_authoring(world, input), calls_of_documents(world, other)}) {
+  for (const auto& calls : {calls_of_dna(world), calls_of_rigs(world), calls_of_clips(world),
+                            calls_of_mixes(world), calls_of_solving(world),
+                            calls_of_authoring(world, input), calls_of_documents(world, other)}) {
     for (const Call& call : calls) {
       const size_t requests = survive_every_failure(world, call);
       EXPECT_GT(requests, 0u) << call.function;
