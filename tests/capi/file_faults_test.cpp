@@ -11,6 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdarg>
 #include <filesystem>
@@ -20,6 +21,7 @@
 
 #include "tests/support/baked_bytes.h"
 #include "tests/support/counting_allocator.h"
+#include "tests/support/documents.h"
 #include "tests/support/memory_stream.h"
 #include "tests/support/public_functions.h"
 #include "tests/support/rig_handles.h"
@@ -301,6 +303,51 @@ TEST_F(FileFaults, ReportsAreMadeOrRefused) {
     mien_report_destroy(report);
     return status;
   });
+}
+
+TEST_F(FileFaults, DocumentsAreReadOrRefused) {
+  const std::string file = path("a.dna");
+  put(file, write_dna(dna.get()));
+  for (const uint32_t access : {MIEN_FILE_MAP, MIEN_FILE_READ}) {
+    expect_survives_reading("mien_document_open_file", [&](MienError* error) {
+      MienDocumentDesc desc = sized<MienDocumentDesc>();
+      desc.file_access = access;
+      MienDocument* opened = nullptr;
+      const MienStatus status = mien_document_open_file(file.c_str(), &desc, &opened, error);
+      EXPECT_EQ(opened != nullptr, status == MIEN_OK);
+      mien_document_destroy(opened);
+      return status;
+    });
+  }
+}
+
+TEST_F(FileFaults, DocumentsAreWrittenWholeOrNotAtAll) {
+  const DocumentHandle document = create_document(dna.get());
+  expect_survives_writing("mien_document_write_file", [&](const char* to, MienError* error) {
+    return mien_document_write_file(document.get(), to, nullptr, error);
+  });
+  // A sink that takes the first bytes only.
+  tested.insert("mien_document_write_stream");
+  struct Sink {
+    size_t room, taken, calls;
+  };
+  MienByteSink to = {nullptr, [](void* user, const void*, size_t size) {
+                       Sink& sink = *static_cast<Sink*>(user);
+                       ++sink.calls;
+                       const size_t takes = std::min(size, sink.room - sink.taken);
+                       sink.taken += takes;
+                       return takes;
+                     }};
+  const size_t size = write_dna(dna.get()).size();
+  for (const size_t room : {size_t{0}, size / 2, size - 1, size}) {
+    Sink sink = {room, 0, 0};
+    to.user = &sink;
+    MienError error = sized<MienError>();
+    const MienStatus status = mien_document_write_stream(document.get(), &to, nullptr, &error);
+    EXPECT_EQ(status, room == size ? MIEN_OK : MIEN_ERROR_FILE_WRITE) << error.message;
+    EXPECT_EQ(sink.taken, room);
+    EXPECT_GT(sink.calls, 0u);
+  }
 }
 
 TEST_F(FileFaults, BakedFilesAreReadOrRefused) {
