@@ -337,7 +337,7 @@ export class Document extends Handle {
 
   /** The bytes of the DNA file. */
   toBytes(desc = {}) {
-    return this.bytes((buffer, capacity, size, error, scratch) =>
+    return super.bytes((buffer, capacity, size, error, scratch) =>
       this.memory.exports.mien_document_write_memory(this.handle, scratch.struct("WriteDesc", desc), buffer,
         capacity, size, error));
   }
