@@ -8,6 +8,7 @@
 #include <random>
 
 #include "runtime/base/mapped_file.h"
+#include "tests/support/bytes.h"
 #include "tests/support/exercise_clip.h"
 #include "tests/support/long_run.h"
 #include "tests/support/made_clip.h"
@@ -15,8 +16,6 @@
 
 namespace mien {
 namespace {
-
-using Bytes = std::vector<uint8_t>;
 
 /// A bit of everything: constant, solved and captured channels, events, three blocks.
 ClipInput small_input() {

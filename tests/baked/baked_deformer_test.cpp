@@ -4,13 +4,12 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/baked_bytes.h"
+#include "tests/support/bytes.h"
 #include "tests/support/long_run.h"
 #include "tests/support/many_rigs.h"
 
 namespace mien {
 namespace {
-
-using Bytes = std::vector<uint8_t>;
 
 Bytes bake_dna(const MienDna* dna, MienDeformerDesc desc = {}) {
   const RigHandle rig = create_rig(dna);

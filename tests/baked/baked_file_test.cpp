@@ -8,6 +8,7 @@
 #include <functional>
 
 #include "tests/support/baked_bytes.h"
+#include "tests/support/bytes.h"
 #include "tests/support/long_run.h"
 #include "tests/support/memory_stream.h"
 #include "tests/support/temporary_path.h"
@@ -15,8 +16,6 @@
 
 namespace mien {
 namespace {
-
-using Bytes = std::vector<uint8_t>;
 
 struct TemporaryFile {
   std::string path = temporary_path("baked");

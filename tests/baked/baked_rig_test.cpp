@@ -3,14 +3,13 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/baked_bytes.h"
+#include "tests/support/bytes.h"
 #include "tests/support/long_run.h"
 #include "tests/support/many_rigs.h"
 #include "tests/support/random_layer_rig.h"
 
 namespace mien {
 namespace {
-
-using Bytes = std::vector<uint8_t>;
 
 /// A rig that keeps the file alive.
 RigHandle open_rig(const AlignedBytes& bytes, uint32_t isa = MIEN_ISA_BEST) {

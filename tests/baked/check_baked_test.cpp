@@ -3,12 +3,11 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/baked_bytes.h"
+#include "tests/support/bytes.h"
 #include "tests/support/random_layer_rig.h"
 
 namespace mien {
 namespace {
-
-using Bytes = std::vector<uint8_t>;
 
 /// Zeros for arrays that are longer than those of any rig here.
 template <class T>

@@ -11,7 +11,6 @@
 namespace mien {
 namespace {
 
-using dna::Bytes;
 using dna::layer;
 using dna::layers_of;
 

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/bytes.h"
 #include "tests/support/counting_allocator.h"
 #include "tests/support/dna_bytes.h"
 #include "tests/support/document_edits.h"
@@ -25,7 +26,6 @@ namespace mien {
 namespace {
 
 namespace fs = std::filesystem;
-using Bytes = std::vector<uint8_t>;
 
 std::set<std::string> functions_that_take_memory() {
   std::set<std::string> found;

@@ -20,6 +20,7 @@
 #include <set>
 
 #include "tests/support/baked_bytes.h"
+#include "tests/support/bytes.h"
 #include "tests/support/counting_allocator.h"
 #include "tests/support/documents.h"
 #include "tests/support/memory_stream.h"
@@ -109,7 +110,6 @@ namespace mien {
 namespace {
 
 namespace fs = std::filesystem;
-using Bytes = std::vector<uint8_t>;
 
 Bytes contents(const std::string& path) {
   std::ifstream in(path, std::ios::binary);

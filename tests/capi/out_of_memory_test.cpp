@@ -20,8 +20,6 @@
 namespace mien {
 namespace {
 
-using dna::Bytes;
-
 Bytes tiny_file() {
   Arena arena(default_allocator());
   return dna::written(dna::tiny_rig(arena));

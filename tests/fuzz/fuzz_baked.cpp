@@ -11,6 +11,7 @@
 #include "runtime/baked/baked_objects.h"
 #include "runtime/load/dna/format/dna_writer.h"
 #include "tests/fuzz/time_limit.h"
+#include "tests/support/bytes.h"
 #include "tests/support/exercise_baked.h"
 #include "tests/support/tiny_rig.h"
 
@@ -19,7 +20,6 @@ extern "C" size_t LLVMFuzzerMutate(uint8_t* data, size_t size, size_t max_size);
 namespace {
 
 using namespace mien;
-using Bytes = std::vector<uint8_t>;
 using Random = std::minstd_rand;
 
 uint32_t below(Random& random, size_t end) { return static_cast<uint32_t>(random() % end); }

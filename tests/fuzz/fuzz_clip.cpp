@@ -13,6 +13,7 @@
 #include "runtime/anim/binding.h"
 #include "runtime/anim/clip_builder.h"
 #include "runtime/load/dna/format/dna_writer.h"
+#include "tests/support/bytes.h"
 #include "tests/support/exercise_clip.h"
 #include "tests/support/tiny_rig.h"
 
@@ -21,7 +22,6 @@ extern "C" size_t LLVMFuzzerMutate(uint8_t* data, size_t size, size_t max_size);
 namespace {
 
 using namespace mien;
-using Bytes = std::vector<uint8_t>;
 using Random = std::minstd_rand;
 
 std::vector<Bytes>& seeds() {

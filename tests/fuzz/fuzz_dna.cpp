@@ -18,6 +18,7 @@
 #include "runtime/load/dna/format/dna_writer.h"
 #include "tests/fuzz/time_limit.h"
 #include "tests/fuzz/view_mutator.h"
+#include "tests/support/bytes.h"
 #include "tests/support/exercise_dna.h"
 #include "tests/support/tiny_rig.h"
 
@@ -28,7 +29,6 @@ namespace {
 using namespace mien;
 using namespace mien::dna;
 
-using Bytes = std::vector<uint8_t>;
 constexpr size_t kTail = 8;
 
 enum Flags : uint8_t { kDropUnknown = 1, kDoNotValidate = 2, kTwins = 4 };

@@ -15,6 +15,7 @@
 #include "integrations/program/io/failure.h"
 #include "integrations/program/io/input.h"
 #include "tests/fuzz/time_limit.h"
+#include "tests/support/bytes.h"
 #include "tests/support/counting_allocator.h"
 #include "tests/support/cpu_time.h"
 
@@ -30,7 +31,6 @@ namespace {
 using namespace mien;
 using cli::MeshFile;
 using cli::MeshShape;
-using Bytes = std::vector<uint8_t>;
 using Random = std::minstd_rand;
 
 constexpr uint32_t kRows = 9, kColumns = 10;

@@ -9,6 +9,7 @@
 
 #include "runtime/mix/mix_file.h"
 #include "tests/fuzz/mix_mutator.h"
+#include "tests/support/bytes.h"
 #include "tests/support/mix_scene.h"
 
 extern "C" size_t LLVMFuzzerMutate(uint8_t* data, size_t size, size_t max_size);
@@ -16,7 +17,6 @@ extern "C" size_t LLVMFuzzerMutate(uint8_t* data, size_t size, size_t max_size);
 namespace {
 
 using namespace mien;
-using Bytes = std::vector<uint8_t>;
 
 Bytes written(const Mix& mix) {
   size_t size = 0;

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <random>
 
+#include "tests/support/bytes.h"
 #include "tests/support/mix_scene.h"
 
 extern "C" size_t LLVMFuzzerMutate(uint8_t* data, size_t size, size_t max_size);
@@ -12,7 +13,6 @@ extern "C" size_t LLVMFuzzerMutate(uint8_t* data, size_t size, size_t max_size);
 namespace {
 
 using namespace mien;
-using Bytes = std::vector<uint8_t>;
 
 constexpr size_t kHeaderSize = 24;
 

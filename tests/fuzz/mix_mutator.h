@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "runtime/mix/mix_fields.h"
+#include "tests/support/bytes.h"
 
 namespace mien {
 
@@ -142,8 +143,6 @@ struct MixPlaces {
 
 class MixMutator {
  public:
-  using Bytes = std::vector<uint8_t>;
-
   MixMutator(Bytes& mix, uint32_t seed) : mix_(mix), random_(seed) {
     for (int i = 0; i < 3; ++i) random_();  // the first numbers of near seeds are near
   }

@@ -7,13 +7,12 @@
 
 #include <cmath>
 
+#include "tests/support/bytes.h"
 #include "tests/support/mix_scene.h"
 #include "tests/support/mix_setup.h"
 
 namespace mien {
 namespace {
-
-using Bytes = std::vector<uint8_t>;
 
 /// Raw controls with these names.
 struct NamedRig {

@@ -9,12 +9,12 @@
 #include <iterator>
 
 #include "runtime/mix/mix_file.h"
+#include "tests/support/bytes.h"
 #include "tests/support/mix_scene.h"
 
 namespace {
 
 using namespace mien;
-using Bytes = std::vector<uint8_t>;
 constexpr int kSnapshots = 100;
 
 Bytes read(const std::string& path) {

@@ -8,10 +8,9 @@
 #include <vector>
 
 #include "runtime/load/dna/format/dna_view.h"
+#include "tests/support/bytes.h"
 
 namespace mien::dna {
-
-using Bytes = std::vector<uint8_t>;
 
 /// A layer of a file from 2.2 on: what its index entry says, and its bytes.
 struct Layer {

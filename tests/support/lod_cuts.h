@@ -8,13 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/bytes.h"
 #include "tests/support/golden.h"
 #include "tests/support/rig_handles.h"
 #include "tests/support/tiny_rig.h"
 
 namespace mien {
-
-using Bytes = std::vector<uint8_t>;
 
 /// A file of every kind that is to be had.
 struct Source {

@@ -8,12 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/bytes.h"
 #include "tests/support/rig_handles.h"
 #include "tests/support/tiny_rig.h"
 
 namespace mien {
-
-using Bytes = std::vector<uint8_t>;
 
 /// Counts what is live, and never uses a block again.
 struct KeepingAllocator {

@@ -7,12 +7,12 @@
 #include <set>
 
 #include "author/base/random.h"
+#include "tests/support/bytes.h"
 #include "tests/support/documents.h"
 
 namespace mien {
 namespace {
 
-using Bytes = std::vector<uint8_t>;
 using Names = std::vector<std::string>;
 
 MienStatus remove_control(const DocumentHandle& document, uint32_t kind, const std::string& name,

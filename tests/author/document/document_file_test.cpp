@@ -6,13 +6,12 @@
 #include <fstream>
 
 #include "author/base/random.h"
+#include "tests/support/bytes.h"
 #include "tests/support/documents.h"
 #include "tests/support/temporary_path.h"
 
 namespace mien {
 namespace {
-
-using Bytes = std::vector<uint8_t>;
 
 class TemporaryPath {
  public:

@@ -9,13 +9,13 @@
 #include <set>
 
 #include "author/base/random.h"
+#include "tests/support/bytes.h"
 #include "tests/support/dna_bytes.h"
 #include "tests/support/documents.h"
 
 namespace mien {
 namespace {
 
-using Bytes = std::vector<uint8_t>;
 using Indices = std::vector<uint32_t>;
 
 MienStatus remove(const DocumentHandle& document, uint32_t kind, const Indices& indices,

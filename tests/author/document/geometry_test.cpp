@@ -9,14 +9,13 @@
 
 #include "author/base/random.h"
 #include "author/document/skin.h"
+#include "tests/support/bytes.h"
 #include "tests/support/dna_bytes.h"
 #include "tests/support/documents.h"
 #include "tests/support/tiny_rig.h"
 
 namespace mien {
 namespace {
-
-using Bytes = std::vector<uint8_t>;
 
 Bytes tiny_bytes() {
   Arena arena(default_allocator());

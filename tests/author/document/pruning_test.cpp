@@ -6,13 +6,12 @@
 
 #include "author/document/control_poses.h"
 #include "author/document/prune_joints.h"
+#include "tests/support/bytes.h"
 #include "tests/support/dna_bytes.h"
 #include "tests/support/documents.h"
 
 namespace mien {
 namespace {
-
-using Bytes = std::vector<uint8_t>;
 
 TEST(KeepLods, GivesTheFileThatOpeningWithLodsGives) {
   for (const char* rig : {"tiny", "small", "body", "ml", "ml_ext"}) {

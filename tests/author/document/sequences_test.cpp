@@ -5,14 +5,13 @@
 #include <set>
 
 #include "author/capi/document.h"
+#include "tests/support/bytes.h"
 #include "tests/support/dna_bytes.h"
 #include "tests/support/document_edits.h"
 #include "tests/support/tiny_rig.h"
 
 namespace mien {
 namespace {
-
-using Bytes = std::vector<uint8_t>;
 
 /// As it is, valid or not.
 Bytes raw_bytes(const DocumentHandle& document) {

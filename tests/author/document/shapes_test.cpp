@@ -6,13 +6,13 @@
 #include <cmath>
 #include <set>
 
+#include "tests/support/bytes.h"
 #include "tests/support/document_edits.h"
 #include "tests/support/tiny_rig.h"
 
 namespace mien {
 namespace {
 
-using Bytes = std::vector<uint8_t>;
 using Weights = std::map<std::string, double>;  // [joint]
 
 std::string mesh_path(size_t mesh, const char* rest) {

@@ -151,7 +151,7 @@ TEST_P(RareFiles, LiveOrAreRefused) {
   Arena arena(default_allocator());
   DnaView view = dna::tiny_rig(arena);
   GetParam().make(view, arena);
-  const dna::Bytes file = dna::written(view);
+  const Bytes file = dna::written(view);
   for (const uint64_t lods : {0, 1, 2}) {
     LifeOptions options;
     options.lods = lods;
@@ -184,7 +184,7 @@ TEST(RareFilesTest, TooManyJointsForQuaternions) {
     view.defn.joint_hierarchy = parents;
     view.defn.neutral_translations = view.defn.neutral_rotations = {zeros, zeros, zeros};
     view.bhvr.joints.row_count = static_cast<uint16_t>(9 * joints);
-    const dna::Bytes file = dna::written(view);
+    const Bytes file = dna::written(view);
     const DnaHandle dna = open_dna(file);
     ASSERT_TRUE(dna);
     auto desc = sized<MienRigDesc>();

@@ -13,6 +13,7 @@
 #include "runtime/baked/baked_objects.h"
 #include "runtime/deform/deformer_instance.h"
 #include "tests/support/baked_bytes.h"
+#include "tests/support/bytes.h"
 #include "tests/support/cpu_time.h"
 #include "tests/support/exercise_dna.h"
 #include "tests/support/golden.h"
@@ -20,8 +21,6 @@
 
 namespace mien {
 namespace {
-
-using Bytes = std::vector<uint8_t>;
 
 // Files made for it ------------------------------------------------------------------------------
 

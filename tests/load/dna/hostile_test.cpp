@@ -11,8 +11,6 @@
 namespace mien {
 namespace {
 
-using dna::Bytes;
-
 Life expect_life(const Bytes& file, const std::string& what, const LifeOptions& options = {}) {
   const Life life = live(file.data(), file.size(), options);
   EXPECT_EQ(life.broken, "") << what;

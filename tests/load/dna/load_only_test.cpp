@@ -21,7 +21,6 @@
 namespace mien {
 namespace {
 
-using dna::Bytes;
 using dna::DnaView;
 
 const size_t kPage = static_cast<size_t>(sysconf(_SC_PAGESIZE));

@@ -21,8 +21,6 @@
 namespace mien {
 namespace {
 
-using dna::Bytes;
-
 /// Every layer, as a file of version 2.`version`.
 Bytes tiny_file(uint16_t version) {
   Arena arena(default_allocator());

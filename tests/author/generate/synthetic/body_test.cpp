@@ -9,12 +9,11 @@
 #include <set>
 #include <vector>
 
+#include "tests/support/bytes.h"
 #include "tests/support/rig_handles.h"
 
 namespace mien {
 namespace {
-
-using Bytes = std::vector<uint8_t>;
 
 Bytes body_file(uint64_t seed, uint32_t flags = 0) {
   return write_dna(generate_dna(MIEN_PRESET_BODY, seed, flags).get());

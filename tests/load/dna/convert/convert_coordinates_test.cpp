@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "tests/support/bytes.h"
 #include "tests/support/golden.h"
 #include "tests/support/layer_rig.h"
 #include "tests/support/other_system.h"
@@ -15,8 +16,6 @@
 
 namespace mien {
 namespace {
-
-using Bytes = std::vector<uint8_t>;
 
 MienCoordinateSystem named(const char* name) {
   MienCoordinateSystem system = sized<MienCoordinateSystem>();
