@@ -98,7 +98,6 @@ class Bound {
   Binding* binding_ = nullptr;
 };
 
-using Floats = std::vector<float>;
 using Indices = std::vector<int>;
 
 Indices list(Span<const uint16_t> span) { return {span.begin(), span.end()}; }

@@ -23,12 +23,6 @@ Allocator allocator_of(CountingAllocator& counter) {
   return {allocator.user, allocator.allocate, allocator.release};
 }
 
-Curves one_channel(std::initializer_list<float> values) {
-  Curves curves(1, static_cast<uint32_t>(values.size()));
-  curves.values = values;
-  return curves;
-}
-
 struct Material {
   const char* name;
   Curves (*make)();

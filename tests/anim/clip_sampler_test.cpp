@@ -14,7 +14,7 @@
 namespace mien {
 namespace {
 
-constexpr float kMax = std::numeric_limits<float>::max();
+constexpr float kLargest = std::numeric_limits<float>::max();
 constexpr Interpolation kInterpolations[] = {Interpolation::kStep, Interpolation::kLinear,
                                              Interpolation::kCatmullRom};
 
@@ -36,12 +36,6 @@ Curves half_rate_curves(uint32_t frames) {
       curves.at(f, c) = 0.5f * curves.at(f - 1, c) + 0.5f * curves.at(f + 1, c);
     }
   }
-  return curves;
-}
-
-Curves one_channel(std::initializer_list<float> values) {
-  Curves curves(1, static_cast<uint32_t>(values.size()));
-  curves.values = values;
   return curves;
 }
 
@@ -206,8 +200,8 @@ TEST(ClipInterpolation, CatmullRomFollowsItsFormulaWithinItsLimits) {
 }
 
 TEST(ClipInterpolation, StaysBetweenItsFramesAndFinite) {
-  const MadeClip made(
-      (ClipInput(one_channel({kMax, -kMax, -kMax, kMax, 0, kMax, 1, 1, -0.1f, 1e-45f, 0, 0}))));
+  const MadeClip made((ClipInput(one_channel(
+      {kLargest, -kLargest, -kLargest, kLargest, 0, kLargest, 1, 1, -0.1f, 1e-45f, 0, 0}))));
   const Curves curves = decoded(made.clip);
   for (Interpolation interpolation : kInterpolations) {
     PlayDesc desc;

@@ -11,7 +11,7 @@
 namespace mien {
 namespace {
 
-constexpr uint32_t kFrames = 3600;  // a minute
+constexpr uint32_t kMinute = 3600;  // frames
 constexpr uint64_t kSeed = 1;
 
 double ratio(const Curves& curves, uint32_t snap = kNoSnap) {
@@ -22,7 +22,7 @@ double ratio(const Curves& curves, uint32_t snap = kNoSnap) {
 /// Ten takes, geometric mean.
 double capture_ratio(uint32_t snap) {
   double product = 1;
-  for (uint64_t seed = 1; seed <= 10; ++seed) product *= ratio(phone_capture(seed, kFrames), snap);
+  for (uint64_t seed = 1; seed <= 10; ++seed) product *= ratio(phone_capture(seed, kMinute), snap);
   return std::pow(product, 0.1);
 }
 
@@ -34,32 +34,32 @@ double capture_ratio(uint32_t snap) {
   } while (false)
 
 TEST(ClipSize, Lossless) {
-  EXPECT_RATIO(30, ratio(authored_keys(kSeed, kFrames)));
-  EXPECT_RATIO(28, ratio(clean_solve(kSeed, kFrames)));
-  EXPECT_RATIO(7, ratio(noisy_solve(kSeed, kFrames)));
-  EXPECT_RATIO(3.9, ratio(dense_noise(kSeed, kFrames)));
+  EXPECT_RATIO(30, ratio(authored_keys(kSeed, kMinute)));
+  EXPECT_RATIO(28, ratio(clean_solve(kSeed, kMinute)));
+  EXPECT_RATIO(7, ratio(noisy_solve(kSeed, kMinute)));
+  EXPECT_RATIO(3.9, ratio(dense_noise(kSeed, kMinute)));
   EXPECT_RATIO(2.4, capture_ratio(kNoSnap));
 }
 
 TEST(ClipSize, LosslessOfSourcesWithFewDigits) {
-  EXPECT_RATIO(10, ratio(rounded_to(phone_capture(kSeed, kFrames), 1000)));
-  EXPECT_RATIO(10, ratio(rounded_to(phone_capture(kSeed, kFrames), 1024)));
-  EXPECT_RATIO(10, ratio(rounded_to(clean_solve(kSeed, kFrames), 10000)));
-  EXPECT_RATIO(7, ratio(rounded_to_half(noisy_solve(kSeed, kFrames))));
-  EXPECT_RATIO(7, ratio(rounded_to_half(dense_noise(kSeed, kFrames))));
+  EXPECT_RATIO(10, ratio(rounded_to(phone_capture(kSeed, kMinute), 1000)));
+  EXPECT_RATIO(10, ratio(rounded_to(phone_capture(kSeed, kMinute), 1024)));
+  EXPECT_RATIO(10, ratio(rounded_to(clean_solve(kSeed, kMinute), 10000)));
+  EXPECT_RATIO(7, ratio(rounded_to_half(noisy_solve(kSeed, kMinute))));
+  EXPECT_RATIO(7, ratio(rounded_to_half(dense_noise(kSeed, kMinute))));
   // Captures in finer steps compress less. Steps of 1e-4 are 4.88 times as fine as 2^-11, which costs up
   // to 2.29 bits more for each sample that is not 0: 3.64 bits per sample (a ratio of 8.8) instead of
   // 2.50 (12.8). Linear prediction alone gives at most 8.3 and 11.5, even if each residual takes no more
   // than its entropy and widths, masks and first samples take no space.
-  EXPECT_RATIO(8.5, ratio(rounded_to(phone_capture(kSeed, kFrames), 10000)));
-  EXPECT_RATIO(5.5, ratio(rounded_to_half(phone_capture(kSeed, kFrames))));
+  EXPECT_RATIO(8.5, ratio(rounded_to(phone_capture(kSeed, kMinute), 10000)));
+  EXPECT_RATIO(5.5, ratio(rounded_to_half(phone_capture(kSeed, kMinute))));
 }
 
 TEST(ClipSize, Snapped) {
-  EXPECT_RATIO(66, ratio(authored_keys(kSeed, kFrames), kDefaultSnap));
-  EXPECT_RATIO(66, ratio(clean_solve(kSeed, kFrames), kDefaultSnap));
-  EXPECT_RATIO(20, ratio(noisy_solve(kSeed, kFrames), kDefaultSnap));
-  EXPECT_RATIO(14, ratio(dense_noise(kSeed, kFrames), kDefaultSnap));
+  EXPECT_RATIO(66, ratio(authored_keys(kSeed, kMinute), kDefaultSnap));
+  EXPECT_RATIO(66, ratio(clean_solve(kSeed, kMinute), kDefaultSnap));
+  EXPECT_RATIO(20, ratio(noisy_solve(kSeed, kMinute), kDefaultSnap));
+  EXPECT_RATIO(14, ratio(dense_noise(kSeed, kMinute), kDefaultSnap));
   EXPECT_RATIO(10, capture_ratio(kDefaultSnap));
 }
 
@@ -83,11 +83,11 @@ TEST(ClipSize, SnappedIsSmallerThanOnePrecisionForEachChannel) {
     return one_precision_bytes(curves) /
            static_cast<double>(ClipInput(curves, kDefaultSnap).build().size());
   };
-  EXPECT_RATIO(6, share(authored_keys(kSeed, kFrames)));
-  EXPECT_RATIO(6, share(clean_solve(kSeed, kFrames)));
-  EXPECT_RATIO(4, share(noisy_solve(kSeed, kFrames)));
-  EXPECT_RATIO(1.6, share(dense_noise(kSeed, kFrames)));
-  EXPECT_RATIO(2, share(phone_capture(kSeed, kFrames)));
+  EXPECT_RATIO(6, share(authored_keys(kSeed, kMinute)));
+  EXPECT_RATIO(6, share(clean_solve(kSeed, kMinute)));
+  EXPECT_RATIO(4, share(noisy_solve(kSeed, kMinute)));
+  EXPECT_RATIO(1.6, share(dense_noise(kSeed, kMinute)));
+  EXPECT_RATIO(2, share(phone_capture(kSeed, kMinute)));
 }
 
 // What the material is like --------------------------------------------------------------------------
@@ -123,19 +123,19 @@ Statistics statistics(const Curves& curves) {
 }
 
 TEST(ClipCurves, HaveTheStatisticsOfRealMaterial) {
-  for (const Curves& curves : {authored_keys(kSeed, kFrames), clean_solve(kSeed, kFrames)}) {
+  for (const Curves& curves : {authored_keys(kSeed, kMinute), clean_solve(kSeed, kMinute)}) {
     const Statistics s = statistics(curves);
     EXPECT_GE(s.median, 16u);
     EXPECT_LE(s.median, 18u);
     EXPECT_LE(s.max, 62u);
   }
-  const Statistics solve = statistics(noisy_solve(kSeed, kFrames));
+  const Statistics solve = statistics(noisy_solve(kSeed, kMinute));
   EXPECT_GE(solve.median, 35u) << "a solver leaves more controls away from zero";
   EXPECT_LE(solve.max, 66u);
-  EXPECT_GE(statistics(dense_noise(kSeed, kFrames)).median, 101u);
+  EXPECT_GE(statistics(dense_noise(kSeed, kMinute)).median, 101u);
   double nonzero = 0;
   for (uint64_t seed = 1; seed <= 10; ++seed) {
-    const Statistics capture = statistics(phone_capture(seed, kFrames));
+    const Statistics capture = statistics(phone_capture(seed, kMinute));
     nonzero += capture.nonzero / 10;
     EXPECT_NEAR(capture.nonzero, 0.5, 0.06);
     EXPECT_GE(capture.random_bits, 19u);

@@ -25,13 +25,14 @@ TEST(CompareNames, IsTheOrderOfBytes) {
   EXPECT_EQ(compare_names({}, {nullptr, 0}), 0);
 }
 
-/// Names as rigs keep them.
-struct Names {
+/// ListedNames as rigs keep them.
+struct ListedNames {
   std::vector<std::string> names;
   std::vector<uint32_t> first = {0}, sorted;
   std::string chars;
 
-  explicit Names(std::vector<std::string> given) : names(std::move(given)), sorted(names.size()) {
+  explicit ListedNames(std::vector<std::string> given)
+      : names(std::move(given)), sorted(names.size()) {
     for (const std::string& name : names) {
       chars += name;
       first.push_back(static_cast<uint32_t>(chars.size()));
@@ -47,7 +48,7 @@ struct Names {
 };
 
 TEST(FindName, FindsEachNameAndNoOther) {
-  Names names({"jawOpen", "", "browUp", "jaw", "jawOpenExtreme", "browUp", "\xFFz"});
+  ListedNames names({"jawOpen", "", "browUp", "jaw", "jawOpenExtreme", "browUp", "\xFFz"});
   const NameList list = names.list();
   const uint32_t expected[] = {0, 1, 2, 3, 4, 2, 6};  // the first of those alike
   for (uint32_t i = 0; i < names.names.size(); ++i) {
@@ -60,7 +61,7 @@ TEST(FindName, FindsEachNameAndNoOther) {
 }
 
 TEST(NameIndex, MatchesWithoutCaseDotsAndPrefix) {
-  Names names({"CTRL_expressions.jawOpen", "mouth_Left", "MOUTH.LEFT", "single"});
+  ListedNames names({"CTRL_expressions.jawOpen", "mouth_Left", "MOUTH.LEFT", "single"});
   const RigNames rig_names = {names.list()};
   std::vector<uint16_t> order(names.names.size());
   NameIndex<RigNames> index = {rig_names, {order.data(), order.size()}};

@@ -11,7 +11,7 @@
 namespace mien {
 namespace {
 
-std::string text(Span<const char> name) { return {name.data, name.count}; }
+std::string as_text(Span<const char> name) { return {name.data, name.count}; }
 
 struct Listed {
   Arena arena{default_allocator()};
@@ -26,10 +26,10 @@ struct Listed {
     // Each event still has its name, and each name is there once, in order.
     EXPECT_EQ(desc.events.count, names.size());
     for (size_t e = 0; e < names.size(); ++e) {
-      EXPECT_EQ(text(desc.event_names[desc.events[e].name]), names[e]);
+      EXPECT_EQ(as_text(desc.event_names[desc.events[e].name]), names[e]);
     }
     for (size_t n = 1; n < desc.event_names.count; ++n) {
-      EXPECT_LT(text(desc.event_names[n - 1]), text(desc.event_names[n]));
+      EXPECT_LT(as_text(desc.event_names[n - 1]), as_text(desc.event_names[n]));
     }
   }
 };

@@ -29,14 +29,14 @@ std::string spelled(const std::string& name) {
   return std::string(spelling.text, spelling.count) + sides[static_cast<size_t>(spelling.side)];
 }
 
-/// Names of raw controls, as rigs keep them.
-struct Names {
+/// SortedNames of raw controls, as rigs keep them.
+struct SortedNames {
   std::vector<std::string> names;
   std::vector<uint32_t> first = {0}, sorted;
   std::string chars;
   NameList list;
 
-  explicit Names(std::vector<std::string> given) : names(std::move(given)) {
+  explicit SortedNames(std::vector<std::string> given) : names(std::move(given)) {
     for (uint32_t i = 0; i < names.size(); ++i) {
       chars += names[i];
       first.push_back(static_cast<uint32_t>(chars.size()));
@@ -109,7 +109,7 @@ TEST(ControlSpelling, NothingIsLikeANameWithoutLettersOrWithTooMany) {
   EXPECT_TRUE(spell_control({}).empty());
   EXPECT_TRUE(spell_control(span_of("_.-")).empty());
   EXPECT_TRUE(spell_control(span_of(std::string(100, 'x'))).empty());
-  const Names rig({std::string(100, 'x'), std::string(100, 'x') + "_L", "_", ""});
+  const SortedNames rig({std::string(100, 'x'), std::string(100, 'x') + "_L", "_", ""});
   EXPECT_EQ(rig.match(std::string(100, 'x')), std::string(100, 'x'));
   EXPECT_EQ(rig.match(std::string(100, 'x') + "Left"), "");
   EXPECT_EQ(rig.match("-"), "");
@@ -150,7 +150,7 @@ TEST(ControlAliases, KnowEveryNameOfArkitAndNoWordTwice) {
 }
 
 TEST(MatchControls, FindsArkitOnARigThatSpellsItOtherwise) {
-  const Names rig(kIct);
+  const SortedNames rig(kIct);
   std::set<std::string> wanted;
   for (const ArkitEntry& entry : arkit_table()) wanted.insert(entry.expression);
   std::set<std::string> found;
@@ -177,11 +177,11 @@ TEST(MatchControls, FindsArkitOnARigThatSpellsItOtherwise) {
 }
 
 TEST(MatchControls, FindsExpressionsOfSeveralControls) {
-  const Names rig({"CTRL_expressions.mouthFunnelUL", "CTRL_expressions.mouthFunnelUR",
-                   "CTRL_expressions.mouthFunnelDL", "CTRL_expressions.mouthFunnelDR",
-                   "CTRL_expressions.eyeLookLeftL", "CTRL_expressions.eyeLookRightL",
-                   "CTRL_expressions.eyeLookLeftR", "CTRL_expressions.eyeLookRightR",
-                   "CTRL_expressions.mouthCornerPullL", "CTRL_expressions.jawOpen"});
+  const SortedNames rig({"CTRL_expressions.mouthFunnelUL", "CTRL_expressions.mouthFunnelUR",
+                         "CTRL_expressions.mouthFunnelDL", "CTRL_expressions.mouthFunnelDR",
+                         "CTRL_expressions.eyeLookLeftL", "CTRL_expressions.eyeLookRightL",
+                         "CTRL_expressions.eyeLookLeftR", "CTRL_expressions.eyeLookRightR",
+                         "CTRL_expressions.mouthCornerPullL", "CTRL_expressions.jawOpen"});
   const std::string group = "CTRL_expressions.";
   Match how = Match::kNone;
   EXPECT_EQ(rig.match("mouthFunnel", &how), group + "mouthFunnelUL + " + group +
@@ -197,21 +197,21 @@ TEST(MatchControls, FindsExpressionsOfSeveralControls) {
 }
 
 TEST(MatchControls, LeftAndRightAreNoPairWhereTheyAreDirections) {
-  const Names rig({"jawLeft", "jawRight", "mouthLeft", "mouthRight"});
+  const SortedNames rig({"jawLeft", "jawRight", "mouthLeft", "mouthRight"});
   EXPECT_EQ(rig.match("jaw"), "");
   EXPECT_EQ(rig.match("mouth"), "");
   EXPECT_EQ(rig.match("JawLeft"), "jawLeft");
 }
 
 TEST(MatchControls, OfSeveralControlsWithTheSameLettersNoneIsMeant) {
-  const Names rig({"mouth_smile_L", "mouthSmileLeft", "blinkLeft", "eyeClosedLeft"});
+  const SortedNames rig({"mouth_smile_L", "mouthSmileLeft", "blinkLeft", "eyeClosedLeft"});
   EXPECT_EQ(rig.match("mouthSmile_l"), "");
   EXPECT_EQ(rig.match("mouthSmileLeft"), "mouthSmileLeft") << "as it is written";
   EXPECT_EQ(rig.match("eyeBlinkLeft"), "eyeClosedLeft") << "the first word of the table";
 }
 
 TEST(MatchControls, AnyBytesAreANameThatMatchesAtMostItself) {
-  const Names rig({"a", "b"});
+  const SortedNames rig({"a", "b"});
   for (int c = 0; c < 256; ++c) {
     for (const size_t length : {1u, 2u, 61u, 62u, 63u, 300u}) {
       const std::string name(length, static_cast<char>(c));

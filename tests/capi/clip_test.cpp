@@ -18,15 +18,6 @@
 namespace mien {
 namespace {
 
-struct CloseClip {
-  void operator()(MienClip* clip) const { mien_clip_close(clip); }
-  void operator()(MienClipPlayer* player) const { mien_clip_player_destroy(player); }
-  void operator()(MienClipBinding* binding) const { mien_clip_binding_destroy(binding); }
-};
-using ClipHandle = std::unique_ptr<MienClip, CloseClip>;
-using PlayerHandle = std::unique_ptr<MienClipPlayer, CloseClip>;
-using BindingHandle = std::unique_ptr<MienClipBinding, CloseClip>;
-
 MienStringView view(const char* text) { return {text, strlen(text)}; }
 
 /// Rows of values with names, as a desc points to them.

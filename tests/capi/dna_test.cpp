@@ -32,12 +32,6 @@ class CapiDna : public testing::Test {
   }
 };
 
-MienDnaInfo info_of(const DnaHandle& dna) {
-  MienDnaInfo info = sized<MienDnaInfo>();
-  EXPECT_EQ(mien_dna_info(dna.get(), &info), MIEN_OK);
-  return info;
-}
-
 MienDnaLayer layer_of(const DnaHandle& dna, uint32_t index) {
   MienDnaLayer layer = sized<MienDnaLayer>();
   EXPECT_EQ(mien_dna_layer(dna.get(), index, &layer), MIEN_OK);

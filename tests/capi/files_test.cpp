@@ -34,12 +34,6 @@ void write_all(const std::string& path, const Bytes& bytes) {
   ASSERT_TRUE(out.flush());
 }
 
-MienDnaInfo info_of(const DnaHandle& dna) {
-  MienDnaInfo info = sized<MienDnaInfo>();
-  EXPECT_EQ(mien_dna_info(dna.get(), &info), MIEN_OK);
-  return info;
-}
-
 /// A folder of its own for each test.
 class Files : public testing::Test {
  protected:

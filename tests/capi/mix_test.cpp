@@ -15,20 +15,11 @@ namespace {
 
 constexpr int64_t kStep = MIEN_TICKS_PER_SECOND / 60;
 
-struct CloseMix {
-  void operator()(MienMix* mix) const { mien_mix_destroy(mix); }
-  void operator()(MienMixer* mixer) const { mien_mixer_destroy(mixer); }
-  void operator()(MienClip* clip) const { mien_clip_close(clip); }
-  void operator()(MienClipBinding* binding) const { mien_clip_binding_destroy(binding); }
-};
-using MixHandle = std::unique_ptr<MienMix, CloseMix>;
-using MixerHandle = std::unique_ptr<MienMixer, CloseMix>;
-
 /// A rig of six raw controls, a clip for the first two, and a mix of everything.
 struct Scene {
   RigHandle rig;
-  std::unique_ptr<MienClip, CloseMix> clip;
-  std::unique_ptr<MienClipBinding, CloseMix> binding;
+  ClipHandle clip;
+  BindingHandle binding;
   std::vector<MienMixLayer> layers = std::vector<MienMixLayer>(4);
   std::vector<MienMixPose> poses;
   MienMixStroke stroke = {};

@@ -236,13 +236,6 @@ TEST(Gaze, IsOfAnyMemoryOrFailsWithoutALeak) {
 
 // Guards ------------------------------------------------------------------------------------------
 
-struct CloseMix {
-  void operator()(MienMix* mix) const { mien_mix_destroy(mix); }
-  void operator()(MienMixer* mixer) const { mien_mixer_destroy(mixer); }
-};
-using MixHandle = std::unique_ptr<MienMix, CloseMix>;
-using MixerHandle = std::unique_ptr<MienMixer, CloseMix>;
-
 /// The teeth, by the joints that hold them.
 struct TeethGuard {
   uint32_t upper[1], lower[1];

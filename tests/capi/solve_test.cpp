@@ -11,7 +11,7 @@
 namespace mien {
 namespace {
 
-constexpr int64_t kStep = MIEN_TICKS_PER_SECOND / 60;
+constexpr int64_t kSolveStep = MIEN_TICKS_PER_SECOND / 60;
 
 struct CloseSolvers {
   void operator()(MienSolverStack* stack) const { mien_solver_stack_destroy(stack); }
@@ -87,7 +87,7 @@ struct Solvers {
     space.spaces = spaces;
     space.space_count = 2;
     space.curve = 5;
-    space.ease_ticks = 10 * kStep;
+    space.ease_ticks = 10 * kSolveStep;
     spring.joint = leaf;
     spring.frequency = 2;
     spring.damping = 0.2f;
@@ -148,11 +148,11 @@ void expect_same(Solvers& made, Solver solver) {
   for (uint32_t step = 0; step < 3; ++step) {
     made.rig.pose(step, 0);
     const std::vector<float> before(made.rig.matrices().begin(), made.rig.matrices().end());
-    made.rig.step(*plain, *plain_state, kRow, kStep);
+    made.rig.step(*plain, *plain_state, kRow, kSolveStep);
     const std::vector<float> wanted(made.rig.matrices().begin(), made.rig.matrices().end());
     const std::vector<float> skins(made.rig.skins().begin(), made.rig.skins().end());
     made.rig.pose(step, 0);
-    ASSERT_EQ(mien_solver_state_step(state.get(), made.rig.instance.get(), &kInput, kStep),
+    ASSERT_EQ(mien_solver_state_step(state.get(), made.rig.instance.get(), &kInput, kSolveStep),
               MIEN_OK);
     EXPECT_TRUE(same_bits(span_of(wanted), made.rig.matrices()));
     EXPECT_TRUE(same_bits(span_of(skins), made.rig.skins()));
@@ -179,7 +179,7 @@ TEST(SolverStack, EachKindIsTheSolverOfTheRuntime) {
     solver.spaces[1] = made.middle;
     solver.space_count = 2;
     solver.curve = 1;  // far above 1: the last space, as curve 5 says
-    solver.ease_ticks = 10 * kStep;
+    solver.ease_ticks = 10 * kSolveStep;
     expect_same(made, solver);
   }
   {
@@ -231,10 +231,11 @@ TEST(SolverStack, CallsTheSolversOfTheCaller) {
 
   made.rig.pose(1, 0);
   const float height = made.rig.model(made.root[0])[13];
-  ASSERT_EQ(mien_solver_state_step(state.get(), made.rig.instance.get(), &kInput, kStep), MIEN_OK);
+  ASSERT_EQ(mien_solver_state_step(state.get(), made.rig.instance.get(), &kInput, kSolveStep),
+            MIEN_OK);
   EXPECT_EQ(made.seen.calls, 1u) << "the second one is for LOD 1";
   EXPECT_EQ(made.seen.joints, 12u);
-  EXPECT_EQ(made.seen.ticks, kStep);
+  EXPECT_EQ(made.seen.ticks, kSolveStep);
   EXPECT_EQ(made.seen.row, 1);
   EXPECT_TRUE(made.seen.reset);
   EXPECT_FLOAT_EQ(made.rig.model(made.root[0])[13], height + 1);
@@ -277,7 +278,8 @@ TEST(SolverStack, NormalsFollowTheScalesOfSolvers) {
   const SolverStateHandle state = Solvers::state(stack);
   made.rig.pose(3, 0);
   EXPECT_FALSE(made.rig.joints().non_uniform_scale);
-  ASSERT_EQ(mien_solver_state_step(state.get(), made.rig.instance.get(), &kInput, kStep), MIEN_OK);
+  ASSERT_EQ(mien_solver_state_step(state.get(), made.rig.instance.get(), &kInput, kSolveStep),
+            MIEN_OK);
   EXPECT_TRUE(made.rig.joints().non_uniform_scale);
 }
 
@@ -322,12 +324,12 @@ TEST(SolverStack, ABatchIsEachAlone) {
       Deformed::update(instance_list[i], random_values(made.rig.rig.get(), seed_of(i, step), 0));
     }
     ASSERT_EQ(mien_solver_state_step_batch(state_list.data(), instance_list.data(), inputs.data(),
-                                           kCount, kStep),
+                                           kCount, kSolveStep),
               MIEN_OK);
   }
   for (uint32_t step = 0; step < 2; ++step) {
     made.rig.pose(seed_of(69, step), 0);
-    ASSERT_EQ(mien_solver_state_step(alone.get(), made.rig.instance.get(), &kInput, kStep),
+    ASSERT_EQ(mien_solver_state_step(alone.get(), made.rig.instance.get(), &kInput, kSolveStep),
               MIEN_OK);
   }
   MienFloatView last = {};
@@ -337,7 +339,7 @@ TEST(SolverStack, ABatchIsEachAlone) {
   const uint32_t calls = made.seen.calls;
   const auto refused = [&](MienStatus expected) {
     EXPECT_EQ(mien_solver_state_step_batch(state_list.data(), instance_list.data(), inputs.data(),
-                                           kCount, kStep),
+                                           kCount, kSolveStep),
               expected);
     EXPECT_EQ(made.seen.calls, calls);
   };
@@ -494,7 +496,8 @@ TEST(SolverStack, StatesOutliveTheStackAndTheDeformer) {
   stack.reset();
   made.rig.deformer.reset();
   made.rig.pose(2, 0);
-  EXPECT_EQ(mien_solver_state_step(state.get(), made.rig.instance.get(), &kInput, kStep), MIEN_OK);
+  EXPECT_EQ(mien_solver_state_step(state.get(), made.rig.instance.get(), &kInput, kSolveStep),
+            MIEN_OK);
 }
 
 TEST(SolverStack, EveryFailedAllocationIsReportedAndNothingLeaks) {

@@ -298,12 +298,12 @@ TEST(VertexOutput, InstructionSetsOfAFamilyWriteTheSameBytes) {
   }
 }
 
-struct Threads {
+struct CountedThreads {
   MienParallelFor interface = {this, run};
   uint32_t calls = 0;
 
   static void run(void* user, uint32_t count, void (*task)(void*, uint32_t), void* context) {
-    ++static_cast<Threads*>(user)->calls;
+    ++static_cast<CountedThreads*>(user)->calls;
     std::atomic<uint32_t> next{0};
     std::vector<std::thread> threads;
     for (int t = 0; t < 3; ++t) {
@@ -325,7 +325,7 @@ TEST(VertexOutput, ThreadsWriteTheSameBytes) {
   const uint32_t count = mesh_of(d.deformer.get(), 0).vertex_count;
   const Buffer alone(count, 1, 2, 3), threaded(count, 1, 2, 3);
   write(d.instance.get(), 0, alone);
-  Threads threads;
+  CountedThreads threads;
   ASSERT_EQ(mien_deformer_instance_write_vertices(d.instance.get(), 0, MIEN_NORMALS_DEFAULT,
                                                   &threaded.output, &threads.interface),
             MIEN_OK);
@@ -352,7 +352,7 @@ TEST(VertexOutput, ABatchWritesTheSameBytes) {
     write(batch.back(), 1, alone.back());
   }
   for (bool with_threads : {false, true}) {
-    Threads threads;
+    CountedThreads threads;
     std::vector<MienVertexOutput> outputs;
     for (Buffer& buffer : together) {
       memset(buffer.bytes(), 0xA5, buffer.memory.size() * 4);

@@ -13,8 +13,6 @@
 namespace mien {
 namespace {
 
-using Floats = std::vector<float>;
-
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
@@ -22,8 +20,6 @@ void set(Span<float> to, const Floats& values) {
   ASSERT_EQ(to.count, values.size());
   for (size_t i = 0; i < values.size(); ++i) to[i] = values[i];
 }
-Floats copy(Span<const float> values) { return {values.begin(), values.end()}; }
-
 // GUI -> raw ------------------------------------------------------------------------------------
 
 /// Raw controls that a table gives for GUI controls; raw controls held 0.5 before.
@@ -37,7 +33,7 @@ Floats forward(const PlainTable& table, const Floats& gui, uint16_t raw_count) {
   set(character.raw, Floats(raw_count, 0.5f));
   character.map_gui_to_raw();
   EXPECT_TRUE(same_bits(character.gui, span_of(gui))) << "the mapping wrote its input";
-  return copy(character.raw);
+  return copy_of(character.raw);
 }
 
 TEST(GuiToRaw, RowAppliesSlopeAndCutWithinItsInterval) {
@@ -124,7 +120,7 @@ Floats backward(const PlainTable& table, const Floats& raw, uint16_t gui_count) 
   set(character.gui, Floats(gui_count, 7.0f));
   character.map_raw_to_gui();
   EXPECT_TRUE(same_bits(character.raw, span_of(raw))) << "the mapping wrote its input";
-  return copy(character.gui);
+  return copy_of(character.gui);
 }
 
 TEST(RawToGui, InvertsARow) {
@@ -216,9 +212,9 @@ TEST(ConditionalTables, RandomTablesFollowTheRules) {
     }
 
     for (float& value : character.gui) value = 7;
-    const Floats back = backward_plain(plain.gui_to_raw, copy(character.raw), plain.gui_count);
+    const Floats back = backward_plain(plain.gui_to_raw, copy_of(character.raw), plain.gui_count);
     character.map_raw_to_gui();
-    EXPECT_EQ(copy(character.gui), back);
+    EXPECT_EQ(copy_of(character.gui), back);
   }
 }
 
@@ -241,7 +237,7 @@ Floats correctives(const std::vector<PlainPsd>& psds, uint16_t count, const Floa
   character.evaluate(0);
   EXPECT_TRUE(same_bits(character.raw, span_of(raw))) << "raw controls are the caller's";
   for (uint16_t psd : read) EXPECT_EQ(character.channels[psd], character.psd[psd]);
-  return copy(character.psd);
+  return copy_of(character.psd);
 }
 
 TEST(Correctives, ProductOfWeightsAndInputs) {

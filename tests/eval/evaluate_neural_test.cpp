@@ -23,7 +23,7 @@ struct Options {
   uint32_t storage = MIEN_STORAGE_32_BIT;
 };
 
-RigHandle make_rig(const LayerFile& file, const Options& options) {
+RigHandle make_neural_rig(const LayerFile& file, const Options& options) {
   MienRigDesc desc = sized<MienRigDesc>();
   desc.isa = options.isa;
   desc.ml_masks = options.masks;
@@ -78,7 +78,7 @@ void expect_model(const LayerRig& rig, Random& random, int frames, double tolera
   for (uint32_t isa : present_isas()) {
     for (uint32_t masks : {MIEN_ML_MASKS_SWITCH, MIEN_ML_MASKS_BLEND}) {
       for (uint32_t output : kOutputs) {
-        const RigHandle handle = make_rig(file, {isa, masks, output});
+        const RigHandle handle = make_neural_rig(file, {isa, masks, output});
         ASSERT_TRUE(handle);
         for (int frame = 0; frame < frames; ++frame) {
           Character character(handle);
@@ -283,7 +283,7 @@ TEST(MlJoints, EulerOntoEulerAddsTheAngles) {
   }
   rig.base.groups = {{{3}, {0}, {3, 4, 5}, {5, 6, 7}}};
   const LayerFile file(rig);
-  Character character(make_rig(file, {}));
+  Character character(make_neural_rig(file, {}));
   character.raw[0] = 0.5f;
   character.evaluate(0);
   EXPECT_FLOAT_EQ(character.joints[3], 6 + 2.5f);
@@ -336,7 +336,7 @@ TEST(MlJoints, ScalesOfAnotherSystemLoseTheirSigns) {
     rig.ml_parameters.insert(rig.ml_parameters.end(), parameters.begin(), parameters.end());
     for (uint16_t k = 0; k < 3; ++k) rig.ml_joints.push_back({static_cast<uint16_t>(kRaw + k), k});
     const LayerFile file(rig);
-    Character character(make_rig(file, {}));
+    Character character(make_neural_rig(file, {}));
     character.raw[0] = -0.5f;
     character.evaluate(0);
     return std::vector<float>(&character.joints[6], &character.joints[6] + 3);
@@ -368,7 +368,7 @@ TEST(Networks, LeakyReluWithoutParameterLeaksAHundredth) {
   rig.networks = {network};
   const LayerFile file(rig);
   for (uint32_t isa : present_isas()) {
-    Character character(make_rig(file, {isa}));
+    Character character(make_neural_rig(file, {isa}));
     character.raw[0] = -2;
     character.evaluate(0);
     EXPECT_FLOAT_EQ(character.ml[0], -0.02f);
@@ -391,7 +391,7 @@ TEST(HalfStorage, NetworksWithinTheirBoundAndFamiliesEqual) {
   for (uint32_t isa : present_isas()) {
     Options halves = {isa};
     halves.storage = MIEN_STORAGE_16_BIT;
-    const RigHandle whole = make_rig(file, {isa}), half = make_rig(file, halves);
+    const RigHandle whole = make_neural_rig(file, {isa}), half = make_neural_rig(file, halves);
     MienRigInfo info = info_of(half);
     EXPECT_EQ(info.storage, uint32_t{MIEN_STORAGE_16_BIT});
     EXPECT_LT(info.rig_bytes, info_of(whole).rig_bytes * 3 / 4);
@@ -442,9 +442,9 @@ TEST(HalfStorage, QuaternionJointsWithinTheirBound) {
   for (uint32_t isa : present_isas()) {
     Options halves = {isa, MIEN_ML_MASKS_SWITCH, MIEN_ROTATION_OUTPUT_QUATERNION,
                       MIEN_STORAGE_16_BIT};
-    Character b(make_rig(file, halves));
+    Character b(make_neural_rig(file, halves));
     halves.storage = MIEN_STORAGE_32_BIT;
-    Character a(make_rig(file, halves));
+    Character a(make_neural_rig(file, halves));
     for (size_t i = 0; i < a.raw.count; ++i) {
       a.raw[i] = b.raw[i] = static_cast<float>(random.between(0, 1));
     }

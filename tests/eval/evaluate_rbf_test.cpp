@@ -12,7 +12,7 @@ namespace mien {
 namespace {
 
 // Raw controls: four plain ones, then two quaternions.
-constexpr uint16_t kRaw = 12, kFirstQuaternion = 4;
+constexpr uint16_t kRbfRaw = 12, kFirstQuaternion = 4;
 
 std::vector<float> random_quaternion(Random& random) {
   std::vector<float> q(4);
@@ -30,7 +30,7 @@ struct RbfRig {
   Random& random;
 
   explicit RbfRig(Random& from) : random(from) {
-    rig.base.raw_count = kRaw;
+    rig.base.raw_count = kRbfRaw;
     rig.base.joint_count = 1;
   }
 
@@ -58,7 +58,7 @@ struct RbfRig {
       solver.poses.push_back(static_cast<uint16_t>(rig.poses.size()));
       rig.poses.push_back({static_cast<float>(random.between(0.5, 1.5)),
                            {},
-                           {static_cast<uint16_t>(kRaw + rig.rbf_count++)},
+                           {static_cast<uint16_t>(kRbfRaw + rig.rbf_count++)},
                            {static_cast<float>(random.between(0.5, 2))}});
     }
     rig.solvers.push_back(solver);
@@ -66,7 +66,7 @@ struct RbfRig {
   }
 };
 
-void expect_model(const LayerRig& rig, Random& random, double tolerance, int frames) {
+void expect_rbf_model(const LayerRig& rig, Random& random, double tolerance, int frames) {
   const LayerFile file(rig);
   for (uint32_t isa : present_isas()) {
     const RigHandle handle = create_rig(file.dna.get(), isa);
@@ -118,7 +118,7 @@ TEST(RbfSolvers, EveryCombination) {
       }
     }
     // The angle between nearly equal rotations is rounding up to 1e-3, and inverses magnify.
-    expect_model(made.rig, random, 4e-3, 4);
+    expect_rbf_model(made.rig, random, 4e-3, 4);
   }
 }
 
@@ -135,7 +135,7 @@ TEST(RbfSolvers, EveryCountOfPoses) {
       made.add(solver, static_cast<uint16_t>(count));
     }
   }
-  expect_model(made.rig, random, 1e-3, 10);
+  expect_rbf_model(made.rig, random, 1e-3, 10);
 }
 
 // Nothing to weigh, and nothing behind it in memory: for the address sanitizer.
@@ -147,7 +147,7 @@ TEST(RbfSolvers, WithoutPosesDriveNothing) {
     solver.type = type;
     made.add(solver, 0);
     made.rig.rbf_count = 1;
-    expect_model(made.rig, random, 0, 2);
+    expect_rbf_model(made.rig, random, 0, 2);
   }
 }
 
@@ -167,7 +167,7 @@ TEST(RbfSolvers, PosesDriveWhatTheyLike) {
       pose.outputs.clear();
       pose.weights.clear();
       for (uint32_t o = random.below(4); o > 0; --o) {
-        pose.outputs.push_back(static_cast<uint16_t>(kRaw + random.below(rig.rbf_count)));
+        pose.outputs.push_back(static_cast<uint16_t>(kRbfRaw + random.below(rig.rbf_count)));
         pose.weights.push_back(static_cast<float>(random.between(-1, 1)));
       }
       for (uint32_t i = random.below(3); i > 0; --i) {
@@ -175,9 +175,9 @@ TEST(RbfSolvers, PosesDriveWhatTheyLike) {
       }
     }
     if (round % 2) rig.solvers[1].poses[2] = rig.solvers[0].poses[1];  // of two solvers
-    if (round % 3 == 0) rig.solvers[1].inputs[0] = kRaw;  // reads what the first one drives
+    if (round % 3 == 0) rig.solvers[1].inputs[0] = kRbfRaw;  // reads what the first one drives
     SCOPED_TRACE(round);
-    expect_model(rig, random, 1e-5, 5);
+    expect_rbf_model(rig, random, 1e-5, 5);
   }
 }
 
@@ -187,7 +187,7 @@ TEST(RbfSolvers, OnlyThoseOfTheLod) {
   for (int s = 0; s < 4; ++s) made.add({}, 5);
   made.rig.base.lod_count = 3;
   made.rig.lod_solvers = {{3, 0, 1, 2}, {2}, {}};
-  expect_model(made.rig, random, 1e-5, 5);
+  expect_rbf_model(made.rig, random, 1e-5, 5);
 }
 
 TEST(RbfSolvers, OneSolverAlone) {

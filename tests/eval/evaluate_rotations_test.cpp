@@ -13,15 +13,15 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 // Raw controls: four plain ones, then two quaternions.
-constexpr uint16_t kRaw = 12;
+constexpr uint16_t kRotationRaw = 12;
 
-const uint32_t kOutputs[] = {MIEN_ROTATION_OUTPUT_EULER, MIEN_ROTATION_OUTPUT_QUATERNION};
+const uint32_t kRotationOutputs[] = {MIEN_ROTATION_OUTPUT_EULER, MIEN_ROTATION_OUTPUT_QUATERNION};
 
 /// Every joint of the rig, at every LOD, in both forms, on every instruction set.
-void expect_model(const LayerRig& rig, Random& random, int frames, double radians = 2e-6) {
+void expect_rotation_model(const LayerRig& rig, Random& random, int frames, double radians = 2e-6) {
   const LayerFile file(rig);
   for (uint32_t isa : present_isas()) {
-    for (uint32_t output : kOutputs) {
+    for (uint32_t output : kRotationOutputs) {
       const RigHandle handle = create_rig(file.dna.get(), isa, MIEN_OK, output);
       ASSERT_TRUE(handle);
       Character character(handle);
@@ -67,7 +67,7 @@ PlainGroup random_group(const LayerRig& rig, std::vector<uint16_t> joints, Rando
 
 LayerRig joint_rig(uint16_t joint_count) {
   LayerRig rig;
-  rig.base.raw_count = kRaw;
+  rig.base.raw_count = kRotationRaw;
   rig.base.joint_count = joint_count;
   rig.rotations.assign(joint_count, 0);
   return rig;
@@ -86,7 +86,7 @@ TEST(Rotations, EverySequenceSignUnitFormAndRepresentation) {
         rig.base.groups = {random_group(rig, {0, 1, 2, 3}, random)};
         SCOPED_TRACE("sequence " + std::to_string(sequence) + ", signs " + std::to_string(signs) +
                      ", unit " + std::to_string(unit));
-        expect_model(rig, random, 3);
+        expect_rotation_model(rig, random, 3);
       }
     }
   }
@@ -111,7 +111,7 @@ TEST(Rotations, RowsThatCountForNothingTurnNoQuaternionJoint) {
   for (const std::vector<PlainGroup>& groups :
        {std::vector<PlainGroup>{turned, zeros}, {turned, zero_first}, {no_lod}}) {
     rig.base.groups = groups;
-    expect_model(rig, random, 5);
+    expect_rotation_model(rig, random, 5);
   }
 }
 
@@ -139,7 +139,7 @@ TEST(Rotations, QuaternionJointsOfEveryLod) {
     group.lods = {rows, static_cast<uint16_t>(9 * (10 + random.below(5))),
                   static_cast<uint16_t>(9 * (1 + random.below(6))), 0};
     rig.base.groups = {group};
-    expect_model(rig, random, 3, 4e-6);
+    expect_rotation_model(rig, random, 3, 4e-6);
   }
 }
 
@@ -162,7 +162,7 @@ TEST(Rotations, QuaternionJointsOfManyGroups) {
                      rows = static_cast<uint32_t>(group.outputs.size());
       group.inputs.clear();
       for (uint32_t c = 0; c < columns; ++c) {
-        group.inputs.push_back(static_cast<uint16_t>((g + 3 * c) % kRaw));
+        group.inputs.push_back(static_cast<uint16_t>((g + 3 * c) % kRotationRaw));
       }
       group.values.resize(size_t{rows} * columns);
       for (float& value : group.values) {
@@ -175,7 +175,7 @@ TEST(Rotations, QuaternionJointsOfManyGroups) {
       }
       rig.base.groups.push_back(group);
     }
-    expect_model(rig, random, 3, 4e-6);
+    expect_rotation_model(rig, random, 3, 4e-6);
   }
 }
 
@@ -191,7 +191,7 @@ TEST(Twists, EveryAxisBlendAndLod) {
                   {static_cast<uint16_t>((axis + 1) % 3), {8, 9, 10, 11}, {3, 4}, {0.5f, 1.5f}},
                   {static_cast<uint16_t>((axis + 2) % 3), {8, 9, 10, 11}, {5}, {-0.25f}}};
     rig.swings = {{axis, {8, 9, 10, 11}, {6, 7, 8, 9}, {0, 0.3f, 0.75f, 1}}};
-    expect_model(rig, random, 30, 4e-6);
+    expect_rotation_model(rig, random, 30, 4e-6);
   }
 }
 
@@ -290,7 +290,7 @@ TEST(Rotations, RowsInAnyOrderAndSpreadOverGroups) {
       part.lods = {static_cast<uint16_t>(part.outputs.size())};
       rig.base.groups.push_back(part);
     }
-    expect_model(rig, random, 3);
+    expect_rotation_model(rig, random, 3);
   }
 }
 
@@ -302,7 +302,7 @@ TEST(Rotations, EvaluatingAGroupTwiceChangesNothing) {
   group.lods = {static_cast<uint16_t>(group.outputs.size() - 5)};  // not all angles have rows
   rig.base.groups = {group};
   const LayerFile file(rig);
-  for (uint32_t output : kOutputs) {
+  for (uint32_t output : kRotationOutputs) {
     Character character(create_rig(file.dna.get(), MIEN_ISA_ENVIRONMENT, MIEN_OK, output));
     for (float& value : character.raw) value = 0.7f;
     character.evaluate(0);
@@ -323,7 +323,7 @@ TEST(Twists, OfOneSwingKeepTheirOwnWeights) {
   rig.twists = {{1, {4, 5, 6, 7}, {2, 3}, {0.1f, 0.9f}},
                 {1, {4, 5, 6, 7}, {4}, {0.6f}},
                 {1, {4, 5, 6, 7}, {5}, {0.3f}}};
-  expect_model(rig, random, 50);
+  expect_rotation_model(rig, random, 50);
 }
 
 // docs/rig-evaluation.md, 12.13 "Twists and swings obey LODs"

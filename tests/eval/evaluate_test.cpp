@@ -15,10 +15,6 @@
 namespace mien {
 namespace {
 
-using Floats = std::vector<float>;
-
-Floats copy(Span<const float> values) { return {values.begin(), values.end()}; }
-
 /// Sets the raw controls and evaluates.
 void pose(Character& character, const Floats& raw, uint32_t lod = 0) {
   ASSERT_EQ(character.raw.count, raw.size());
@@ -45,7 +41,7 @@ TEST(JointGroups, RowsTimesControls) {
   expected[4] = 1.25f;
   expected[17] = -0.375f;
   expected[0] = 2;
-  EXPECT_EQ(copy(character.joints), expected);
+  EXPECT_EQ(copy_of(character.joints), expected);
 }
 
 TEST(JointGroups, InputsAreNotClamped) {
@@ -160,7 +156,7 @@ TEST(Lods, CorrectivesThatALodReads) {
       {0.375f, 0.375f, 0.375f, 0.375f, 0, 0}, {0, 0.375f, 0, 0.375f, 0, 0}, {0, 0, 0, 0, 0, 0}};
   for (uint32_t lod : {0, 1, 2, 1, 0}) {
     pose(character, {0.5f, 0.75f}, lod);
-    EXPECT_EQ(copy(character.psd), expected[lod]) << "LOD " << lod;
+    EXPECT_EQ(copy_of(character.psd), expected[lod]) << "LOD " << lod;
   }
 }
 
@@ -171,22 +167,22 @@ TEST(Lods, OutputsThatALodDoesNotReachAreZero) {
   joints[1] = 0.5f;
   joints[10] = 0.875f;
   joints[3] = 1.25f;
-  EXPECT_EQ(copy(character.joints), joints);
-  EXPECT_EQ(copy(character.channels), (Floats{0.375f, 0.5f}));
-  EXPECT_EQ(copy(character.maps), (Floats{0.375f, 0.5f}));
+  EXPECT_EQ(copy_of(character.joints), joints);
+  EXPECT_EQ(copy_of(character.channels), (Floats{0.375f, 0.5f}));
+  EXPECT_EQ(copy_of(character.maps), (Floats{0.375f, 0.5f}));
 
   character.evaluate(1);
   joints[3] = 0;
-  EXPECT_EQ(copy(character.joints), joints);
-  EXPECT_EQ(copy(character.channels), (Floats{0, 0.5f}));
-  EXPECT_EQ(copy(character.maps), (Floats{0.375f, 0.5f}));
+  EXPECT_EQ(copy_of(character.joints), joints);
+  EXPECT_EQ(copy_of(character.channels), (Floats{0, 0.5f}));
+  EXPECT_EQ(copy_of(character.maps), (Floats{0.375f, 0.5f}));
 
   character.evaluate(2);
   joints[10] = 0;
-  EXPECT_EQ(copy(character.joints), joints);
-  EXPECT_EQ(copy(character.channels), (Floats{0, 0}));
-  EXPECT_EQ(copy(character.maps), (Floats{0, 0}));
-  EXPECT_EQ(copy(character.raw), (Floats{0.5f, 0.75f})) << "raw controls are the caller's";
+  EXPECT_EQ(copy_of(character.joints), joints);
+  EXPECT_EQ(copy_of(character.channels), (Floats{0, 0}));
+  EXPECT_EQ(copy_of(character.maps), (Floats{0, 0}));
+  EXPECT_EQ(copy_of(character.raw), (Floats{0.5f, 0.75f})) << "raw controls are the caller's";
 }
 
 TEST(Lods, VariableJointValues) {
@@ -297,7 +293,7 @@ TEST(Channels, CopyControlsUnclamped) {
   plain.channel_outputs = {3, 1, 0, 0};
   Character character(make_rig(plain));
   pose(character, {-2, 0.5f, 3});
-  EXPECT_EQ(copy(character.channels), (Floats{3, -2, 0, 3})) << "the last to write 0 wins";
+  EXPECT_EQ(copy_of(character.channels), (Floats{3, -2, 0, 3})) << "the last to write 0 wins";
 }
 
 TEST(Maps, AreTablesOfControls) {
@@ -311,11 +307,11 @@ TEST(Maps, AreTablesOfControls) {
                 {2, 1, 0, 1, 0, 1}};  // the row before fires first
   Character character(make_rig(plain));
   pose(character, {0.5f, 0.75f, 0.5f});
-  EXPECT_EQ(copy(character.maps), (Floats{0.75f, 0.25f, 0}));
+  EXPECT_EQ(copy_of(character.maps), (Floats{0.75f, 0.25f, 0}));
   pose(character, {0.75f, 3, 2});
-  EXPECT_EQ(copy(character.maps), (Floats{0.75f, 1, 0})) << "clamped";
+  EXPECT_EQ(copy_of(character.maps), (Floats{0.75f, 1, 0})) << "clamped";
   pose(character, {NAN, -3, 0});
-  EXPECT_EQ(copy(character.maps), (Floats{0, 0, 0})) << "written anew each time";
+  EXPECT_EQ(copy_of(character.maps), (Floats{0, 0, 0})) << "written anew each time";
 }
 
 // Partial evaluation ----------------------------------------------------------------------------
@@ -337,10 +333,10 @@ TEST(Stages, EachWritesItsOwnAndKeepsTheOthers) {
     character.evaluate(0, MIEN_STAGE_PSD);
     character.evaluate(0, stage);
     const auto from = [&](uint32_t of) -> const Character& { return stage == of ? after : before; };
-    EXPECT_EQ(copy(character.psd), copy(after.psd));
-    EXPECT_EQ(copy(character.joints), copy(from(MIEN_STAGE_JOINTS).joints));
-    EXPECT_EQ(copy(character.channels), copy(from(MIEN_STAGE_BLEND_SHAPES).channels));
-    EXPECT_EQ(copy(character.maps), copy(from(MIEN_STAGE_ANIMATED_MAPS).maps));
+    EXPECT_EQ(copy_of(character.psd), copy_of(after.psd));
+    EXPECT_EQ(copy_of(character.joints), copy_of(from(MIEN_STAGE_JOINTS).joints));
+    EXPECT_EQ(copy_of(character.channels), copy_of(from(MIEN_STAGE_BLEND_SHAPES).channels));
+    EXPECT_EQ(copy_of(character.maps), copy_of(from(MIEN_STAGE_ANIMATED_MAPS).maps));
   }
 }
 
@@ -349,19 +345,19 @@ TEST(Stages, WithoutCorrectivesTheLastOnesCount) {
   pose(character, {0.5f, 0.75f});
   character.raw[0] = 0.25f;
   character.evaluate(0, MIEN_STAGE_BLEND_SHAPES);
-  EXPECT_EQ(copy(character.channels), (Floats{0.375f, 0.25f}));
+  EXPECT_EQ(copy_of(character.channels), (Floats{0.375f, 0.25f}));
 }
 
 TEST(Stages, AfterAChangeOfLodTheOthersAreZero) {
   Character character(make_rig(lod_rig()));
   pose(character, {0.5f, 0.75f});
   character.evaluate(1, MIEN_STAGE_BLEND_SHAPES);
-  EXPECT_EQ(copy(character.psd), Floats(6, 0.0f));
-  EXPECT_EQ(copy(character.joints), Floats(18, 0.0f));
-  EXPECT_EQ(copy(character.channels), (Floats{0, 0.5f}));
-  EXPECT_EQ(copy(character.maps), (Floats{0, 0}));
+  EXPECT_EQ(copy_of(character.psd), Floats(6, 0.0f));
+  EXPECT_EQ(copy_of(character.joints), Floats(18, 0.0f));
+  EXPECT_EQ(copy_of(character.channels), (Floats{0, 0.5f}));
+  EXPECT_EQ(copy_of(character.maps), (Floats{0, 0}));
   character.evaluate(0, 0);
-  EXPECT_EQ(copy(character.channels), (Floats{0, 0}));
+  EXPECT_EQ(copy_of(character.channels), (Floats{0, 0}));
 }
 
 TEST(Stages, InAnySplitGiveTheWhole) {
@@ -426,8 +422,8 @@ TEST(InstanceState, ResetIsAsAfterCreation) {
   EXPECT_NE(used.results(), fresh.results());
   ASSERT_EQ(mien_instance_reset(used.instance.get()), MIEN_OK);
   EXPECT_EQ(used.results(), fresh.results());
-  EXPECT_EQ(copy(used.gui), copy(fresh.gui));
-  EXPECT_EQ(copy(used.masks), Floats(used.masks.count, 1.0f));
+  EXPECT_EQ(copy_of(used.gui), copy_of(fresh.gui));
+  EXPECT_EQ(copy_of(used.masks), Floats(used.masks.count, 1.0f));
 }
 
 // A quaternion input starts as the rotation by nothing: its w, known by its name, is 1.
@@ -442,12 +438,12 @@ TEST(InstanceState, QuaternionInputsStartAtOne) {
   const RigHandle rig = create_rig(open_dna(bytes).get());
   MienFloatView initial;
   ASSERT_EQ(mien_rig_initial_raw_controls(rig.get(), &initial), MIEN_OK);
-  EXPECT_EQ(copy({initial.data, initial.count}), (Floats{1, 1, 0})) << "loose.w is no input";
+  EXPECT_EQ(copy_of({initial.data, initial.count}), (Floats{1, 1, 0})) << "loose.w is no input";
 
   Character character(rig);
-  EXPECT_EQ(copy(character.raw), (Floats{1, 1, 0}));
-  EXPECT_EQ(copy(character.ml), (Floats{0, 0, 0, 1})) << "a learned control ending in .qw";
-  EXPECT_EQ(copy(character.rbf), (Floats{0, 0}));
+  EXPECT_EQ(copy_of(character.raw), (Floats{1, 1, 0}));
+  EXPECT_EQ(copy_of(character.ml), (Floats{0, 0, 0, 1})) << "a learned control ending in .qw";
+  EXPECT_EQ(copy_of(character.rbf), (Floats{0, 0}));
   character.raw[0] = 0.25f;
   character.evaluate(1);
   EXPECT_EQ(character.raw[0], 0.25f) << "a change of LOD leaves the caller's controls alone";

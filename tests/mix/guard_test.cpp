@@ -290,7 +290,7 @@ TEST(Guard, EasingNeverPassesTheProtectedRow) {
 
 // In a mixer --------------------------------------------------------------------------------------
 
-constexpr int64_t kStep = kTicksPerSecond / 60;
+constexpr int64_t kGuardStep = kTicksPerSecond / 60;
 
 /// Speech and an emotion as poses, with one guard.
 struct GuardedMix {
@@ -314,12 +314,12 @@ TEST(GuardOfAMixer, HoldsAnEmotionBackWithinAFewSteps) {
   const GuardedMix made;
   OwnMixer own(made.mix);
   own.pose(0, 0, 1);
-  own.step(kStep);
+  own.step(kGuardStep);
   own.pose(1, 0, 1);
-  Row row = own.step(kStep), before = row;
+  Row row = own.step(kGuardStep), before = row;
   EXPECT_FLOAT_EQ(row[2], 0.6f - 0.2f) << "12 per second";
   for (int step = 0; step < 10; ++step) {
-    row = own.step(kStep);
+    row = own.step(kGuardStep);
     EXPECT_LE(std::abs(row[2] - before[2]), 0.2001f);
     before = row;
   }
@@ -329,7 +329,7 @@ TEST(GuardOfAMixer, HoldsAnEmotionBackWithinAFewSteps) {
   // It comes back when speech is over.
   Error error;
   EXPECT_EQ(set_guard(own.mixer, 0, 0, error), Status::kOk);
-  for (int step = 0; step < 10; ++step) row = own.step(kStep);
+  for (int step = 0; step < 10; ++step) row = own.step(kGuardStep);
   EXPECT_EQ(row[0], 0.25f);
   EXPECT_EQ(row[2], 0.6f);
 }
@@ -340,7 +340,7 @@ TEST(GuardOfAMixer, TellsWhatItDid) {
   own.pose(0, 0, 1);
   own.pose(1, 0, 1);
   Row row;
-  for (int step = 0; step < 20; ++step) row = own.step(kStep);
+  for (int step = 0; step < 20; ++step) row = own.step(kGuardStep);
   GuardState state = {};
   Error error;
   ASSERT_EQ(guard_state(own.mixer, 0, state, error), Status::kOk);
@@ -353,7 +353,7 @@ TEST(GuardOfAMixer, TellsWhatItDid) {
   const Row speech = [&] {
     OwnMixer alone(made.mix);
     alone.pose(0, 0, 1);
-    return alone.step(kStep);
+    return alone.step(kGuardStep);
   }();
   EXPECT_FLOAT_EQ(state.protected_distance, guard_distance(made.guard, speech.data()));
   EXPECT_FLOAT_EQ(state.wanted, guard_distance(made.guard, wanted.data()));
@@ -374,10 +374,10 @@ TEST(GuardOfAMixer, ThatNeedsSpeechIsAsActiveAsItsLayers) {
   own.weight(0, 0);
   own.pose(1, 0, 1);
   Row row;
-  for (int step = 0; step < 20; ++step) row = own.step(kStep);
+  for (int step = 0; step < 20; ++step) row = own.step(kGuardStep);
   EXPECT_EQ(row[2], 0.6f) << "silent, although the lips touch";
   own.weight(0, 1);
-  for (int step = 0; step < 20; ++step) row = own.step(kStep);
+  for (int step = 0; step < 20; ++step) row = own.step(kGuardStep);
   EXPECT_LE(guard_distance(made.guard, row.data()), 0.5001f);
 }
 
@@ -391,7 +391,8 @@ TEST(GuardOfAMixer, StaysOutOfAMixerThatKeepsTheLimit) {
     own->pose(0, 0, 1);
     own->pose(1, 0, 0.15f);
   }
-  for (int step = 0; step < 5; ++step) EXPECT_TRUE(same_bits(a.step(kStep), b.step(kStep)));
+  for (int step = 0; step < 5; ++step)
+    EXPECT_TRUE(same_bits(a.step(kGuardStep), b.step(kGuardStep)));
 }
 
 TEST(GuardOfAMixer, IsRefusedWithPairsThatDoNotFit) {
@@ -456,7 +457,7 @@ TEST(GuardOfAMixer, HoldsWhatAClipSaysAndNothingElseOfIt) {
   own.play(0, made.labeled);
   own.pose(1, 0, 1);
   for (int step = 1; step <= 110; ++step) {
-    const Row row = own.step(kStep);
+    const Row row = own.step(kGuardStep);
     const int64_t ms = step * 1000 / 60;
     if (ms < 870 || ms > 1290) {
       EXPECT_EQ(row[2], 0.6f) << ms << ": a pause, in which joy may open the lips";
@@ -474,13 +475,13 @@ TEST(GuardOfAMixer, OfAnotherKindOrClipIsClosedByTheDistance) {
     const LabeledSpeech made(kind);
     OwnMixer own(made.mix);
     own.play(0, made.labeled);
-    own.step(kStep);
+    own.step(kGuardStep);
     EXPECT_EQ(LabeledSpeech::activation(own), 1) << static_cast<int>(kind);
   }
   const LabeledSpeech made;
   OwnMixer own(made.mix);
   own.play(0, made.plain);
-  own.step(kStep);
+  own.step(kGuardStep);
   EXPECT_EQ(LabeledSpeech::activation(own), 1) << "a clip that says nothing";
 }
 
@@ -488,7 +489,7 @@ TEST(GuardOfAMixer, GoesFromOneClipToTheOtherAsACrossfadeDoes) {
   const LabeledSpeech made;
   OwnMixer own(made.mix);
   own.play(0, made.plain);
-  own.step(kStep);
+  own.step(kGuardStep);
   own.play(0, made.labeled, Transition::kCrossfade, 400 * kMillisecond);
   float before = 1;
   for (int ms = 4; ms <= 400; ms += 4) {
@@ -509,8 +510,8 @@ TEST(GuardOfAMixer, OfALabeledClipIsAFunctionOfTimeAndOfTheWeight) {
     own->weight(0, 0.5f);
   }
   for (int step = 0; step < 60; ++step) {
-    for (int k = 0; k < 4; ++k) fine.step(kStep / 4);
-    coarse.step(kStep);
+    for (int k = 0; k < 4; ++k) fine.step(kGuardStep / 4);
+    coarse.step(kGuardStep);
     EXPECT_EQ(LabeledSpeech::activation(fine), LabeledSpeech::activation(coarse));
   }
   EXPECT_EQ(LabeledSpeech::activation(fine), 0.5f);

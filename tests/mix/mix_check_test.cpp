@@ -57,14 +57,14 @@ int expect_limits(Make make, Element element) {
   }
 }
 
-struct Everything : MixInput {
+struct EverySource : MixInput {
   const uint16_t curves[2] = {0, 1};
   const float amounts[2] = {1, 1};
   Stroke stroke = {0, BlendMode::kAdd, false, false, false, 0, 1, 2, 3};
   ReactionDesc reaction;
   AntagonistPair pair = {0, 1, 0.5f};
 
-  Everything() : MixInput(4, 1) {
+  EverySource() : MixInput(4, 1) {
     add_pose({0, 1}, {0.5f, 1});
     add(BlendMode::kOverride);
     add(BlendMode::kAdd, LayerSource::kPoses).pose_count = 1;
@@ -77,10 +77,10 @@ struct Everything : MixInput {
     desc.reactions = {&reaction, 1};
     desc.antagonists = {&pair, 1};
   }
-  Everything(const Everything&) = delete;
+  EverySource(const EverySource&) = delete;
 };
 
-std::unique_ptr<Everything> everything() { return std::make_unique<Everything>(); }
+std::unique_ptr<EverySource> everything() { return std::make_unique<EverySource>(); }
 
 TEST(CheckMix, EachFieldHasItsLimits) {
   Error error;
@@ -88,14 +88,14 @@ TEST(CheckMix, EachFieldHasItsLimits) {
   const int common = 6;  // group, mode, source, after_guards, weight, mask
   const int own[] = {0, 2, 2, 2};
   for (uint32_t i = 0; i < 4; ++i) {
-    const auto layer = [i](Everything& e) -> LayerDesc& { return e.layers[i]; };
+    const auto layer = [i](EverySource& e) -> LayerDesc& { return e.layers[i]; };
     EXPECT_EQ(expect_limits(everything, layer), common + own[i]) << i;
   }
-  EXPECT_EQ(expect_limits(everything, [](Everything& e) -> Stroke& { return e.stroke; }), 6);
-  EXPECT_EQ(expect_limits(everything, [](Everything& e) -> ReactionDesc& { return e.reaction; }),
+  EXPECT_EQ(expect_limits(everything, [](EverySource& e) -> Stroke& { return e.stroke; }), 6);
+  EXPECT_EQ(expect_limits(everything, [](EverySource& e) -> ReactionDesc& { return e.reaction; }),
             7);
-  EXPECT_EQ(expect_limits(everything, [](Everything& e) -> AntagonistPair& { return e.pair; }), 1);
-  EXPECT_EQ(expect_limits(everything, [](Everything& e) -> MixDesc& { return e.desc; }), 5);
+  EXPECT_EQ(expect_limits(everything, [](EverySource& e) -> AntagonistPair& { return e.pair; }), 1);
+  EXPECT_EQ(expect_limits(everything, [](EverySource& e) -> MixDesc& { return e.desc; }), 5);
 }
 
 TEST(CheckMix, MessagesNameTheElement) {
@@ -106,19 +106,19 @@ TEST(CheckMix, MessagesNameTheElement) {
     EXPECT_EQ(check_mix(input->finish(), error), Status::kInvalidArgument);
     return std::string(error.message);
   };
-  EXPECT_EQ(message([](Everything& e) { e.stroke.attack = -3; }),
+  EXPECT_EQ(message([](EverySource& e) { e.stroke.attack = -3; }),
             "reaction 0, stroke 0: .attack is -3; times are 0 ... 2^40 ticks (26 minutes)");
-  EXPECT_EQ(message([](Everything& e) { e.stroke.pose = 1; }),
+  EXPECT_EQ(message([](EverySource& e) { e.stroke.pose = 1; }),
             "reaction 0, stroke 0: .pose is 1; the mix has 1 poses");
-  EXPECT_EQ(message([](Everything& e) { e.layers[2].stream_frames = 1; }),
+  EXPECT_EQ(message([](EverySource& e) { e.layers[2].stream_frames = 1; }),
             "layer 2: .stream_frames is 1; it must be within 2 ... 1024");
-  EXPECT_EQ(message([](Everything& e) { e.layers[0].weight = -0.5f; }),
+  EXPECT_EQ(message([](EverySource& e) { e.layers[0].weight = -0.5f; }),
             "layer 0: .weight is -0.5; it must be within 0 ... 1");
-  EXPECT_EQ(message([](Everything& e) { e.layers[3].amounts = {}; }),
+  EXPECT_EQ(message([](EverySource& e) { e.layers[3].amounts = {}; }),
             "layer 3: 2 .curves, 0 .amounts; both must be as many");
-  EXPECT_EQ(message([](Everything& e) { e.pair.second = 5; }),
+  EXPECT_EQ(message([](EverySource& e) { e.pair.second = 5; }),
             "antagonists 0: .second is 5; curves are below 5");
-  EXPECT_EQ(message([](Everything& e) { e.reaction.level_off = 0.5f; }),
+  EXPECT_EQ(message([](EverySource& e) { e.reaction.level_off = 0.5f; }),
             "reaction 0: .level_off is 0.5; it is at most .level_on, 0");
 }
 

@@ -12,11 +12,11 @@
 namespace mien {
 namespace {
 
-constexpr size_t kCurves = 48;
+constexpr size_t kRowCurves = 48;
 
 /// With the zeros, ones and equal values at which formulas have ends.
 struct alignas(64) SomeRow {
-  float of[kCurves];
+  float of[kRowCurves];
   SomeRow(Random& random, float low, float high) {
     for (float& v : of) {
       const uint32_t end = random.below(6);
@@ -30,7 +30,7 @@ struct alignas(64) SomeRow {
 
 TEST(BlendCurves, HasTheBitsOfWholeRows) {
   Random random = Random::from_seed(8, 0);
-  std::vector<uint16_t> curves(kCurves);
+  std::vector<uint16_t> curves(kRowCurves);
   std::iota(curves.begin(), curves.end(), uint16_t{0});
   const KernelTable& kernels = *kernels_for(Isa::kBest);
   for (uint32_t mode = 0; mode < kBlendModes; ++mode) {
@@ -39,8 +39,8 @@ TEST(BlendCurves, HasTheBitsOfWholeRows) {
       const float weight = round % 3 == 0 ? 1.0f : static_cast<float>(random.real());
       SomeRow whole = before, listed = before;
       kernels.blend_row(
-          {x.of, nullptr, mask.of, whole.of, kCurves, weight, static_cast<BlendMode>(mode)});
-      blend_curves(static_cast<BlendMode>(mode), {curves.data(), kCurves}, x.of, mask.of, weight,
+          {x.of, nullptr, mask.of, whole.of, kRowCurves, weight, static_cast<BlendMode>(mode)});
+      blend_curves(static_cast<BlendMode>(mode), {curves.data(), kRowCurves}, x.of, mask.of, weight,
                    listed.of);
       EXPECT_EQ(memcmp(whole.of, listed.of, sizeof(whole.of)), 0) << "mode " << mode;
     }

@@ -17,7 +17,7 @@ namespace {
 constexpr uint32_t kRaw = 20;
 enum Curve : uint16_t { kLidLeft, kLidRight, kSquint = 2, kBrow = 4, kMouth = 6 };
 enum Variable : uint16_t { kGaze = kRaw, kPupil, kHead };
-constexpr uint32_t kCurves = kRaw + 3;
+constexpr uint32_t kReactionCurves = kRaw + 3;
 
 struct FaceMix {
   BoundClip speech;
@@ -77,7 +77,7 @@ void set_to(OwnMixer& own, float level) {
 
 /// Rows at each millisecond, from 1 on.
 struct Recording {
-  std::vector<Row> rows = {Row(kCurves)};
+  std::vector<Row> rows = {Row(kReactionCurves)};
   std::vector<int> events;  // milliseconds
 
   void step(OwnMixer& own) {
@@ -110,7 +110,7 @@ TEST(Glare, ActsWhenAndWhereItShould) {
       ASSERT_EQ(bits_of(a[kPupil]), bits_of(b[kPupil])) << ms;
     }
     for (uint32_t l = kMouth; l < kRaw; ++l) ASSERT_EQ(bits_of(a[l]), bits_of(b[l]));
-    for (uint32_t l = 0; l < kCurves && ms > 1; ++l) {
+    for (uint32_t l = 0; l < kReactionCurves && ms > 1; ++l) {
       const float faster =
           std::fabs((b[l] - with.rows[ms - 1][l]) - (a[l] - without.rows[ms - 1][l]));
       ASSERT_LE(faster * 1000, l < 2 ? 30.0f : 12.0f) << ms << ", curve " << l;
@@ -226,7 +226,7 @@ TEST(Glare, TriggeredAgainOrFlickeringMakesNoJump) {
       int blinks = 0, last_blink = -1000;
       for (int ms = 2; ms <= 9000; ++ms) {
         const Row &a = without.rows[ms], &b = with.rows[ms];
-        for (uint32_t l = 0; l < kCurves; ++l) {
+        for (uint32_t l = 0; l < kReactionCurves; ++l) {
           const float changed = (b[l] - with.rows[ms - 1][l]) - (a[l] - without.rows[ms - 1][l]);
           ASSERT_LE(std::fabs(changed) * 1000, l < 2 ? 30.0f : 12.0f) << ms << ", curve " << l;
         }
@@ -284,7 +284,7 @@ TEST(Level, ScalesStrokesWithoutAJump) {
   EXPECT_LT(with.rows[1400][kGaze], -0.3f) << "gaze is not scaled";
   for (int ms = 2; ms <= 12000; ++ms) {
     const Row &a = without.rows[ms], &b = with.rows[ms];
-    for (uint32_t l = 0; l < kCurves; ++l) {
+    for (uint32_t l = 0; l < kReactionCurves; ++l) {
       const float changed = (b[l] - with.rows[ms - 1][l]) - (a[l] - without.rows[ms - 1][l]);
       ASSERT_LE(std::fabs(changed) * 1000, l < 2 ? 30.0f : 12.0f) << ms << ", curve " << l;
     }

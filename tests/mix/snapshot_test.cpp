@@ -10,8 +10,8 @@
 namespace mien {
 namespace {
 
-constexpr uint32_t kCurves = 24;
-constexpr int64_t kStep = kTicksPerSecond / 60;
+constexpr uint32_t kSnapshotCurves = 24;
+constexpr int64_t kSnapshotStep = kTicksPerSecond / 60;
 
 /// Everything on.
 struct Everything {
@@ -24,13 +24,14 @@ struct Everything {
 
   Everything() {
     for (uint32_t i = 0; i < 3; ++i) {
-      ClipInput input(smooth_curves(80 + i, kCurves, 100 + 50 * i));
+      ClipInput input(smooth_curves(80 + i, kSnapshotCurves, 100 + 50 * i));
       input.wraps = i > 0;
-      clips.emplace_back(std::move(input), kCurves);
+      clips.emplace_back(std::move(input), kSnapshotCurves);
       sources.push_back(clips.back().source);
     }
-    for (uint16_t l = 0; l < kCurves + 1; ++l) mirror.push_back(l < kCurves ? l ^ 1 : l);
-    MixInput input(kCurves, 1);
+    for (uint16_t l = 0; l < kSnapshotCurves + 1; ++l)
+      mirror.push_back(l < kSnapshotCurves ? l ^ 1 : l);
+    MixInput input(kSnapshotCurves, 1);
     input.desc.mirror = {mirror.data(), mirror.size()};
     input.add(BlendMode::kOverride, LayerSource::kClip, LayerGroup::kSpeech);
     input.add(BlendMode::kScreen);
@@ -132,7 +133,7 @@ TEST(Snapshot, ContinuesToTheBitAnywhere) {
     // Into a fresh mixer, and into one that has done something else.
     OwnMixer other(all.mix, 1);
     other.play(0, all.clips[0]);
-    if (round % 2 == 0) other.step(kStep);
+    if (round % 2 == 0) other.step(kSnapshotStep);
     const std::vector<uint8_t> bytes = snapshot(own);
     ASSERT_EQ(restore(other, bytes, all.sources), Status::kOk);
     ASSERT_EQ(snapshot(other), bytes);
@@ -140,7 +141,8 @@ TEST(Snapshot, ContinuesToTheBitAnywhere) {
     for (int i = 0; i < 40; ++i) {
       all.disturb(own, mine);
       all.disturb(other, its);
-      ASSERT_TRUE(same_bits(own.step(kStep), other.step(kStep))) << round << ", " << i;
+      ASSERT_TRUE(same_bits(own.step(kSnapshotStep), other.step(kSnapshotStep)))
+          << round << ", " << i;
       ASSERT_EQ(own.mixer.event_count, other.mixer.event_count);
     }
   }
@@ -150,7 +152,7 @@ TEST(Snapshot, RefusesOtherMixesMissingClipsAndLittleRoom) {
   const Everything all;
   OwnMixer own(all.mix);
   own.play(0, all.clips[0]);
-  own.step(kStep);
+  own.step(kSnapshotStep);
   const std::vector<uint8_t> bytes = snapshot(own);
   Error error;
   std::vector<uint8_t> small(bytes.size() - 1);
@@ -161,14 +163,14 @@ TEST(Snapshot, RefusesOtherMixesMissingClipsAndLittleRoom) {
   const std::vector<uint8_t> untouched = snapshot(other);
   EXPECT_EQ(restore(other, bytes, {all.sources[1], all.sources[2]}), Status::kMismatch);
   std::vector<ClipSource> wrong = all.sources;
-  const BoundClip short_one(ClipInput(smooth_curves(1, kCurves, 1)), kCurves);
+  const BoundClip short_one(ClipInput(smooth_curves(1, kSnapshotCurves, 1)), kSnapshotCurves);
   wrong[0].clip = short_one.source.clip;
   EXPECT_EQ(restore(other, bytes, wrong), Status::kMismatch);
   EXPECT_EQ(restore(other, small, all.sources), Status::kInvalidArgument);
   EXPECT_EQ(restore(other, {}, all.sources), Status::kInvalidArgument);
   EXPECT_EQ(snapshot(other), untouched);
 
-  MixInput input(kCurves);
+  MixInput input(kSnapshotCurves);
   input.add(BlendMode::kOverride);
   const MixHandle small_mix = make_mix(input);
   OwnMixer of_other_mix(small_mix);
@@ -179,7 +181,7 @@ TEST(Snapshot, RefusesOtherMixesMissingClipsAndLittleRoom) {
 TEST(Snapshot, OfATimeLongAfterTheNextBlinkAreRefused) {
   const Everything all;
   OwnMixer own(all.mix), other(all.mix);
-  own.step(kStep);
+  own.step(kSnapshotStep);
   std::vector<uint8_t> bytes = snapshot(own);
   const size_t header = bytes.size() - own.mixer.state.count;
   const auto offset_of = [&](const void* in_state) {
@@ -210,7 +212,7 @@ TEST(Snapshot, DamagedOnesAreRefusedOrHarmless) {
   Random random = Random::from_seed(92, 0);
   for (int i = 0; i < 100; ++i) {
     all.disturb(own, random);
-    own.step(kStep);
+    own.step(kSnapshotStep);
   }
   const std::vector<uint8_t> good = snapshot(own);
   // Most of a snapshot are rows; the numbers that matter come first.
@@ -233,7 +235,7 @@ TEST(Snapshot, DamagedOnesAreRefusedOrHarmless) {
     }
     ++accepted;
     for (int i = 0; i < 3; ++i) {
-      for (float value : other.step(kStep)) ASSERT_FALSE(std::isnan(value));
+      for (float value : other.step(kSnapshotStep)) ASSERT_FALSE(std::isnan(value));
     }
   }
   EXPECT_GT(refused, 1000);
@@ -313,9 +315,9 @@ TEST(Snapshot, OfATransitionWithoutADistanceIsAccepted) {
   OwnMixer own(mix), other(mix);
   own.play(0, first);
   own.step(0);
-  own.step(kStep);
+  own.step(kSnapshotStep);
   own.play(0, second, Transition::kInertial, kTicksPerSecond);
-  own.step(kStep);
+  own.step(kSnapshotStep);
   EXPECT_EQ(restore(other, snapshot(own), {first.source, second.source}), Status::kOk);
 }
 

@@ -11,14 +11,14 @@
 namespace mien {
 namespace {
 
-constexpr uint32_t kCurves = 8;
+constexpr uint32_t kSourceCurves = 8;
 
 struct StreamMix {
   std::vector<uint16_t> curves = {1, 2, 5};
   MixHandle mix;
 
   explicit StreamMix(int64_t delay, uint32_t frames = 16) {
-    MixInput input(kCurves);
+    MixInput input(kSourceCurves);
     LayerDesc& layer = input.add(BlendMode::kOverride, LayerSource::kStream);
     layer.curves = {curves.data(), curves.size()};
     layer.delay = delay;
@@ -73,7 +73,7 @@ TEST(Stream, WithLossJitterAndAGapMakesNoJump) {
   }
   std::sort(arrivals.begin(), arrivals.end());
   size_t next = 0;
-  Row before(kCurves);
+  Row before(kSourceCurves);
   bool rested = false;
   float largest = 0;
   for (int ms = 1; ms < 9900; ++ms) {
@@ -82,7 +82,7 @@ TEST(Stream, WithLossJitterAndAGapMakesNoJump) {
       push(own, frame * kTicksPerSecond / 60, face_at(frame / 60.0));
     }
     const Row row = own.step(kMillisecond);
-    for (uint32_t l = 0; l < kCurves; ++l) {
+    for (uint32_t l = 0; l < kSourceCurves; ++l) {
       // The curve's own speed, up to three times where jitter skips frames, and a fade in 250 ms.
       largest = std::max(largest, std::fabs(row[l] - before[l]) * 1000);
     }
@@ -202,7 +202,7 @@ const uint16_t kTwo[2] = {2, 3};
 const float kOnes[2] = {1, 1};
 
 TEST(Blinks, ComeAboutEveryPeriodAndCloseBothLids) {
-  MixInput input(kCurves);
+  MixInput input(kSourceCurves);
   const MixHandle mix = generator_mix(input, Generator::kBlink, 4 * kTicksPerSecond, {kTwo, 2},
                                       {kOnes, 2}, BlendMode::kMax);
   OwnMixer own(mix, 5), same(mix, 5), other(mix, 6);
@@ -230,7 +230,7 @@ TEST(Blinks, ComeAboutEveryPeriodAndCloseBothLids) {
 }
 
 TEST(Blinks, CloseIn75StayFor25AndOpenIn150Milliseconds) {
-  MixInput input(kCurves);
+  MixInput input(kSourceCurves);
   const MixHandle mix = generator_mix(input, Generator::kBlink, 4 * kTicksPerSecond, {kTwo, 2},
                                       {kOnes, 2}, BlendMode::kMax);
   OwnMixer own(mix, 5);
@@ -258,7 +258,7 @@ TEST(Blinks, CloseIn75StayFor25AndOpenIn150Milliseconds) {
 }
 
 TEST(Blinks, WaitAfterThoseOfThePerformance) {
-  MixInput input(kCurves);
+  MixInput input(kSourceCurves);
   input.add(BlendMode::kOverride, LayerSource::kPoses).pose_count = 1;
   input.add_pose({2}, {1.0f});
   const MixHandle mix = generator_mix(input, Generator::kBlink, 2 * kTicksPerSecond, {kTwo, 2},
@@ -271,7 +271,7 @@ TEST(Blinks, WaitAfterThoseOfThePerformance) {
 }
 
 TEST(Breath, TakesTwoFifthsInAndRestsAtZero) {
-  MixInput input(kCurves);
+  MixInput input(kSourceCurves);
   const MixHandle mix =
       generator_mix(input, Generator::kBreath, kTicksPerSecond, {kTwo, 2}, {kOnes, 2});
   OwnMixer own(mix);
@@ -282,7 +282,7 @@ TEST(Breath, TakesTwoFifthsInAndRestsAtZero) {
 }
 
 TEST(Noise, IsSmoothBoundedAndDiffersByCurveAndSeed) {
-  MixInput input(kCurves);
+  MixInput input(kSourceCurves);
   const MixHandle mix =
       generator_mix(input, Generator::kNoise, kTicksPerSecond / 5, {kTwo, 2}, {kOnes, 2});
   OwnMixer own(mix, 1), other(mix, 2);
@@ -304,7 +304,7 @@ TEST(Noise, IsSmoothBoundedAndDiffersByCurveAndSeed) {
 
 TEST(Generators, DoNotDependOnHowTimeIsDivided) {
   for (Generator kind : {Generator::kBlink, Generator::kBreath, Generator::kNoise}) {
-    MixInput input(kCurves);
+    MixInput input(kSourceCurves);
     const MixHandle mix =
         generator_mix(input, kind, kTicksPerSecond, {kTwo, 2}, {kOnes, 2}, BlendMode::kAdd);
     OwnMixer fine(mix, 3), coarse(mix, 3), rare(mix, 3);
@@ -324,7 +324,7 @@ TEST(Generators, DoNotDependOnHowTimeIsDivided) {
 
 TEST(Generators, RefuseWhatIsOutOfRange) {
   const auto created = [](auto&& change) {
-    MixInput input(kCurves);
+    MixInput input(kSourceCurves);
     LayerDesc& layer = input.add(BlendMode::kAdd, LayerSource::kGenerator, LayerGroup::kLife);
     layer.curves = {kTwo, 2};
     layer.amounts = {kOnes, 2};
@@ -336,7 +336,7 @@ TEST(Generators, RefuseWhatIsOutOfRange) {
     release(mix);
     return status;
   };
-  static const uint16_t beyond[2] = {2, kCurves};
+  static const uint16_t beyond[2] = {2, kSourceCurves};
   EXPECT_EQ(created([](LayerDesc&) {}), Status::kOk);
   EXPECT_EQ(created([](LayerDesc& l) { l.period = 0; }), Status::kInvalidArgument);
   EXPECT_EQ(created([](LayerDesc& l) { l.amounts.count = 1; }), Status::kInvalidArgument);

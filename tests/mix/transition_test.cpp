@@ -11,8 +11,8 @@
 namespace mien {
 namespace {
 
-constexpr uint32_t kCurves = 16;
-constexpr int64_t kStep = kMillisecond;
+constexpr uint32_t kTransitionCurves = 16;
+constexpr int64_t kTransitionStep = kMillisecond;
 constexpr float kDt = 0.001f;
 
 struct TwoClips {
@@ -21,11 +21,11 @@ struct TwoClips {
 
   explicit TwoClips(uint32_t clip_count = 2, uint32_t players = 2) {
     for (uint32_t i = 0; i < clip_count; ++i) {
-      ClipInput input(smooth_curves(40 + i, kCurves, 600));
+      ClipInput input(smooth_curves(40 + i, kTransitionCurves, 600));
       input.wraps = true;
-      clips.emplace_back(std::move(input), kCurves);
+      clips.emplace_back(std::move(input), kTransitionCurves);
     }
-    MixInput input(kCurves);
+    MixInput input(kTransitionCurves);
     input.add(BlendMode::kOverride);
     input.desc.player_count = players;
     mix = make_mix(input);
@@ -44,7 +44,7 @@ struct Playing {
   }
   void step() {
     before = row;
-    row = own.step(kStep);
+    row = own.step(kTransitionStep);
   }
   float change(uint32_t curve) const { return row[curve] - before[curve]; }
 };
@@ -59,13 +59,13 @@ TEST(WeightFade, IsTheQuinticAndEndsExactly) {
   }
   constexpr int kSteps = 200;
   const float seconds = kSteps * kDt;
-  faded.own.weight(0, 1.0f, kSteps * kStep);
+  faded.own.weight(0, 1.0f, kSteps * kTransitionStep);
   for (int i = 1; i <= kSteps + 20; ++i) {
     faded.step();
     source.step();
     const double u = std::min(1.0, i / double{kSteps});
     const double s = u * u * u * (10 + u * (6 * u - 15));
-    for (uint32_t l = 0; l < kCurves; ++l) {
+    for (uint32_t l = 0; l < kTransitionCurves; ++l) {
       ASSERT_NEAR(faded.row[l], s * source.row[l], 1e-6);
       const float own = std::fabs(source.change(l));
       const float most = 1.875f * std::max(source.row[l], source.before[l]) / seconds * kDt;
@@ -86,14 +86,14 @@ TEST(Crossfade, KeepsTheSpeedOfItsSourcesAtBothEnds) {
     from.step();
   }
   constexpr int kSteps = 250;
-  crossed.own.play(0, setup.clips[1], Transition::kCrossfade, kSteps * kStep);
+  crossed.own.play(0, setup.clips[1], Transition::kCrossfade, kSteps * kTransitionStep);
   Playing to(setup, 1);
   to.row = to.own.step(0);
   for (int i = 1; i <= kSteps + 50; ++i) {
     crossed.step();
     from.step();
     to.step();
-    for (uint32_t l = 0; l < kCurves; ++l) {
+    for (uint32_t l = 0; l < kTransitionCurves; ++l) {
       const float apart =
           std::max(std::fabs(from.row[l] - to.row[l]), std::fabs(from.before[l] - to.before[l]));
       const float own = std::max(std::fabs(from.change(l)), std::fabs(to.change(l)));
@@ -114,18 +114,18 @@ TEST(Inertial, CarriesValueAndSpeedAndEndsExactly) {
     Playing run(setup, 0);
     for (int i = 0; i < start; ++i) run.step();
     const Row last = run.row;
-    Row velocity(kCurves);
-    for (uint32_t l = 0; l < kCurves; ++l) velocity[l] = run.change(l) / kDt;
+    Row velocity(kTransitionCurves);
+    for (uint32_t l = 0; l < kTransitionCurves; ++l) velocity[l] = run.change(l) / kDt;
     constexpr int kSteps = 200;
     const float seconds = kSteps * kDt;
-    run.own.play(0, setup.clips[1], Transition::kInertial, kSteps * kStep);
+    run.own.play(0, setup.clips[1], Transition::kInertial, kSteps * kTransitionStep);
     Playing to(setup, 1);
     to.row = to.own.step(0);
     const Row first = to.row;
     for (int i = 1; i <= kSteps + 10; ++i) {
       run.step();
       to.step();
-      for (uint32_t l = 0; l < kCurves; ++l) {
+      for (uint32_t l = 0; l < kTransitionCurves; ++l) {
         const float d = last[l] - first[l], v = velocity[l];
         const float offset = run.row[l] - to.row[l];
         if (i == 1) {
@@ -183,20 +183,20 @@ TEST(Transitions, WithoutEndsOfOtherOnesAreContinuous) {
     Random random = Random::from_seed(52, players);
     Playing run(setup, 0);
     int triggers = 0, until = 100, compared = 0;
-    Row velocity(kCurves), first;
+    Row velocity(kTransitionCurves), first;
     std::optional<Playing> to;  // the clip of an inertial transition that has just begun
     Row last;
     for (int i = 0; triggers < 100 && i < 60000; ++i) {
       run.step();
       if (i == 0) run.before = run.row;
-      for (uint32_t l = 0; l < kCurves; ++l) {
+      for (uint32_t l = 0; l < kTransitionCurves; ++l) {
         // No source is faster than 16 * 0.0963 / (40 / 60 s) * 1.1; a transition of 200 ms adds less
         // than 1.875 / 0.2 s, and what it carries over was within this bound itself.
         const float changed = run.change(l) / kDt, limit = 2.6f + 2 * 1.875f / 0.2f;
         ASSERT_LE(std::fabs(changed), limit) << i << ", curve " << l;
       }
       if (to) to->step();
-      for (uint32_t l = 0; to && l < kCurves; ++l) {
+      for (uint32_t l = 0; to && l < kTransitionCurves; ++l) {
         // As of an undisturbed one: the speed that there was, and what the new clip moves.
         const float d = last[l] - first[l], v = velocity[l], seconds = 0.2f;
         if (d * v < 0 && 5 * std::fabs(d) < seconds * std::fabs(v)) continue;  // it lasts shorter
@@ -206,7 +206,7 @@ TEST(Transitions, WithoutEndsOfOtherOnesAreContinuous) {
             << i << ", curve " << l;
       }
       to.reset();
-      for (uint32_t l = 0; l < kCurves; ++l) velocity[l] = run.change(l) / kDt;
+      for (uint32_t l = 0; l < kTransitionCurves; ++l) velocity[l] = run.change(l) / kDt;
       if (--until > 0) continue;
       until = static_cast<int>(5 + random.below(250));
       ++triggers;
@@ -221,7 +221,7 @@ TEST(Transitions, WithoutEndsOfOtherOnesAreContinuous) {
         first = to->row = to->own.step(0);
       }
       const Row now = run.own.step(0);
-      for (uint32_t l = 0; l < kCurves; ++l) ASSERT_NEAR(now[l], last[l], 1e-6f);
+      for (uint32_t l = 0; l < kTransitionCurves; ++l) ASSERT_NEAR(now[l], last[l], 1e-6f);
     }
     EXPECT_EQ(triggers, 100);
     EXPECT_GT(compared, 300);
@@ -257,9 +257,9 @@ TEST(WeightFade, DoesNotDependOnHowTimeIsDivided) {
     run->own.play(0, setup.clips[1], Transition::kCrossfade, kTicksPerSecond / 4);
   }
   for (int i = 0; i < 60; ++i) {
-    const Row row = coarse.own.step(4 * kStep);
-    for (int k = 0; k < 3; ++k) fine.own.step(kStep);
-    ASSERT_TRUE(same_bits(fine.own.step(kStep), row));
+    const Row row = coarse.own.step(4 * kTransitionStep);
+    for (int k = 0; k < 3; ++k) fine.own.step(kTransitionStep);
+    ASSERT_TRUE(same_bits(fine.own.step(kTransitionStep), row));
   }
 }
 
@@ -270,7 +270,7 @@ TEST(Loops, WithWrappingAddNoStep) {
   run.row = run.own.step(0);
   for (int i = 0; i < 200; ++i) {
     run.step();
-    for (uint32_t l = 0; l < kCurves; ++l) {
+    for (uint32_t l = 0; l < kTransitionCurves; ++l) {
       float largest = 0;
       for (uint32_t f : {593u, 594u, 595u, 596u, 597u, 598u, 599u, 0u, 1u, 2u, 3u, 4u, 5u, 6u}) {
         largest = std::max(largest, std::fabs(curves.at((f + 1) % 600, l) - curves.at(f, l)));
@@ -295,7 +295,7 @@ TEST(Crossfade, BetweenClipsOfDifferentControlsFadesEachOfThem) {
     OwnMixer own(mix);
     own.play(0, below);
     own.play(1, first);
-    EXPECT_TRUE(same_bits(own.step(kStep), Row(4, 1.0f)));
+    EXPECT_TRUE(same_bits(own.step(kTransitionStep), Row(4, 1.0f)));
     own.play(1, second, transition, 100 * kMillisecond);
     const Row half = own.step(50 * kMillisecond);
     EXPECT_NEAR(half[0], 0.625f, 1e-6f);

@@ -10,6 +10,7 @@
 
 #include "author/base/random.h"
 #include "runtime/anim/clip_block.h"
+#include "runtime/base/bits.h"
 #include "tests/simd/present_kernels.h"
 
 namespace mien {
@@ -22,12 +23,6 @@ float float_from(uint32_t bits) {
   float value;
   memcpy(&value, &bits, sizeof(value));
   return value;
-}
-
-uint32_t bits_of(float value) {
-  uint32_t bits;
-  memcpy(&bits, &value, sizeof(bits));
-  return bits;
 }
 
 /// Lanes within a run: some constant groups, widths from none to 32 bits.

@@ -137,20 +137,20 @@ TEST(JointTransposedKernels, HaveTheBitsOfTheirFamily) {
 
 TEST(SkinTransposedKernel, IsTheTransposedSkin) {
   Random random = Random::from_seed(72, 2);
-  constexpr uint32_t kJoints = 5, kCount = 6;
+  constexpr uint32_t kMatrices = 5, kCount = 6;
   for (const uint32_t influences : {1u, 3u, 9u}) {
     std::vector<float> positions(kCount * 4 + 16), weights(kCount * influences),
         gradients(kCount * 3 + 4);
-    std::vector<float> skins(kJoints * 16 + 16);
+    std::vector<float> skins(kMatrices * 16 + 16);
     std::vector<uint16_t> joints(kCount * influences);
     std::vector<uint32_t> indices = {3, 0, 5, 1, 4, 2};
     for (std::vector<float>* row : {&positions, &weights, &gradients, &skins}) {
       for (float& v : *row) v = static_cast<float>(random.between(-1, 1));
     }
-    for (uint16_t& j : joints) j = static_cast<uint16_t>(random.below(kJoints));
+    for (uint16_t& j : joints) j = static_cast<uint16_t>(random.below(kMatrices));
     for (const KernelTable* kernels : present_kernels()) {
       SCOPED_TRACE(kernels->name);
-      std::vector<float> matrices(kJoints * 12), out(kCount * 4);
+      std::vector<float> matrices(kMatrices * 12), out(kCount * 4);
       SkinTransposedArgs args = {};
       args.positions = positions.data();
       args.weights = weights.data();
@@ -163,7 +163,7 @@ TEST(SkinTransposedKernel, IsTheTransposedSkin) {
       args.count = kCount;
       args.influences = influences;
       kernels->skin_transposed(args);
-      std::vector<double> expected(kJoints * 12), moved(kCount * 3);
+      std::vector<double> expected(kMatrices * 12), moved(kCount * 3);
       for (size_t i = 0; i < kCount; ++i) {
         for (size_t k = 0; k < influences; ++k) {
           const size_t at = i * influences + k, joint = joints[at];

@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "runtime/base/bits.h"
 #include "simd/cpu_features.h"
 #include "tests/simd/present_kernels.h"
 
@@ -40,12 +41,6 @@ float fused(float a, float b, float c) {
 float rounded_twice(float a, float b, float c) {
   const volatile float product = a * b;  // volatile: this file may be built with contraction on
   return product + c;
-}
-
-uint32_t bits_of(float value) {
-  uint32_t bits;
-  std::memcpy(&bits, &value, sizeof bits);
-  return bits;
 }
 
 /// A joint matrix with awkward numbers; the same for the same counts. Every column holds some of

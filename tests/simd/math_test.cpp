@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "author/base/random.h"
+#include "runtime/base/bits.h"
 #include "tests/simd/math_probe.h"
 
 namespace mien {
@@ -56,12 +57,6 @@ float float_of(uint32_t bits) {
   std::memcpy(&value, &bits, sizeof(value));
   return value;
 }
-uint32_t bits_of(float value) {
-  uint32_t bits;
-  std::memcpy(&bits, &value, sizeof(bits));
-  return bits;
-}
-
 /// Floats at a multiple of 64 bytes, in whole steps.
 struct Floats {
   explicit Floats(size_t count) : storage(count + kStep + 16) {

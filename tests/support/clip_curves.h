@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,12 @@ struct Curves {
   }
   size_t raw_bytes() const { return values.size() * sizeof(float); }
 };
+
+inline Curves one_channel(std::initializer_list<float> values) {
+  Curves curves(1, static_cast<uint32_t>(values.size()));
+  curves.values = values;
+  return curves;
+}
 
 /// Poses of 4 to 22 controls, eased into one another over 8 to 24 frames, half of them held for up
 /// to a second; controls leave up to 4 frames earlier or later than their pose. 60 per second.

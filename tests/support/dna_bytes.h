@@ -12,6 +12,8 @@
 
 namespace mien::dna {
 
+inline std::string text(const String& string) { return {string.chars(), string.count}; }
+
 /// A layer of a file from 2.2 on: what its index entry says, and its bytes.
 struct Layer {
   std::string code;

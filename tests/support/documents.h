@@ -5,10 +5,17 @@
 #include <functional>
 
 #include "tests/support/counting_allocator.h"
+#include "tests/support/dna_bytes.h"
 #include "tests/support/golden.h"
 #include "tests/support/rig_handles.h"
+#include "tests/support/tiny_rig.h"
 
 namespace mien {
+
+inline std::vector<uint8_t> tiny_bytes() {
+  Arena arena(default_allocator());
+  return dna::written(dna::tiny_rig(arena));
+}
 
 struct DestroyDocument {
   void operator()(MienDocument* document) const { mien_document_destroy(document); }

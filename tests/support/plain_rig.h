@@ -9,6 +9,10 @@
 
 namespace mien {
 
+using Floats = std::vector<float>;
+
+inline Floats copy_of(Span<const float> values) { return {values.begin(), values.end()}; }
+
 using namespace model;
 
 /// Lists and arrays lie in `arena`.

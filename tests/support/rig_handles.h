@@ -20,6 +20,11 @@ struct CloseHandle {
   void operator()(MienRig* rig) const { mien_rig_destroy(rig); }
   void operator()(MienInstance* instance) const { mien_instance_destroy(instance); }
   void operator()(MienBatch* batch) const { mien_batch_destroy(batch); }
+  void operator()(MienClip* clip) const { mien_clip_close(clip); }
+  void operator()(MienClipPlayer* player) const { mien_clip_player_destroy(player); }
+  void operator()(MienClipBinding* binding) const { mien_clip_binding_destroy(binding); }
+  void operator()(MienMix* mix) const { mien_mix_destroy(mix); }
+  void operator()(MienMixer* mixer) const { mien_mixer_destroy(mixer); }
 };
 using BatchHandle = std::unique_ptr<MienBatch, CloseHandle>;
 /// Shows what is behind the handle: dna->view.
@@ -29,6 +34,17 @@ struct DnaHandle : std::unique_ptr<MienDna, CloseHandle> {
 };
 using RigHandle = std::unique_ptr<MienRig, CloseHandle>;
 using InstanceHandle = std::unique_ptr<MienInstance, CloseHandle>;
+using ClipHandle = std::unique_ptr<MienClip, CloseHandle>;
+using BindingHandle = std::unique_ptr<MienClipBinding, CloseHandle>;
+using PlayerHandle = std::unique_ptr<MienClipPlayer, CloseHandle>;
+using MixHandle = std::unique_ptr<MienMix, CloseHandle>;
+using MixerHandle = std::unique_ptr<MienMixer, CloseHandle>;
+
+inline MienDnaInfo info_of(const DnaHandle& dna) {
+  MienDnaInfo info = sized<MienDnaInfo>();
+  EXPECT_EQ(mien_dna_info(dna.get(), &info), MIEN_OK);
+  return info;
+}
 
 inline DnaHandle open_dna(const std::vector<uint8_t>& bytes, uint64_t lods = 0,
                           MienStatus expected = MIEN_OK) {

@@ -14,11 +14,6 @@
 namespace mien {
 namespace {
 
-Bytes tiny_bytes() {
-  Arena arena(default_allocator());
-  return dna::written(dna::tiny_rig(arena));
-}
-
 /// Where two files of equal size differ: [first, last].
 std::pair<size_t, size_t> differing(const Bytes& a, const Bytes& b) {
   size_t first = SIZE_MAX, last = 0;

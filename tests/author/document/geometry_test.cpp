@@ -17,11 +17,6 @@
 namespace mien {
 namespace {
 
-Bytes tiny_bytes() {
-  Arena arena(default_allocator());
-  return dna::written(dna::tiny_rig(arena));
-}
-
 std::vector<float> vectors_of(const DocumentHandle& document, const std::string& path) {
   const auto x = floats_of(document, path + ".xs"), y = floats_of(document, path + ".ys"),
              z = floats_of(document, path + ".zs");

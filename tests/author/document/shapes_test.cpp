@@ -19,7 +19,7 @@ std::string mesh_path(size_t mesh, const char* rest) {
   return "geom.meshes[" + std::to_string(mesh) + "]." + rest;
 }
 
-std::vector<Weights> weights_of(const DocumentHandle& d, size_t mesh) {
+std::vector<Weights> named_weights_of(const DocumentHandle& d, size_t mesh) {
   const auto names = strings_of(d, "defn.jointNames");
   std::vector<Weights> all(field_of(d, mesh_path(mesh, "skinWeights")).count);
   for (size_t v = 0; v < all.size(); ++v) {
@@ -72,7 +72,7 @@ TEST(CopyMesh, BringsBackAMeshThatWasRemoved) {
     ASSERT_EQ(mien_document_copy_mesh(document.get(), other.get(), mesh, &made, &error), MIEN_OK)
         << error.message;
     EXPECT_EQ(string_of(document, "defn.meshNames[" + std::to_string(made) + "]"), names[mesh]);
-    EXPECT_EQ(weights_of(document, made), weights_of(other, mesh));
+    EXPECT_EQ(named_weights_of(document, made), named_weights_of(other, mesh));
     EXPECT_EQ(targets_of(document, made), targets_of(other, mesh));
     for (const char* field : {"positions.xs", "normals.zs", "textureCoordinates.us"}) {
       EXPECT_EQ(floats_of(document, mesh_path(made, field)),
@@ -109,7 +109,7 @@ TEST(CopyMesh, HandsInfluenceOfOtherJointsToAncestors) {
   }
   uint32_t made = 0;
   ASSERT_EQ(mien_document_copy_mesh(document.get(), other.get(), 0, &made, nullptr), MIEN_OK);
-  const auto found = weights_of(document, made), wanted = weights_of(model, 0);
+  const auto found = named_weights_of(document, made), wanted = named_weights_of(model, 0);
   ASSERT_EQ(found.size(), wanted.size());
   for (size_t v = 0; v < found.size(); ++v) {
     ASSERT_EQ(found[v].size(), wanted[v].size());
@@ -222,7 +222,8 @@ TEST(Project, ReproducesAMeshAtTheSamePlaces) {
               MIEN_OK)
         << error.message;
     EXPECT_LT(farthest, 1e-4);
-    const auto wanted = weights_of(document, source), found = weights_of(document, twin);
+    const auto wanted = named_weights_of(document, source),
+               found = named_weights_of(document, twin);
     // Positions at one place in space, and places of the texture that several positions have, may get each
     // other's: all but a few are the same.
     size_t other = 0;
@@ -274,7 +275,7 @@ TEST(MakeLod, GivesEveryMeshOfALodWeightsOfItsJoints) {
       << error.message;
   EXPECT_TRUE(dna_of(document));
   for (int64_t mesh : meshes) {
-    const auto weights = weights_of(document, static_cast<size_t>(mesh));
+    const auto weights = named_weights_of(document, static_cast<size_t>(mesh));
     ASSERT_FALSE(weights.empty());
     for (const Weights& vertex : weights) {
       double sum = 0;

@@ -18,6 +18,7 @@
 #include "author/base/random.h"
 #include "author/generate/head/dna.h"
 #include "tests/support/counting_allocator.h"
+#include "tests/support/dna_bytes.h"
 #include "tests/support/rig_handles.h"
 
 namespace mien {
@@ -31,8 +32,6 @@ using head::Part;
 
 Vec3 mirrored(Vec3 v) { return {-v.x, v.y, v.z}; }
 Vec3 point(const dna::Vec3Array& v, size_t i) { return {v.xs[i], v.ys[i], v.zs[i]}; }
-std::string text(const dna::String& s) { return {s.chars(), s.count}; }
-
 using Points = std::vector<Vec3>;
 using Triangle = std::array<uint32_t, 3>;
 

@@ -8,18 +8,11 @@
 #include <vector>
 
 #include "author/generate/synthetic/rig.h"
+#include "tests/support/dna_bytes.h"
 #include "tests/support/rig_handles.h"
 
 namespace mien {
 namespace {
-
-MienDnaInfo info_of(const DnaHandle& dna) {
-  MienDnaInfo info = sized<MienDnaInfo>();
-  EXPECT_EQ(mien_dna_info(dna.get(), &info), MIEN_OK);
-  return info;
-}
-
-std::string text(const dna::String& s) { return {s.chars(), s.count}; }
 
 std::set<std::string> names_of(const dna::List<dna::String>& list) {
   std::set<std::string> names;

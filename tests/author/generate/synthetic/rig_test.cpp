@@ -90,8 +90,6 @@ uint64_t hash_of(const DnaView& view) {
   return hasher.hash;
 }
 
-std::string text(const dna::String& s) { return {s.chars(), s.count}; }
-
 size_t distinct(const List<dna::String>& names) {
   std::set<std::string> set;
   for (const dna::String& name : names) set.insert(text(name));
@@ -355,16 +353,16 @@ TEST_P(EveryRig, ChannelsOfALodAreThoseThatItsEntriesWrite) {
   }
 }
 
-struct Point {
+struct DoublePoint {
   double x, y, z;
 };
 
-Point minus(Point a, Point b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-Point cross(Point a, Point b) {
+DoublePoint minus(DoublePoint a, DoublePoint b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+DoublePoint cross(DoublePoint a, DoublePoint b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-double dot(Point a, Point b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-Point point(const dna::Vec3Array& v, size_t i) { return {v.xs[i], v.ys[i], v.zs[i]}; }
+double dot(DoublePoint a, DoublePoint b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+DoublePoint point_of(const dna::Vec3Array& v, size_t i) { return {v.xs[i], v.ys[i], v.zs[i]}; }
 
 TEST_P(EveryRig, MeshesAreClosedAndFaceOutward) {
   for (const dna::Mesh& mesh : view.geom.meshes) {
@@ -376,16 +374,16 @@ TEST_P(EveryRig, MeshesAreClosedAndFaceOutward) {
       for (size_t i = 0; i < n; ++i) at[i] = mesh.layouts.positions[face.layout_indices[i]];
       for (size_t i = 0; i < n; ++i) edges.insert({at[i], at[(i + 1) % n]});
       corners += n;
-      const Point a = point(mesh.positions, at[0]);
-      const Point normal =
-          cross(minus(point(mesh.positions, at[1]), a), minus(point(mesh.positions, at[2]), a));
+      const DoublePoint a = point_of(mesh.positions, at[0]);
+      const DoublePoint normal = cross(minus(point_of(mesh.positions, at[1]), a),
+                                       minus(point_of(mesh.positions, at[2]), a));
       const uint32_t n0 = mesh.layouts.normals[face.layout_indices[0]];
-      EXPECT_GT(dot(normal, point(mesh.normals, n0)), 0);
+      EXPECT_GT(dot(normal, point_of(mesh.normals, n0)), 0);
     }
     EXPECT_EQ(edges.size(), corners) << "an edge is walked twice in one direction";
     for (const auto& edge : edges) EXPECT_TRUE(edges.count({edge.second, edge.first}));
     for (size_t i = 0; i < mesh.normals.xs.count; ++i) {
-      EXPECT_NEAR(dot(point(mesh.normals, i), point(mesh.normals, i)), 1, 1e-6);
+      EXPECT_NEAR(dot(point_of(mesh.normals, i), point_of(mesh.normals, i)), 1, 1e-6);
     }
   }
 }
@@ -467,15 +465,15 @@ TEST(SyntheticRig, WritesAsAFileOfProductionSize) {
 // Neutral pose ------------------------------------------------------------------------------------
 
 /// Where a joint stands on the head, from the neutral values of its ancestors.
-Point index_of(const dna::Definition& defn, uint16_t joint) {
+DoublePoint index_of(const dna::Definition& defn, uint16_t joint) {
   const double kPi = 3.14159265358979323846;
-  Point at = {0, 0, 0};
+  DoublePoint at = {0, 0, 0};
   for (;; joint = defn.joint_hierarchy[joint]) {
-    const Point t = point(defn.neutral_translations, joint);
+    const DoublePoint t = point_of(defn.neutral_translations, joint);
     at = {at.x + t.x, at.y + t.y, at.z + t.z};
     const uint16_t parent = defn.joint_hierarchy[joint];
     if (parent == joint) return at;
-    const Point degrees = point(defn.neutral_rotations, parent);
+    const DoublePoint degrees = point_of(defn.neutral_rotations, parent);
     const double angles[3] = {degrees.x * kPi / 180, degrees.y * kPi / 180, degrees.z * kPi / 180};
     double p[3] = {at.x, at.y, at.z};
     for (int axis = 0; axis < 3; ++axis) {  // about fixed axes, x first
@@ -493,7 +491,7 @@ TEST_P(EveryRig, JointsStandOnTheHeadMirroredInSpiteOfTurnedParents) {
   for (uint16_t j = 0; j < defn.joint_names.count; ++j) {
     const std::string name = text(defn.joint_names[j]);
     turned += defn.neutral_rotations.xs[j] != 0 && defn.neutral_rotations.ys[j] != 0;
-    const Point p = index_of(defn, j);
+    const DoublePoint p = index_of(defn, j);
     EXPECT_LT(std::abs(p.x), 8.5) << name;
     EXPECT_LT(std::abs(p.y + 3.5), 16) << name;
     EXPECT_LT(std::abs(p.z), 10) << name;
@@ -502,7 +500,7 @@ TEST_P(EveryRig, JointsStandOnTheHeadMirroredInSpiteOfTurnedParents) {
     }
     if (name.rfind("FACIAL_L_", 0) != 0) continue;
     ASSERT_EQ(text(defn.joint_names[j + 1u]), "FACIAL_R_" + name.substr(9));
-    const Point q = index_of(defn, static_cast<uint16_t>(j + 1));
+    const DoublePoint q = index_of(defn, static_cast<uint16_t>(j + 1));
     EXPECT_NEAR(p.x, -q.x, 1e-5) << name;
     EXPECT_NEAR(p.y, q.y, 1e-5) << name;
     EXPECT_NEAR(p.z, q.z, 1e-5) << name;
