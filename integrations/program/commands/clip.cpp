@@ -8,10 +8,10 @@
 
 #include "integrations/program/commands/baked_rig.h"
 #include "integrations/program/commands/options.h"
+#include "integrations/program/io/bound_clip.h"
 #include "integrations/program/io/clip_file.h"
 #include "integrations/program/io/input.h"
 #include "integrations/program/io/json_writer.h"
-#include "integrations/program/io/matched_names.h"
 #include "integrations/program/io/output.h"
 #include "integrations/program/io/rig_file.h"
 #include "integrations/program/io/take.h"
@@ -22,7 +22,7 @@ namespace mien::cli {
 namespace {
 
 struct BuildOptions {
-  std::string input, rate, snap, tolerance, rig, loop = "clamp", channels, minus;
+  std::string input, rate, snap, tolerance, rig, names, loop = "clamp", channels, minus;
   std::vector<std::string> closures;
   bool resample = false;
   OutputFile output;
@@ -142,8 +142,9 @@ Clip built(const MienClipDesc& desc, const Take& take) {
 }
 
 /// A step for each channel of which half moves no vertex of a rig by more than the tolerance.
-std::vector<float> steps_on_rig(const Clip& clip, const std::string& path, float tolerance,
-                                const Session& session) {
+std::vector<float> steps_on_rig(const Clip& clip, const Take& take, const BuildOptions& options,
+                                float tolerance, const Session& session) {
+  const std::string& path = options.rig;
   std::optional<BakedFile> baked;
   std::optional<RigFile> dna;
   Rig made;
@@ -170,23 +171,18 @@ std::vector<float> steps_on_rig(const Clip& clip, const std::string& path, float
     fail(kInvalid, "cannot measure steps", path, "the baked file has no geometry",
          "bake it with its geometry, or give the DNA file");
   }
-  const std::vector<MienMatrixEntry> matrix = NamesFile().matrix();
-  auto desc = sized<MienClipBindingDesc>();
-  desc.matrix = matrix.data();
-  desc.matrix_count = matrix.size();
-  MienClipBinding* bound = nullptr;
-  check(mien_clip_binding_create(clip.get(), rig, &desc, &bound, &error), &error,
-        "cannot bind clip", path);
-  const std::unique_ptr<MienClipBinding, Destroy<MienClipBinding, mien_clip_binding_destroy>>
-      binding(bound);
-  auto info = sized<MienClipBindingInfo>();
-  check(mien_clip_binding_info(bound, &info), nullptr, "cannot bind clip", path);
+  const ClipBinding binding =
+      bind_clip(clip.get(), rig, NamesFile(options.names), "cannot bind clip", take.shown, session);
+  const MienClipBindingInfo info = binding_info(binding.get());
   std::vector<float> steps(info.channel_count);
-  check(mien_clip_binding_snaps(bound, deformer, tolerance, steps.data(), steps.size(), &error),
+  check(mien_clip_binding_snaps(binding.get(), deformer, tolerance, steps.data(), steps.size(),
+                                &error),
         &error, "cannot measure steps", path);
   if (info.missing_channels.count != 0) {
-    note(session, std::to_string(info.missing_channels.count) +
-                      " channels drive nothing on the rig: they are rounded to 1/2048");
+    note(session,
+         std::to_string(info.missing_channels.count) + " of " + std::to_string(take.names.size()) +
+             " channels drive nothing on the rig and are rounded to 1/2048, the first is " +
+             one_line(take.names[info.missing_channels.data[0]]));
   }
   return steps;
 }
@@ -271,6 +267,10 @@ void run_build(const BuildOptions& options, const Session& session) {
   if (options.rig.empty() && !options.tolerance.empty()) {
     fail_usage("--tolerance", "no rig to measure on", "add --rig RIG");
   }
+  if (options.rig.empty() && !options.names.empty()) {
+    fail_usage("--names", "a clip keeps the names of its take",
+               "add --rig RIG, whose controls they mean");
+  }
   if (!options.rig.empty() && !options.snap.empty()) {
     fail_usage("--snap", "--rig finds the steps", "leave out one of them");
   }
@@ -305,7 +305,7 @@ void run_build(const BuildOptions& options, const Session& session) {
   Clip clip = built(desc, take);
   std::vector<float> steps;
   if (!options.rig.empty()) {
-    steps = steps_on_rig(clip, options.rig, tolerance, session);
+    steps = steps_on_rig(clip, take, options, tolerance, session);
     desc.snaps = steps.data();
     clip = built(desc, take);
   }
@@ -548,6 +548,11 @@ Command add_clip_command(CLI::App& app, const Session& session) {
           "Round each channel to the coarsest step that moves no vertex of\nthis rig by more "
           "than --tolerance")
       ->type_name("RIG");
+  build_app
+      ->add_option("--names", build->names,
+                   "With --rig: JSON with meanings of names on this rig, before those that\n"
+                   "Mien knows: {\"smirk\": \"mouthSmileLeft\"}")
+      ->type_name("FILE");
   build_app->add_option("--tolerance", build->tolerance, "In millimeters (default: 0.02)")
       ->type_name("MM");
   build_app->add_option("--loop", build->loop, "After the last frame: clamp (default) or wrap")

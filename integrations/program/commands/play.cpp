@@ -185,7 +185,7 @@ void run(const PlayOptions& options, const Session& session) {
 
   std::unique_ptr<RealTime> real_time;
   if (options.real_time.given()) {
-    real_time = std::make_unique<RealTime>(options.real_time, rig, session);
+    real_time = std::make_unique<RealTime>(options.real_time, rig, names, session);
   }
   const StreamScript stream = real_time ? real_time->stream() : StreamScript();
   Performance performance(script, rig, meshes, stream, names, session);

@@ -52,21 +52,22 @@ void RealTime::check(const RealTimeOptions& options) {
   }
 }
 
-RealTime::RealTime(const RealTimeOptions& options, const MienRig* rig, const Session& session) {
+RealTime::RealTime(const RealTimeOptions& options, const MienRig* rig, const NamesFile& names,
+                   const Session& session) {
   stream_.delay = parse_delay(options.delay);
   if (!options.send.empty()) {
-    std::vector<std::string> names;
+    std::vector<std::string> sent;
     for (uint32_t i = 0; i < rig_count(rig, MIEN_KIND_RAW_CONTROL); ++i) {
-      names.emplace_back(short_name(rig_name(rig, MIEN_KIND_RAW_CONTROL, i)));
+      sent.emplace_back(short_name(rig_name(rig, MIEN_KIND_RAW_CONTROL, i)));
     }
     sender_ = std::make_unique<live::VmcSender>(checked_address("--send", options.send, true),
-                                                std::move(names));
+                                                std::move(sent));
   }
   if (!options.live.empty()) {
     const auto delay =
         static_cast<int64_t>(stream_.delay * static_cast<double>(MIEN_TICKS_PER_SECOND));
     input_ = std::make_unique<live::LiveInput>(checked_address("--live", options.live, false),
-                                               delay, options.device, rig, session);
+                                               delay, options.device, rig, names, session);
     stream_.curves = input_->curves();
   }
   interrupted = 0;

@@ -24,7 +24,8 @@ class RealTime {
   static void check(const RealTimeOptions& options);
 
   /// Listens from now on.
-  RealTime(const RealTimeOptions& options, const MienRig* rig, const Session& session);
+  RealTime(const RealTimeOptions& options, const MienRig* rig, const NamesFile& names,
+           const Session& session);
   ~RealTime();
   RealTime(const RealTime&) = delete;
   RealTime& operator=(const RealTime&) = delete;

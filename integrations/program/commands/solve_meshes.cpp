@@ -5,10 +5,10 @@
 #include <cstring>
 #include <filesystem>
 
+#include "integrations/program/io/bound_clip.h"
 #include "integrations/program/io/clip_file.h"
 #include "integrations/program/io/controls.h"
 #include "integrations/program/io/input.h"
-#include "integrations/program/io/matched_names.h"
 #include "integrations/program/io/text.h"
 #include "integrations/program/math/vector.h"
 #include "integrations/program/mesh/mesh_file.h"
@@ -157,18 +157,9 @@ std::vector<Frame> read_controls(const std::string& path, const SolvedRig& other
   }
   const ClipFile clip = open_clip_file(path);
   rate = {clip.info.rate_numerator, clip.info.rate_denominator};
-  const std::vector<MienMatrixEntry> matrix = NamesFile().matrix();
-  auto desc = sized<MienClipBindingDesc>();
-  desc.matrix = matrix.data();
-  desc.matrix_count = matrix.size();
-  auto error = sized<MienError>();
-  MienClipBinding* bound = nullptr;
-  check(mien_clip_binding_create(clip.clip.get(), other.rig, &desc, &bound, &error), &error,
-        "cannot bind clip", clip.shown);
-  const std::unique_ptr<MienClipBinding, Destroy<MienClipBinding, mien_clip_binding_destroy>>
-      binding(bound);
-  auto info = sized<MienClipBindingInfo>();
-  check(mien_clip_binding_info(bound, &info), nullptr, "cannot bind clip", clip.shown);
+  const ClipBinding binding =
+      bind_clip(clip.clip.get(), other.rig, NamesFile(), "cannot bind clip", clip.shown, session);
+  const MienClipBindingInfo info = binding_info(binding.get());
   if (info.missing_channels.count != 0) {
     note(session, one_line(other.shown) + " has no controls for " +
                       grouped(info.missing_channels.count) + " of " +
@@ -176,7 +167,8 @@ std::vector<Frame> read_controls(const std::string& path, const SolvedRig& other
   }
   std::vector<float> raw(rig_count(other.rig, MIEN_KIND_RAW_CONTROL));
   for_each_frame(clip, [&](uint32_t, const float* values) {
-    check(mien_clip_binding_apply(bound, values, clip.info.channel_count, raw.data(), raw.size()),
+    check(mien_clip_binding_apply(binding.get(), values, clip.info.channel_count, raw.data(),
+                                  raw.size()),
           nullptr, "cannot bind clip", clip.shown);
     Frame frame;
     for (uint32_t i = 0; i < raw.size(); ++i) frame.raw.push_back({i, raw[i]});

@@ -71,7 +71,7 @@ std::string metahuman_name(const std::string& name) {
   if (kShared.count(usual) != 0) return group + usual;
   std::string control;
   bool is_arkit = false;
-  for (const MienMatrixEntry& entry : NamesFile().matrix()) {
+  for (const MienMatrixEntry& entry : arkit_matrix()) {
     const std::string channel(entry.channel.data, entry.channel.count);
     // Also "mouthSmile", which is neither side's.
     is_arkit = is_arkit || channel.compare(0, usual.size(), usual) == 0;
@@ -109,24 +109,11 @@ NamesFile::NamesFile(const std::string& path) {
   }
 }
 
-std::vector<MienMatrixEntry> NamesFile::matrix() const {
-  std::vector<MienMatrixEntry> entries;
-  for (const auto& [name, shares] : names_) {
-    for (const Share& share : shares) {
-      entries.push_back({{name.data(), name.size()},
-                         {share.control.data(), share.control.size()},
-                         share.weight,
-                         0});
-    }
-  }
+std::vector<MienMatrixEntry> arkit_matrix() {
   size_t count = 0;  // neither call can fail
   (void)mien_arkit_matrix(nullptr, 0, &count);
-  std::vector<MienMatrixEntry> arkit(count);
-  (void)mien_arkit_matrix(arkit.data(), count, &count);
-  for (const MienMatrixEntry& entry : arkit) {
-    if (names_.count(std::string(entry.channel.data, entry.channel.count)) == 0)
-      entries.push_back(entry);
-  }
+  std::vector<MienMatrixEntry> entries(count);
+  (void)mien_arkit_matrix(entries.data(), count, &count);
   return entries;
 }
 
@@ -156,14 +143,24 @@ MatchedNames::MatchedNames(const MienRig* rig, const NamesFile& file, const char
 MatchedName MatchedNames::find(const std::string& name) {
   const auto given = given_.find(name);
   const MatchedName match = given != given_.end() ? given->second : match_name(rig_, name);
-  if (match.found() && match.how != MIEN_NAME_MATCH_AS_WRITTEN) {
-    std::string text;
-    for (const MienControlShare& share : match.shares) {
-      text += (text.empty() ? "" : " + ") + share_text(rig_, share);
-    }
-    matched_[name] = text;
-  }
+  keep(name, match);
   return match;
+}
+
+void MatchedNames::keep(const std::string& name, const MatchedName& match) {
+  if (!match.found() || match.how == MIEN_NAME_MATCH_AS_WRITTEN) return;
+  if (match.is_one()) {
+    const MatchedName written = match_name(rig_, name);
+    if (written.how == MIEN_NAME_MATCH_AS_WRITTEN &&
+        written.shares[0].control == match.shares[0].control) {
+      return;
+    }
+  }
+  std::string text;
+  for (const MienControlShare& share : match.shares) {
+    text += (text.empty() ? "" : " + ") + share_text(rig_, share);
+  }
+  matched_[name] = text;
 }
 
 void MatchedNames::note_matched(const std::string& shown, const Session& session) const {

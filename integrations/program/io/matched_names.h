@@ -39,13 +39,14 @@ class NamesFile {
   bool empty() const { return names_.empty(); }
   const std::map<std::string, std::vector<Share>>& names() const { return names_; }
   const std::string& shown() const { return shown_; }
-  /// For bindings of clips: its names, then those of ARKit that it does not have. Points into this object.
-  std::vector<MienMatrixEntry> matrix() const;
 
  private:
   std::string shown_;
   std::map<std::string, std::vector<Share>> names_;
 };
+
+/// The names of ARKit as controls of MetaHuman heads. Names are static.
+std::vector<MienMatrixEntry> arkit_matrix();
 
 /// The usual name of a control: "mouthSmileLeft" for "AU12_L"; "" if the library has none.
 std::string usual_name(const std::string& name);
@@ -53,13 +54,17 @@ std::string usual_name(const std::string& name);
 /// theirs alone does.
 std::string metahuman_name(const std::string& name);
 
-/// Finds names on one rig, and keeps those that the rig spells otherwise. The rig outlives it.
+/// Finds names on one rig, and remembers those that the rig spells otherwise. The rig outlives it.
 class MatchedNames {
  public:
   /// Fails if the rig lacks a control of the file.
   MatchedNames(const MienRig* rig, const NamesFile& file, const char* what);
 
   MatchedName find(const std::string& name);
+  /// Remembers what a name means for note_matched(), unless that is what is written.
+  void keep(const std::string& name, const MatchedName& match);
+  /// The names of the file on the rig.
+  const std::map<std::string, MatchedName>& given() const { return given_; }
   /// Whether the file has the name.
   bool is_given(const std::string& name) const { return given_.count(name) != 0; }
   /// A note with the names found so far that the rig does not have as they are written:

@@ -5,11 +5,9 @@
 #include <cmath>
 #include <cstring>
 #include <thread>
-#include <unordered_map>
 
 #include "integrations/program/io/controls.h"
 #include "integrations/program/io/failure.h"
-#include "integrations/program/io/matched_names.h"
 #include "integrations/program/io/rig_file.h"
 #include "integrations/program/io/text.h"
 #include "integrations/program/live/live_link_face.h"
@@ -20,6 +18,8 @@ namespace {
 
 constexpr const char* kCannot = "cannot listen";
 constexpr int64_t kSecond = MIEN_TICKS_PER_SECOND;
+// Of VMC senders: names that mean something on the rig, and all that are remembered.
+constexpr size_t kMostOtherNames = 128, kMostNewNames = 1024;
 
 std::string lower_case(std::string_view name) {
   std::string lower(name);
@@ -32,42 +32,77 @@ int64_t ticks_of(double seconds) { return std::llround(seconds * static_cast<dou
 }  // namespace
 
 LiveInput::LiveInput(const Address& address, int64_t delay, const std::string& device,
-                     const MienRig* rig, const cli::Session& session)
-    : address_(address), socket_(address), play_out_(delay, kSecond), wanted_(device) {
+                     const MienRig* rig, const cli::NamesFile& names, const cli::Session& session)
+    : rig_(rig), session_(session), address_(address), socket_(address), play_out_(delay, kSecond),
+      wanted_(device) {
   channels_.assign(kLiveLinkNames, kLiveLinkNames + kLiveLinkValues);
   if (address.protocol == Protocol::kVmc) {
     // Senders name what they have; that may be the controls of the rig itself.
-    std::unordered_map<std::string, int> numbers;
     for (const std::string& name : channels_) {
-      numbers.emplace(lower_case(name), static_cast<int>(numbers.size()));
+      numbers_.emplace(lower_case(name), static_cast<int>(numbers_.size()));
     }
     for (uint32_t i = 0; i < cli::rig_count(rig, MIEN_KIND_RAW_CONTROL); ++i) {
       const std::string name(cli::short_name(cli::rig_name(rig, MIEN_KIND_RAW_CONTROL, i)));
-      if (!numbers.emplace(lower_case(name), static_cast<int>(channels_.size())).second) continue;
+      if (!numbers_.emplace(lower_case(name), static_cast<int>(channels_.size())).second) continue;
       channels_.push_back(name);
     }
-    vmc_ = std::make_unique<VmcDecoder>(channels_.size(), [numbers](std::string_view name) {
-      const auto found = numbers.find(lower_case(name));
-      return found == numbers.end() ? -1 : found->second;
-    });
+    add_given_names(names);
+    vmc_ =
+        std::make_unique<VmcDecoder>(channels_.size() + kMostOtherNames,
+                                     [this](std::string_view name) { return find_channel(name); });
   }
-  bind(rig, session);
+  bind(names);
   address_.port = socket_.port();
   cli::note(session, "listening on " + to_text(address_));
   start();
 }
 
+/// Instead of channels of these names.
+void LiveInput::add_given_names(const cli::NamesFile& names) {
+  cli::MatchedNames matched(rig_, names, kCannot);
+  for (const auto& [name, match] : matched.given()) {
+    if (others_.size() == kMostOtherNames) {
+      cli::fail(cli::kInvalid, kCannot, names.shown(),
+                "there are more than " + std::to_string(kMostOtherNames) + " names",
+                "leave out those that are not sent");
+    }
+    numbers_[lower_case(name)] = static_cast<int>(channels_.size() + others_.size());
+    others_.push_back({true, match.shares});
+    matched.find(name);
+  }
+  matched.note_matched(to_text(address_), session_);
+}
+
+/// -1 for a name that means nothing on the rig.
+int LiveInput::find_channel(std::string_view name) {
+  const auto found = numbers_.find(lower_case(name));
+  if (found != numbers_.end()) return found->second;
+  if (numbers_.size() >= channels_.size() + kMostNewNames || others_.size() == kMostOtherNames) {
+    return -1;
+  }
+  int number = -1;
+  cli::MatchedNames matched(rig_, {}, kCannot);
+  const cli::MatchedName match = matched.find(std::string(name));
+  if (match.found()) {
+    number = static_cast<int>(channels_.size() + others_.size());
+    others_.push_back({match.how == MIEN_NAME_MATCH_EXPRESSION, match.shares});
+    matched.note_matched(to_text(address_), session_);
+  }
+  numbers_.emplace(lower_case(name), number);
+  return number;
+}
+
 /// By a clip of one frame with the names of the source.
-void LiveInput::bind(const MienRig* rig, const cli::Session& session) {
-  std::vector<MienStringView> names;
-  for (const std::string& name : channels_) names.push_back({name.data(), name.size()});
-  const std::vector<float> zeros(names.size());
+void LiveInput::bind(const cli::NamesFile& names) {
+  std::vector<MienStringView> views;
+  for (const std::string& name : channels_) views.push_back({name.data(), name.size()});
+  const std::vector<float> zeros(views.size());
   auto desc = cli::sized<MienClipDesc>();
   desc.rate_numerator = 60;
   desc.rate_denominator = 1;
   desc.frame_count = 1;
-  desc.channel_count = static_cast<uint32_t>(names.size());
-  desc.names = names.data();
+  desc.channel_count = static_cast<uint32_t>(views.size());
+  desc.names = views.data();
   desc.values = zeros.data();
   desc.frame_stride = zeros.size();
   auto error = cli::sized<MienError>();
@@ -75,16 +110,8 @@ void LiveInput::bind(const MienRig* rig, const cli::Session& session) {
   cli::check(mien_clip_build(&desc, &built, &error), &error, kCannot, to_text(address_));
   const cli::Clip clip(built);
 
-  const std::vector<MienMatrixEntry> matrix = cli::NamesFile().matrix();
-  auto how = cli::sized<MienClipBindingDesc>();
-  how.matrix = matrix.data();
-  how.matrix_count = matrix.size();
-  MienClipBinding* binding = nullptr;
-  cli::check(mien_clip_binding_create(built, rig, &how, &binding, &error), &error, kCannot,
-             to_text(address_));
-  binding_.reset(binding);
-  auto info = cli::sized<MienClipBindingInfo>();
-  cli::check(mien_clip_binding_info(binding, &info), nullptr, kCannot, to_text(address_));
+  binding_ = cli::bind_clip(built, rig_, names, kCannot, to_text(address_), session_);
+  const MienClipBindingInfo info = cli::binding_info(binding_.get());
   curves_.assign(info.controls.data, info.controls.data + info.controls.count);
   raw_.resize(info.raw_control_count);
   if (curves_.empty()) {
@@ -92,10 +119,10 @@ void LiveInput::bind(const MienRig* rig, const cli::Session& session) {
               "see docs/face-capture.md for the names");
   }
   if (info.missing_channels.count != 0) {
-    cli::note(session, "the rig has no controls for " +
-                           std::to_string(info.missing_channels.count) + " of " +
-                           std::to_string(channels_.size()) + " channels, the first is " +
-                           cli::one_line(channels_[info.missing_channels.data[0]]));
+    cli::note(session_, "the rig has no controls for " +
+                            std::to_string(info.missing_channels.count) + " of " +
+                            std::to_string(channels_.size()) + " channels, the first is " +
+                            cli::one_line(channels_[info.missing_channels.data[0]]));
   }
 }
 
@@ -159,6 +186,14 @@ void LiveInput::use_row(double seconds, const float* values) {
   cli::check(
       mien_clip_binding_apply(binding_.get(), values, channels_.size(), raw_.data(), raw_.size()),
       nullptr, kCannot, to_text(address_));
+  for (size_t i = 0; i < others_.size(); ++i) {
+    const float value = values[channels_.size() + i];
+    for (const MienControlShare& share : others_[i].shares) {
+      float& control = raw_[share.control];
+      const float part = share.weight * value;
+      control = others_[i].adds_up ? control + part : std::max(control, part);
+    }
+  }
   std::vector<float> row;
   for (const uint16_t curve : curves_) {
     if (!std::isfinite(raw_[curve])) {

@@ -4,9 +4,11 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
+#include <unordered_map>
 #include <vector>
 
-#include "integrations/program/io/handles.h"
+#include "integrations/program/io/bound_clip.h"
 #include "integrations/program/io/terminal.h"
 #include "integrations/program/live/play_out.h"
 #include "integrations/program/live/udp_socket.h"
@@ -16,10 +18,11 @@ namespace mien::live {
 
 class LiveInput {
  public:
-  /// Listens from now on. Notes channels that the rig has no controls for. `device`: the only device of
-  /// Live Link Face that counts, by its id or the name of its subject; empty: whichever comes first.
+  /// Listens from now on. Notes what `names` and the library match to controls of other names, and channels that
+  /// the rig has no controls for. `device`: the only device of Live Link Face that counts, by its id or the name of
+  /// its subject; empty: whichever comes first. The rig and the session outlive it.
   LiveInput(const Address& address, int64_t delay, const std::string& device, const MienRig* rig,
-            const cli::Session& session);
+            const cli::NamesFile& names, const cli::Session& session);
 
   /// Raw controls that the source drives, in the order of the rows.
   const std::vector<uint16_t>& curves() const { return curves_; }
@@ -35,19 +38,32 @@ class LiveInput {
   std::string summary() const;
 
  private:
-  void bind(const MienRig* rig, const cli::Session& session);
+  /// A name of a VMC sender that is no channel, and the controls that it means.
+  struct OtherName {
+    bool
+        adds_up;  // given, or an expression of several controls; else the largest value of a control counts
+    std::vector<MienControlShare> shares;
+  };
+
+  void bind(const cli::NamesFile& names);
+  void add_given_names(const cli::NamesFile& names);
+  int find_channel(std::string_view name);
   int64_t now() const;
   void use_datagram(const uint8_t* bytes, size_t size);
   void use_live_link(const uint8_t* bytes, size_t size);
   void use_row(double seconds, const float* values);
 
+  const MienRig* rig_;
+  const cli::Session& session_;
   Address address_;
   UdpSocket socket_;
   PlayOut play_out_;
   std::vector<std::string> channels_;
+  std::unordered_map<std::string, int>
+      numbers_;  // of channels in lower case, then of other names; -1: none
+  std::vector<OtherName> others_;
   std::unique_ptr<VmcDecoder> vmc_;
-  std::unique_ptr<MienClipBinding, cli::Destroy<MienClipBinding, mien_clip_binding_destroy>>
-      binding_;
+  cli::ClipBinding binding_;
   std::vector<uint16_t> curves_;
   std::vector<float> raw_;  // all raw controls
   std::chrono::steady_clock::time_point start_;

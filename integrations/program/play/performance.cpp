@@ -57,7 +57,7 @@ Performance::Performance(const Script& script, const MienRig* rig, const MienDef
   add_layers();
   for (size_t r = 0; r < script.reactions.size(); ++r) add_glare();
   for (const EventScript& event : script.events) {
-    if (event.kind == EventKind::kPlay) clip(event.clip, event.where);
+    if (event.kind == EventKind::kPlay) clip(event.clip);
     if (event.kind == EventKind::kVariable) add_variable(event.variable);
   }
   make_mix(deformer);
@@ -102,7 +102,7 @@ float Performance::head_up(int64_t tick) const {
   return sum;
 }
 
-const Performance::BoundClip& Performance::clip(const ClipScript& what, const std::string& where) {
+const Performance::BoundClip& Performance::clip(const ClipScript& what) {
   const auto known = clips_.find(what.path);
   if (known != clips_.end()) return known->second;
   const std::filesystem::path folder = std::filesystem::path(script_.shown).parent_path();
@@ -112,17 +112,9 @@ const Performance::BoundClip& Performance::clip(const ClipScript& what, const st
   } else {
     bound.file = open_clip_file((folder / what.path).string());
   }
-  const std::vector<MienMatrixEntry> matrix = names_.matrix();
-  auto desc = sized<MienClipBindingDesc>();
-  desc.matrix = matrix.data();
-  desc.matrix_count = matrix.size();
-  auto error = sized<MienError>();
-  MienClipBinding* binding = nullptr;
-  checked(mien_clip_binding_create(bound.file.clip.get(), rig_, &desc, &binding, &error), error,
-          where);
-  bound.binding.reset(binding);
-  auto info = sized<MienClipBindingInfo>();
-  check(mien_clip_binding_info(binding, &info), nullptr, kCannot, where);
+  bound.binding =
+      bind_clip(bound.file.clip.get(), rig_, names_, kCannot, bound.file.shown, session_);
+  const MienClipBindingInfo info = binding_info(bound.binding.get());
   if (info.missing_channels.count != 0) {
     const std::vector<std::string> names = channel_names(bound.file);
     note(session_, bound.file.shown + ": the rig has no controls for " +
@@ -213,7 +205,7 @@ void Performance::add_layers() {
       layer.mask = parts.mask.data();
       layer.mask_count = static_cast<uint32_t>(parts.mask.size());
     }
-    if (from.source == MIEN_LAYER_SOURCE_CLIP) clip(from.clip, where + ".source");
+    if (from.source == MIEN_LAYER_SOURCE_CLIP) clip(from.clip);
     if (from.source == MIEN_LAYER_SOURCE_POSES) {
       layer.first_pose = static_cast<uint32_t>(poses_.size());
       layer.pose_count = static_cast<uint32_t>(from.poses.size());
@@ -360,7 +352,7 @@ void Performance::make_mix(const MienDeformer* deformer) {
 
 void Performance::play(uint32_t layer, const ClipScript& what, uint32_t transition, double duration,
                        const std::string& where) {
-  const BoundClip& bound = clip(what, where);
+  const BoundClip& bound = clip(what);
   talks_.erase(layer);
   if (!bound.head_up.empty()) {
     const double now = static_cast<double>(now_) / static_cast<double>(MIEN_TICKS_PER_SECOND);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "integrations/program/io/bound_clip.h"
 #include "integrations/program/io/clip_file.h"
 #include "integrations/program/io/terminal.h"
 #include "integrations/program/play/rig_curves.h"
@@ -18,8 +19,6 @@ namespace mien::cli {
 using Mix = std::unique_ptr<MienMix, Destroy<MienMix, mien_mix_destroy>>;
 using Gaze = std::unique_ptr<MienGaze, Destroy<MienGaze, mien_gaze_destroy>>;
 using Mixer = std::unique_ptr<MienMixer, Destroy<MienMixer, mien_mixer_destroy>>;
-using ClipBinding =
-    std::unique_ptr<MienClipBinding, Destroy<MienClipBinding, mien_clip_binding_destroy>>;
 
 struct FiredEvent {
   double time;
@@ -93,7 +92,7 @@ class Performance {
     float scale = 1, offset = 0;
   };
 
-  const BoundClip& clip(const ClipScript& what, const std::string& where);
+  const BoundClip& clip(const ClipScript& what);
   void say(const speech::SpeechSource& source, BoundClip& bound);
   /// What speech adds to head.up.
   float head_up(int64_t tick) const;

@@ -323,6 +323,25 @@ class Choices(ClipTest):
             self.fails(USAGE, "clip", "build", "x", "-o", "y", "--rig", rig, "--tolerance", word,
                        says="--tolerance")
 
+    def test_names_of_a_take_on_a_rig(self):
+        rig = path("names.dna")
+        self.ok("demo-head", "-o", rig)
+        take = write("named.csv", "time,mouth_smile_L,grin,hat\n0,0,0,0\n0.0166666667,1,1,1\n")
+        names = write("grin.json", '{"grin": {"mouthStretch_L": 0.5, "jaw_open": 0.25}}')
+        done = self.ok("clip", "build", take, "--rig", rig, "--names", names, "-o", path("named.clip"))
+        self.assertIn("2 names stand for other controls of this rig: "
+                      "grin is 0.25 jawOpen + 0.5 mouthStretchLeft; mouth_smile_L is mouthSmileLeft", done.stderr)
+        self.assertIn("1 of 3 channels drive nothing on the rig", done.stderr)
+        self.assertIn("the first is hat", done.stderr)
+        # What no channel drives is not said to be matched.
+        done = self.ok("clip", "build", write("twice.csv", "time,mouth_smile_L,MouthSmileLeft\n0,0,0\n"), "--rig", rig,
+                       "-o", path("twice.clip"))
+        self.assertNotIn("mouth_smile_L is", done.stderr)
+        self.assertIn("the first is mouth_smile_L", done.stderr)
+        self.fails(USAGE, "clip", "build", take, "--names", names, "-o", path("named.clip"), says="--rig")
+        self.fails(INVALID, "clip", "build", take, "--rig", rig, "--names", write("wrong.json", '{"grin": "none"}'),
+                   "-o", path("none.clip"), says='the rig has no raw control "none"')
+
     def test_channels(self):
         text = "time,jawOpen,CTRL_expressions.mouthClose,jawLeft,browUp\n0,1,2,3,4\n"
         self.assertEqual(self.info(self.build(text, "--channels", "jaw*,mouthClose"))["channels"],

@@ -292,6 +292,22 @@ class LiveTest(ProgramTest):
         self.assertEqual(max(v for _, v in curve(played, "tongueOut")), 0.5)
 
     @by_the_clock
+    def test_names_of_packets_mean_controls_of_the_rig(self):
+        if not has_osc():
+            self.skipTest("NOT TESTED: names of VMC packets; this build has no liblo")
+        names = write("meanings.json", '{"Fun": {"mouthSmileLeft": 1, "mouthSmileRight": 1}}')
+        live = Listener("vmc", "--names", names, "--seconds", "0.6", "--rate", "30")
+        for i in range(10):
+            live.until(i / 30)
+            live.send(blend(i / 30, {b"Fun": 0.5, b"blink_l": 0.25, b"eyeBlinkLeft": 0.125, b"Joy": 1.0}))
+        played, errors = live.finish()
+        self.assertIn("Fun is mouthSmileLeft + mouthSmileRight", errors)
+        self.assertIn("blink_l is eyeBlinkLeft", errors)
+        self.assertNotIn("Joy", errors)
+        self.assertEqual(max(value for _, value in curve(played, "mouthSmileRight")), 0.5)
+        self.assertEqual(max(value for _, value in curve(played, "eyeBlinkLeft")), 0.25, "the larger of two names")
+
+    @by_the_clock
     def test_one_mien_sends_to_another(self):
         if not has_osc():
             self.skipTest("NOT TESTED: VMC; this build has no liblo")
