@@ -183,7 +183,7 @@ class General(ProgramTest):
             limit = megabytes << 20
             return run(*arguments, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
         codes = set()
-        for megabytes in range(16, 100, 4):
+        for megabytes in range(16, 100, 12):
             if limited(megabytes, "--version").returncode != DONE:
                 continue
             for command in (["gen", "-o", path("big.dna"), "--preset", "large"],
