@@ -54,6 +54,9 @@ async function open(...paths) {
   await frames();
 }
 
+/** As a person does: browsers play no sound before. */
+const press = (id) => page.run((of) => document.getElementById(of).click(), id);
+
 /** Moves a slider as a user does. */
 const slide = (name, value) => page.run((label, to) => {
   const input = document.querySelector(`#list input[aria-label="${label}"]`);
@@ -400,6 +403,51 @@ test("a Live Link Face recording plays, and one that does not fit says so", opti
   writeFileSync(csv, "Timecode,A\n0,0\n0,x\n");
   await open(csv);
   assert.match(await text("error"), /line 3, A: "x" is not a number/);
+  page.errors.length = 0;
+});
+
+test("the sound of a take is its clock; what is no sound says so", options, async () => {
+  await open(baked);
+  const csv = join(work, "heard.csv");
+  const rows = Array.from({ length: 90 }, (_, i) => `00:00:00:${String(i % 30).padStart(2, "0")}.000,1,${(i % 30) / 30}`);
+  writeFileSync(csv, ["Timecode,BlendShapeCount,JawOpen", ...rows, ""].join("\n"));
+  const wav = join(work, "voice.wav");
+  const samples = 2 * 8000; // a second less than the take
+  const header = Buffer.alloc(44);
+  header.write("RIFF");
+  header.writeUInt32LE(36 + samples * 2, 4);
+  header.write("WAVEfmt ", 8);
+  for (const [value, at] of [[16, 16], [8000, 24], [16000, 28]]) header.writeUInt32LE(value, at);
+  for (const [value, at] of [[1, 20], [1, 22], [2, 32], [16, 34]]) header.writeUInt16LE(value, at);
+  header.write("data", 36);
+  header.writeUInt32LE(samples * 2, 40);
+  writeFileSync(wav, Buffer.concat([header, Buffer.alloc(samples * 2)]));
+
+  await open(wav);
+  assert.match(await text("error"), /open a rig and a take first/);
+  await open(csv, wav); // in any order
+  assert.match(await text("file"), /voice\.wav: 2\.0 s of sound/);
+  await press("play");
+  if (!await page.run(() => window.viewer.take.isPlaying)) await press("play");
+  await page.until("() => window.viewer.sound.time > 0.3", "heard");
+  const apart = await page.run(() => Math.abs(window.viewer.sound.time - Number(document.getElementById("time").value)));
+  assert.ok(apart < 0.15, `${apart} s apart`);
+  // The take goes on after its sound, and both begin again.
+  await page.until("() => Number(document.getElementById('time').value) > 2.3", "goes on");
+  assert.equal(await page.run(() => window.viewer.sound.time), null);
+  await page.until("() => window.viewer.sound.time !== null && window.viewer.sound.time < 1.5", "begins again");
+  await page.run(() => {
+    const time = document.getElementById("time");
+    time.value = "1.25";
+    time.dispatchEvent(new Event("input"));
+  });
+  assert.deepEqual(await page.run(() => [window.viewer.sound.audio.paused, window.viewer.sound.audio.currentTime]), [true, 1.25]);
+  await page.run(() => document.getElementById("mute").click());
+  assert.equal(await page.run(() => window.viewer.sound.audio.muted), true);
+
+  writeFileSync(wav, "no sound");
+  await open(wav);
+  assert.match(await text("error"), /voice\.wav could not be opened: this browser cannot play it/);
   page.errors.length = 0;
 });
 

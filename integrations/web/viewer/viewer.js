@@ -7,6 +7,7 @@ import { GlbModel, RigModel } from "./models.js";
 import { Panel } from "./panel.js";
 import { PRESETS } from "./presets.js";
 import { exportGlb, Recording } from "./record.js";
+import { Sound, SOUNDS } from "./sound.js";
 import { HeatMap, Stage } from "./stage.js";
 
 const $ = (id) => document.getElementById(id);
@@ -25,6 +26,7 @@ let mien = null;
 let model = null;
 let opened = null; // name and bytes of the model
 let take = null; // what plays: clip, player, binding
+let sound = null; // what is heard while it plays
 let recording = null;
 let dirty = false;
 
@@ -75,7 +77,7 @@ async function openModel(name, bytes, materials) {
   const isGlb = bytes.length >= 4 && String.fromCharCode(...bytes.subarray(0, 4)) === "glTF";
   if (!isGlb) await loadModule();
   const made = isGlb ? await GlbModel.open(mien, bytes) : await RigModel.open(mien, bytes, options);
-  stop();
+  dropTake();
   heat.end();
   model?.dispose();
   model = made;
@@ -90,6 +92,7 @@ async function openModel(name, bytes, materials) {
   $("inspect").hidden = $("save-glb").hidden = isGlb;
   dropRecording();
   $("play").hidden = $("time-row").hidden = true;
+  dropSound();
   $("facts").textContent = model.facts;
   say(name);
   pose();
@@ -107,6 +110,7 @@ function openClip(clip) {
     throw new Error("none of its channels is a control of this rig");
   }
   dropTake();
+  dropSound();
   take = { clip, binding, player: clip.player({ looping: 2 }), isPlaying: false, last: 0 };
   $("play").hidden = $("time-row").hidden = false;
   $("time").max = String(clip.duration);
@@ -114,8 +118,22 @@ function openClip(clip) {
   play();
 }
 
+async function openSound(name, bytes) {
+  if (!take) throw new Error("open a rig and a take first, then its sound");
+  const made = await Sound.open(name, bytes);
+  stop();
+  dropSound();
+  sound = made;
+  sound.isMuted = $("mute").checked;
+  $("mute-row").hidden = false;
+  say(`${opened.name}, ${name}: ${sound.duration.toFixed(1)} s of sound`);
+  take.player.seek(0);
+  play();
+}
+
 async function openBytes(name, bytes, materials) {
   clearError();
+  if (SOUNDS.test(name)) return openSound(name, bytes);
   const ending = name.slice(name.lastIndexOf(".") + 1).toLowerCase();
   if (ending === "csv") return openTake(readCsv(new TextDecoder().decode(bytes)));
   if (ending === "json") {
@@ -168,8 +186,8 @@ async function openFiles(files) {
     const name = path.slice(path.lastIndexOf("/") + 1);
     return images.find((image) => image.name === name) ?? null;
   });
-  // Rigs before what they play.
-  const order = (file) => (/\.(csv|json|clip)$/i.test(file.name) ? 1 : 0);
+  // Rigs before what they play, and takes before their sound.
+  const order = (file) => (SOUNDS.test(file.name) ? 2 : /\.(csv|json|clip)$/i.test(file.name) ? 1 : 0);
   const others = list.filter((file) => file !== ofMaterials && !(ofMaterials && images.includes(file)));
   if (materials && others.length === 0 && opened) {
     // For the rig that is open.
@@ -296,13 +314,22 @@ function play() {
   take.isPlaying = true;
   take.last = 0;
   $("play").textContent = "Pause";
+  // Browsers play no sound before a button of the page is pressed. The face moves all the same.
+  sound?.play(take.player.info.tick / TICKS_PER_SECOND).catch(() => say(`${sound.name}: press Pause, then Play, to hear it`));
   stage.request();
 }
 
 function stop() {
   if (!take?.isPlaying) return;
   take.isPlaying = false;
+  sound?.pause();
   $("play").textContent = "Play";
+}
+
+function dropSound() {
+  sound?.dispose();
+  sound = null;
+  $("mute-row").hidden = true;
 }
 
 function dropTake() {
@@ -315,7 +342,15 @@ function dropTake() {
 function advance(time) {
   const seconds = take.last ? Math.min(0.25, (time - take.last) / 1000) : 0;
   take.last = time;
-  take.player.advance(Math.round(seconds * TICKS_PER_SECOND));
+  const before = take.player.info.tick;
+  const heard = sound?.time ?? null;
+  if (heard !== null && heard < take.clip.duration) {
+    take.player.seek(Math.round(heard * TICKS_PER_SECOND));
+  } else {
+    take.player.advance(Math.round(seconds * TICKS_PER_SECOND));
+    // From the beginning again, with its sound.
+    if (take.player.info.tick < before) sound?.play(0).catch(() => {});
+  }
   sample();
 }
 
@@ -427,8 +462,12 @@ $("play").addEventListener("click", () => (take.isPlaying ? stop() : play()));
 $("time").addEventListener("input", () => {
   stop();
   take.player.seek(Math.round(Number($("time").value) * TICKS_PER_SECOND));
+  sound?.seek(Number($("time").value));
   sample();
   pose();
+});
+$("mute").addEventListener("change", () => {
+  if (sound) sound.isMuted = $("mute").checked;
 });
 $("lod").addEventListener("change", () => {
   $("auto-lod").checked = false;
@@ -471,6 +510,8 @@ window.viewer = {
   get mien() { return mien; },
   get model() { return model; },
   get stage() { return stage; },
+  get take() { return take; },
+  get sound() { return sound; },
   openBytes, openHead, pose,
 };
 
