@@ -168,6 +168,15 @@ MienStatus check_options(const MienAuthorDesc& desc, MienError* error) {
                       "MienAuthorDesc.lod_meshes has %zu meshes: %zu LODs need %zu",
                       desc.lod_mesh_count, lods, lods - 1);
   }
+  if (!is_there(desc.landmarks, desc.landmark_count)) {
+    return give_error(error, MIEN_ERROR_NULL_ARGUMENT,
+                      "MienAuthorDesc.landmarks is NULL, but its count is not 0");
+  }
+  if (desc.landmark_count > author::kLandmarkCount) {
+    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
+                      "MienAuthorDesc.landmarks has %zu landmarks: there are %u, each once",
+                      desc.landmark_count, author::kLandmarkCount);
+  }
   for (size_t l = 0; l < desc.lod_mesh_count; ++l) {
     if (is_there(desc.lod_meshes[l].corners, desc.lod_meshes[l].corner_count)) continue;
     return give_error(error, MIEN_ERROR_NULL_ARGUMENT,
@@ -222,8 +231,10 @@ bool read_input(const MienAuthorMesh& mesh, const MienAuthorDesc& desc, Arena& a
   Span<author::ShapeSource> shapes;
   Span<author::OwnBone> bones;
   Span<author::LodSource> lod_meshes;
+  Span<author::OwnLandmark> landmarks;
   if (!make(arena, mesh.object_count, objects) || !make(arena, mesh.shape_count, shapes) ||
-      !make(arena, desc.bone_count, bones) || !make(arena, desc.lod_mesh_count, lod_meshes)) {
+      !make(arena, desc.bone_count, bones) || !make(arena, desc.lod_mesh_count, lod_meshes) ||
+      !make(arena, desc.landmark_count, landmarks)) {
     return false;
   }
   for (size_t o = 0; o < objects.count; ++o) {
@@ -245,6 +256,10 @@ bool read_input(const MienAuthorMesh& mesh, const MienAuthorDesc& desc, Arena& a
                 {bone.position[0], bone.position[1], bone.position[2]},
                 bone.parent,
                 static_cast<author::BoneKind>(bone.kind)};
+  }
+  for (size_t l = 0; l < landmarks.count; ++l) {
+    const MienAuthorLandmark& mark = desc.landmarks[l];
+    landmarks[l] = {name_of(mark.name), {mark.position[0], mark.position[1], mark.position[2]}};
   }
   for (size_t l = 0; l < lod_meshes.count; ++l) {
     const MienAuthorLod& lod = desc.lod_meshes[l];
@@ -274,6 +289,7 @@ bool read_input(const MienAuthorMesh& mesh, const MienAuthorDesc& desc, Arena& a
   options.residual_targets = (desc.flags & MIEN_AUTHOR_NO_TARGETS) == 0;
   options.metahuman_names = (desc.flags & MIEN_AUTHOR_METAHUMAN_NAMES) != 0;
   if (desc.name.count) options.name = name_of(desc.name);
+  options.landmarks = landmarks;
   options.bones = bones;
   options.lod_meshes = lod_meshes;
   if (desc.weights) {

@@ -117,6 +117,8 @@ struct Placement {
   double symmetry_plane = 0;  // x
   bool symmetric = false;     // left and right bones are in pairs
   NeckCut neck_cut;
+  // How much each vertex follows the jaw, where no shape says it; empty: shapes do, or there is no jaw.
+  Span<const float> jaw_share;
 };
 
 /// Influences of vertex v: slots v * m ... v * m + m - 1, the heaviest first; unused ones have

@@ -146,7 +146,7 @@ bool find_eyes(const AuthorMesh& mesh, double plane, bool symmetric, Arena& scra
     if (eye == count) {
       const double off = sphere.center.x - plane;
       const int side = std::abs(off) < sphere.radius / 2 ? 0 : off > 0 ? 1 : -1;
-      eyes[count++] = {sphere.center, sphere.radius, side};
+      eyes[count++] = {sphere.center, sphere.radius, side, sphere.error};
     }
     eye_of_component[c] = eye;
   }
@@ -306,6 +306,7 @@ bool find_jaw(const AuthorMesh& mesh, double plane, Arena& scratch, Jaw& out) {
     teeth += !mesh.is_skin[moved[i].vertex];
   }
   const bool has_teeth = teeth >= kTeeth;
+  out.by_teeth = has_teeth;
   const size_t all = has_teeth ? teeth : chin;
   Span<Vec3> from, to;
   Span<double> weights;

@@ -34,7 +34,8 @@ RigidMotion fit_rigid(Span<const Vec3> from, Span<const Vec3> to, Span<const dou
 struct Eye {
   Vec3 center;
   double radius = 0;
-  int side = 0;  // 1: x above the plane, -1: below, 0: in the middle
+  int side = 0;      // 1: x above the plane, -1: below, 0: in the middle
+  double error = 0;  // rms distance of its surface from the sphere
 };
 constexpr uint32_t kMaxEyes = 8;
 
@@ -45,6 +46,7 @@ bool find_eyes(const AuthorMesh& mesh, double plane, bool symmetric, Arena& scra
 
 struct Jaw {
   bool found = false;
+  bool by_teeth = false;  // not by the chin
   Vec3 position;
   double angle = 0;  // degrees
   uint32_t shape = 0;

@@ -192,9 +192,16 @@ Status find_mask(Placing& placing) {
   const PlaceOptions& options = placing.options;
   PlaceReport& report = placing.report;
   const size_t n = placing.points.count;
-  if (options.neck_cut && !report.face_only) {
-    report.throat = find_throat(front_profile(placing.mesh, placing.plane));
+  const Landmark& nose = report.landmarks[LandmarkKind::kNose];
+  const Landmark& throat = report.landmarks[LandmarkKind::kThroat];
+  placing.profile =
+      find_throat(front_profile(placing.mesh, placing.plane), nose.given ? &nose.at : nullptr);
+  if (throat.given) {
+    placing.profile.found = true;
+    placing.profile.y = throat.at.y;
+    placing.profile.z = throat.at.z;
   }
+  if (throat.given || (options.neck_cut && !report.face_only)) report.throat = placing.profile;
   if (!make(placing.scratch, n, placing.in_mask)) return no_memory(placing);
   const auto above_cut = [&](size_t i) {
     return !report.throat.found || report.throat.cut().above(placing.points[i]) >= 0;

@@ -17,8 +17,10 @@ struct Placing {
   PlaceReport& report;
   Error& error;
 
-  Box box = {};      // of the skin
-  double plane = 0;  // x of the plane of symmetry
+  Box box = {};            // of the skin
+  double plane = 0;        // x of the plane of symmetry
+  bool has_mouth = false;  // lips are apart
+  Throat profile = {};     // nose and notch below it, also where no neck is cut off
   bool symmetric = false;
   bool paired = false;  // or nearly so: bones are in pairs, but each lies where its side is
   Span<uint32_t> skin =

@@ -262,9 +262,15 @@ Status find_body(Placing& placing, Body& out) {
     measure_neck(placing, out.cut);
     if (!placing.options.paper) move_to_axis(placing, out.cut, out.head);
   }
+  Landmarks& marks = placing.report.landmarks;
+  const Landmark& given_head = marks[LandmarkKind::kHead];
+  const Landmark& given_neck = marks[LandmarkKind::kNeck];
+  if (given_head.given) out.head = given_head.at;
   const Vec3 along = out.head - out.chest;
   const double rise = out.cut.exists && along.y > 0 ? (out.cut.base - out.chest.y) / along.y : 0;
-  const Vec3 base = out.chest + along * std::min(std::max(rise, 0.0), 0.75);
+  const Vec3 base =
+      given_neck.given ? given_neck.at : out.chest + along * std::min(std::max(rise, 0.0), 0.75);
+  if (given_neck.given && base.y < out.cut.y) out.cut.base = base.y;
   // One joint per half of the width of the neck, along its length.
   const double length_of_neck = length(out.head - base);
   const double links = out.cut.half_width > 0 ? length_of_neck / out.cut.half_width : 1;
@@ -272,6 +278,13 @@ Status find_body(Placing& placing, Body& out) {
   for (uint32_t n = 0; n < out.neck_count; ++n) {
     out.necks[n] = base + (out.head - base) * (static_cast<double>(n) / out.neck_count);
   }
+  // They lie by the throat; without one their height is a guess.
+  const double sure = marks[LandmarkKind::kThroat].known
+                          ? 0.3 + 0.6 * marks[LandmarkKind::kThroat].confidence
+                          : 0.3;
+  marks.found(LandmarkKind::kHead, out.head, sure);
+  marks.found(LandmarkKind::kNeck, base, sure);
+  marks[LandmarkKind::kHead].is_used = marks[LandmarkKind::kNeck].is_used = true;
   return Status::kOk;
 }
 

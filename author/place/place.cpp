@@ -8,6 +8,8 @@
 #include "author/mesh/topology.h"
 #include "author/place/extra_joints.h"
 #include "author/place/face_mask.h"
+#include "author/place/find_landmarks.h"
+#include "author/place/jaw_share.h"
 #include "author/place/kmeans_run.h"
 #include "author/place/rank.h"
 
@@ -270,6 +272,98 @@ struct Bones {
   }
 };
 
+/// The jaw's joint: by the shape that opens it, or by landmarks, where lips are apart or given.
+Status place_jaw(Placing& placing, const NeckCut& cut, Placement& out) {
+  PlaceReport& report = placing.report;
+  Landmarks& marks = report.landmarks;
+  Jaw jaw;
+  if (!find_jaw(placing.mesh, placing.plane, placing.scratch, jaw)) return no_memory(placing);
+  Landmark& mark = marks[LandmarkKind::kJaw];
+  if (jaw.found) {
+    report.jaw_shape = placing.mesh.shapes[jaw.shape].name;
+    report.jaw_angle = jaw.angle;
+    marks.found(LandmarkKind::kJaw, jaw.position, jaw.by_teeth ? 0.9 : 0.7);
+  } else {
+    constexpr LandmarkKind kMouth[] = {LandmarkKind::kLipUpper, LandmarkKind::kLipLower,
+                                       LandmarkKind::kMouthLeft, LandmarkKind::kMouthRight,
+                                       LandmarkKind::kChin};
+    bool is_known = marks[LandmarkKind::kNose].known, is_given = mark.given;
+    double sure = 1;
+    for (const LandmarkKind kind : kMouth) {
+      is_known = is_known && marks[kind].known;
+      is_given = is_given || marks[kind].given;
+      sure = std::min(sure, marks[kind].confidence);
+    }
+    // Shapes that do not open the jaw leave it closed.
+    const bool has_no_shapes = placing.mesh.shapes.empty() && placing.has_mouth;
+    if (!is_known || (!is_given && !has_no_shapes)) return Status::kOk;
+    for (const LandmarkKind kind : kMouth) marks[kind].is_used = true;
+    marks.found(LandmarkKind::kJaw, jaw_by_proportions(marks), 0.6 * sure);
+    Span<float> share;
+    if (Status status = make_jaw_share(placing, cut, share); status != Status::kOk) return status;
+    out.jaw_share = share;
+  }
+  report.jaw_joint = mark.is_used = true;
+  return Status::kOk;
+}
+
+/// Hangs facial bones below the jaw where most of the mask that is nearest to them follows it.
+Status hang_by_share(Placing& placing, uint32_t jaw, Span<const float> share, uint32_t first,
+                     Span<Bone> facial) {
+  struct Sums {
+    double share = 0, all = 0;
+  };
+  Span<Sums> sums;
+  if (!make(placing.scratch, facial.count, sums)) return no_memory(placing);
+  for (const uint32_t i : placing.mask) {
+    size_t nearest = 0;
+    for (size_t b = 1; b < facial.count; ++b) {
+      if (squared_distance(placing.points[i], facial[b].position) <
+          squared_distance(placing.points[i], facial[nearest].position)) {
+        nearest = b;
+      }
+    }
+    sums[nearest].share += double{share[placing.skin[i]]};
+    sums[nearest].all += 1;
+  }
+  for (size_t b = 0; b < facial.count; ++b) {
+    const size_t other = facial[b].mirror - first;
+    if (sums[b].share + sums[other].share > 0.5 * (sums[b].all + sums[other].all)) {
+      facial[b].parent = jaw;
+    }
+  }
+  return Status::kOk;
+}
+
+/// Eyes that the caller gave: the ball there moves to them, or there is one more eye.
+Status use_eye_landmarks(Placing& placing, Eye (&eyes)[kMaxEyes], uint32_t& count) {
+  Landmarks& marks = placing.report.landmarks;
+  const uint32_t found = count;
+  for (const int side : {1, -1}) {
+    const LandmarkKind kind = side > 0 ? LandmarkKind::kEyeLeft : LandmarkKind::kEyeRight;
+    Landmark& mark = marks[kind];
+    Eye* eye = nullptr;
+    for (uint32_t e = 0; e < found; ++e) {
+      const bool is_there = mark.given ? length(eyes[e].center - mark.at) < 1.5 * eyes[e].radius
+                                       : eyes[e].side == side;
+      if (is_there && !eye) eye = &eyes[e];
+    }
+    if (mark.given) {
+      if (!eye && count < kMaxEyes) {
+        eye = &eyes[count++];
+        *eye = Eye();
+      }
+      if (!eye) continue;
+      eye->center = mark.at;
+      eye->side = side;
+    } else if (eye) {
+      marks.found(kind, eye->center, 1 - 5 * eye->error / eye->radius);
+    }
+    mark.is_used = eye != nullptr;
+  }
+  return Status::kOk;
+}
+
 Status make_bones(Placing& placing, const Facial& facial, const Body& body, Placement& out) {
   PlaceReport& report = placing.report;
   uint32_t facial_count = 0;
@@ -299,13 +393,10 @@ Status make_bones(Placing& placing, const Facial& facial, const Body& body, Plac
   naming.width = naming.mask.size().x;
   uint32_t jaw_bone = face;
   if (!placing.options.paper) {
-    Jaw jaw;
-    if (!find_jaw(placing.mesh, placing.plane, placing.scratch, jaw)) return no_memory(placing);
-    report.jaw_joint = jaw.found;
-    report.jaw_angle = jaw.angle;
-    if (jaw.found) {
-      report.jaw_shape = placing.mesh.shapes[jaw.shape].name;
-      jaw_bone = bones.add(Text().add("jaw"), jaw.position, face, BoneKind::kJaw);
+    if (Status status = place_jaw(placing, body.cut, out); status != Status::kOk) return status;
+    if (report.jaw_joint) {
+      jaw_bone = bones.add(Text().add("jaw"), report.landmarks[LandmarkKind::kJaw].at, face,
+                           BoneKind::kJaw);
     }
     Tongue tongue;
     if (!find_tongue(placing.mesh, placing.scratch, tongue)) return no_memory(placing);
@@ -334,6 +425,11 @@ Status make_bones(Placing& placing, const Facial& facial, const Body& body, Plac
     bones.bones[second].mirror = first;
   }
   out.facial_count = bones.count - out.first_facial;
+  if (!out.jaw_share.empty()) {
+    const Status status = hang_by_share(placing, jaw_bone, out.jaw_share, out.first_facial,
+                                        bones.bones.slice(out.first_facial, out.facial_count));
+    if (status != Status::kOk) return status;
+  }
 
   if (!placing.options.paper) {
     Eye eyes[kMaxEyes];
@@ -343,6 +439,9 @@ Status make_bones(Placing& placing, const Facial& facial, const Body& body, Plac
         !find_eyes(placing.mesh, placing.plane, placing.symmetric, placing.scratch, eyes, eye_count,
                    eye_of)) {
       return no_memory(placing);
+    }
+    if (Status status = use_eye_landmarks(placing, eyes, eye_count); status != Status::kOk) {
+      return status;
     }
     uint32_t numbers[3] = {}, bone_of[kMaxEyes];
     for (uint32_t e = 0; e < eye_count; ++e) {
@@ -424,9 +523,11 @@ Status place_bones(const AuthorMesh& mesh, const PlaceOptions& options, const Pa
   Body body;
   Facial facial;
   Status status = find_skin(placing);
+  if (status == Status::kOk) status = take_landmarks(placing);
   if (status == Status::kOk) status = group_in_depth(placing);
   if (status == Status::kOk) status = find_mask(placing);
   if (status == Status::kOk) status = find_symmetry(placing);
+  if (status == Status::kOk) status = find_landmarks(placing);
   if (status == Status::kOk) status = find_body(placing, body);
   if (status == Status::kOk) status = find_facial(placing, allocator, facial);
   if (status == Status::kOk) status = make_bones(placing, facial, body, out);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "author/place/kmeans.h"
+#include "author/place/landmarks.h"
 #include "author/place/linkage.h"
 #include "author/place/throat.h"
 #include "runtime/base/status.h"
@@ -23,6 +24,7 @@ struct PlaceOptions {
   bool mask_from_shapes = false;  // the mask is what shapes move, and two rings around it
   bool area_density = false;      // vertices count by their area: for scans
   bool group_in_space = false;    // groups by distance in space, to compare with
+  Landmarks landmarks;            // that the caller gave
   // Replace what would be computed; empty: computed.
   Span<const uint8_t> own_groups;   // per vertex: 0 in front, below `groups`
   Span<const uint8_t> own_mask;     // per vertex: not 0 where facial bones are placed
@@ -61,9 +63,10 @@ struct PlaceReport {
   double uncovered = 0;               // part of the mask farther than twice that from all bones
   Span<const double> lod_objectives;  // of the facial bones that each LOD keeps
   uint32_t eye_joints = 0;
+  Landmarks landmarks;
   bool jaw_joint = false;
   double jaw_angle = 0;  // degrees, of the shape that opens it
-  Name jaw_shape;
+  Name jaw_shape;        // empty: by landmarks, because no shape opens it
 };
 
 /// Fails with kAuthorRefused if no bones can be placed.

@@ -71,7 +71,7 @@ Profile front_profile(const AuthorMesh& mesh, double plane) {
   return profile;
 }
 
-Throat find_throat(const Profile& profile) {
+Throat find_throat(const Profile& profile, const Vec3* tip) {
   Throat throat;
   throat.height = profile.height;
   // The ragged edge of a cropped mesh could be taken for a notch.
@@ -81,9 +81,13 @@ Throat find_throat(const Profile& profile) {
     if (!profile.has[bin]) continue;
     if (nose == kProfileBins || profile.front[bin] > profile.front[nose]) nose = bin;
   }
+  if (tip && profile.height > 0) {
+    const double at = (tip->y - profile.low) / profile.height * kProfileBins;
+    nose = at > 0 ? std::min(kProfileBins - 1, static_cast<uint32_t>(at)) : 0;
+  }
   if (nose == kProfileBins) return throat;
-  throat.nose_y = profile.y(nose);
-  throat.nose_z = profile.front[nose];
+  throat.nose_y = tip ? tip->y : profile.y(nose);
+  throat.nose_z = tip ? tip->z : profile.front[nose];
 
   // The hull from the nose down, on the side of larger z.
   uint32_t hull[kProfileBins];

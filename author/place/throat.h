@@ -36,7 +36,7 @@ struct Throat {
     return out;
   }
 };
-/// A notch of less than 8.5 % of the height does not count as a throat.
-Throat find_throat(const Profile& profile);
+/// A notch of less than 8.5 % of the height does not count as a throat. `nose`: its tip, if it is known.
+Throat find_throat(const Profile& profile, const Vec3* nose = nullptr);
 
 }  // namespace mien::author

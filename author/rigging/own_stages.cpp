@@ -78,6 +78,34 @@ Status check_bones(const RiggingOptions& options, bool moves, Error& error) {
   return Status::kOk;
 }
 
+Status read_landmarks(const MeshSource& source, const RiggingOptions& options, Landmarks& out,
+                      Error& error) {
+  for (const OwnLandmark& own : options.landmarks) {
+    Landmark* mark = nullptr;
+    for (uint32_t k = 0; k < kLandmarkCount; ++k) {
+      const char* name = kLandmarkNames[k];
+      const bool is_it =
+          own.name.count == strlen(name) && memcmp(own.name.data, name, own.name.count) == 0;
+      if (is_it) mark = &out.of[k];
+    }
+    const int length = static_cast<int>(std::min<size_t>(own.name.count, 60));
+    if (!mark || mark->given) {
+      return fail(error, Status::kAuthorMesh, kNoOffset, "landmark \"%.*s\" is %s", length,
+                  own.name.data ? own.name.data : "",
+                  mark ? "given twice" : "unknown; docs/authoring.md lists the names");
+    }
+    const Vec3 at = {own.position[0], own.position[1], own.position[2]};
+    mark->at = source.frame.to_internal(at * source.unit);
+    if (!(dot(mark->at, mark->at) < 1e24)) {
+      return fail(error, Status::kAuthorMesh, kNoOffset, "landmark \"%.*s\" is not at a number",
+                  length, own.name.data);
+    }
+    mark->known = mark->given = true;
+    mark->confidence = 1;
+  }
+  return Status::kOk;
+}
+
 Status take_bones(const MeshSource& source, const RiggingOptions& options, Arena& arena,
                   Placement& out, Error& error) {
   Span<Bone> bones;
@@ -104,6 +132,7 @@ Status take_bones(const MeshSource& source, const RiggingOptions& options, Arena
   out.bones = bones;
   out.lod_facial_counts = counts;
   out.symmetric = false;
+  out.jaw_share = {};
   return Status::kOk;
 }
 

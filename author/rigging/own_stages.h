@@ -11,6 +11,11 @@ namespace mien::author {
 /// Names, positions, order and kinds of `options.bones`. `moves`: there are expressions to fit.
 Status check_bones(const RiggingOptions& options, bool moves, Error& error);
 
+/// Landmarks in the internal frame. Fails with kAuthorMesh for unknown names, those given twice, and numbers that
+/// are not finite.
+Status read_landmarks(const MeshSource& source, const RiggingOptions& options, Landmarks& out,
+                      Error& error);
+
 /// Puts the caller's bones, which were checked, in place of the computed ones; the mask stays.
 Status take_bones(const MeshSource& source, const RiggingOptions& options, Arena& arena,
                   Placement& out, Error& error);

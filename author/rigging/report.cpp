@@ -220,6 +220,25 @@ void write_throat(const PlaceReport& place, Json& json) {
   json.key("notch_of_height").number(throat.height > 0 ? throat.depth / throat.height : 0);
 }
 
+void write_landmarks(const Rigging& rigging, Json& json) {
+  json.key("landmarks").open("{");
+  for (uint32_t k = 0; k < kLandmarkCount; ++k) {
+    const Landmark& mark = rigging.place.landmarks.of[k];
+    json.key(kLandmarkNames[k]);
+    if (!mark.known) {
+      json.word("null");
+      continue;
+    }
+    json.open("{");
+    json.key("position").point(rigging.read.mesh.frame.to_file(mark.at));
+    json.key("confidence").number(mark.confidence);
+    json.key("given").boolean(mark.given);
+    json.key("used").boolean(mark.is_used);
+    json.close("}");
+  }
+  json.close("}");
+}
+
 void write_objective(const PlaceReport& place, Json& json) {
   json.key("objective").open("{");
   json.key("chosen").number(place.runs[place.chosen_run].objective);
@@ -409,6 +428,7 @@ bool write_report(const MeshSource& source, const RiggingOptions& options, const
   json.key("own_bones").boolean(!options.bones.empty());
   json.key("own_lod_meshes").boolean(!options.lod_meshes.empty());
   json.key("own_weights").boolean(!options.weights.weights.empty());
+  write_landmarks(rigging, json);
   write_objective(place, json);
   write_throat(place, json);
   write_groups(place, json);
@@ -438,6 +458,7 @@ bool write_report(const MeshSource& source, const RiggingOptions& options, const
   if (place.jaw_joint) {
     json.open("{");
     json.key("shape").string(place.jaw_shape);
+    json.key("added").boolean(!rigging.placement.jaw_share.empty());
     json.key("degrees").number(place.jaw_angle);
     json.close("}");
   } else {

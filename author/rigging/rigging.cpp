@@ -6,6 +6,7 @@
 #include "author/base/dna_making.h"
 #include "author/fit/joint_tree.h"
 #include "author/place/extra_joints.h"
+#include "author/rigging/jaw_shape.h"
 #include "author/rigging/metahuman_names.h"
 #include "author/rigging/own_stages.h"
 
@@ -49,7 +50,9 @@ class Rigger {
 
   Status place() {
     PlaceOptions place = options_.place;
-    Status status = take_bytes(out_.read, options_.depth_groups, arena_, place.own_groups, error_);
+    Status status = read_landmarks(source_, options_, place.landmarks, error_);
+    if (status != Status::kOk) return status;
+    status = take_bytes(out_.read, options_.depth_groups, arena_, place.own_groups, error_);
     if (status == Status::kOk) {
       status = take_bytes(out_.read, options_.mask, arena_, place.own_mask, error_);
     }
@@ -86,6 +89,7 @@ class Rigger {
     if (Status measured = measure(out_.made_weights); measured != Status::kOk) return measured;
     if (has_own_bones() || options_.place.paper) return Status::kOk;
     return hang_bones() &&
+                   add_jaw_shape(out_.placement, weights_[0], arena_, out_.read.mesh, out_.place) &&
                    add_gaze_shapes(out_.placement, arena_, allocator_, out_.read.mesh, out_.gaze)
                ? Status::kOk
                : no_memory();

@@ -18,6 +18,12 @@ struct OwnBone {
   BoneKind kind;
 };
 
+/// A landmark of the caller, in the caller's frame and unit.
+struct OwnLandmark {
+  Name name;
+  double position[3];
+};
+
 /// Weights of the caller: one row per position of the source, one column per influence.
 struct OwnWeights {
   Span<const uint16_t> joints;
@@ -31,6 +37,7 @@ struct RiggingOptions {
   bool residual_targets = true;
   bool metahuman_names = false;  // of bones that are placed
   Name name = {"head", 4};
+  Span<const OwnLandmark> landmarks;
   Span<const OwnBone> bones;  // empty: placed
   OwnWeights weights;         // empty: made
   // Supplied by the caller; empty: computed. One for each position of the source:

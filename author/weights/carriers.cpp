@@ -73,6 +73,33 @@ struct TongueChain {
   }
 };
 
+/// True if there is skin on both sides of most of these vertices, as there is of teeth.
+bool is_between_cheeks(const AuthorMesh& mesh, Span<const uint32_t> vertices) {
+  constexpr size_t kSamples = 16;
+  const size_t step = vertices.count / kSamples + 1;
+  size_t inside = 0, all = 0;
+  for (size_t i = 0; i < vertices.count; i += step, ++all) {
+    const Vec3 p = mesh.positions[vertices[i]];
+    bool has[2] = {false, false};
+    for (size_t t = 0; t + 2 < mesh.triangles.count && !(has[0] && has[1]); t += 3) {
+      const uint32_t* c = mesh.triangles.data + t;
+      if (!mesh.is_skin[c[0]]) continue;
+      double area[3], sum = 0, x = 0;
+      for (int k = 0; k < 3; ++k) {
+        const Vec3 a = mesh.positions[c[(k + 1) % 3]] - p, b = mesh.positions[c[(k + 2) % 3]] - p;
+        area[k] = a.y * b.z - a.z * b.y;
+        sum += area[k];
+        x += area[k] * (mesh.positions[c[k]].x - p.x);
+      }
+      const bool is_hit = (area[0] > 0 && area[1] > 0 && area[2] > 0) ||
+                          (area[0] < 0 && area[1] < 0 && area[2] < 0);
+      if (is_hit) has[x / sum > 0] = true;
+    }
+    inside += has[0] && has[1];
+  }
+  return 2 * inside > all;
+}
+
 }  // namespace
 
 bool carry_components(const AuthorMesh& mesh, const Placement& placement, uint32_t head,
@@ -154,6 +181,11 @@ bool carry_components(const AuthorMesh& mesh, const Placement& placement, uint32
           part.bone = jaw_bone;
         }
       }
+      if (jaw_bone != kNone && !placement.jaw_share.empty()) {
+        double share = 0;
+        for (uint32_t v : all) share += double{placement.jaw_share[v]};
+        if (share > 0.5 * static_cast<double>(all.count)) part.bone = jaw_bone;
+      }
       bool follows;
       if (mesh.shapes.empty()) {
         size_t near = 0;
@@ -161,7 +193,8 @@ bool carry_components(const AuthorMesh& mesh, const Placement& placement, uint32
           near += tree.nearest(mesh.positions[v]).squared_distance <=
                   kOnSkin * kOnSkin * mesh.diagonal * mesh.diagonal;
         }
-        follows = near * 20 >= all.count * 19;
+        follows = near * 20 >= all.count * 19 &&
+                  (placement.jaw_share.empty() || !is_between_cheeks(mesh, all));
       } else {
         double farthest = 0;
         for (const Shape& shape : mesh.shapes) {

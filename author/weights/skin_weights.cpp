@@ -27,6 +27,7 @@ struct Weighing {
   SkinWeights& out;
   uint32_t facial = 0;  // bones in use
   uint32_t head = 0;
+  uint32_t jaw = kNone;  // if places follow it by Placement::jaw_share
   BodyChain body = {};
   double spacing = 0;
   SurfaceGraph graph = {};
@@ -160,6 +161,27 @@ void kernel_weights(const Weighing& w, uint32_t v, InfluenceList& out) {
   }
 }
 
+/// Divides weights of facial bones, in all 1 or less, between those below the jaw and others, so that the
+/// place follows the jaw by `share`.
+void share_with_jaw(const Weighing& w, double share, InfluenceList& facial) {
+  const Span<const Bone> bones = w.placement.bones;
+  double below = 0;
+  const double all = facial.sum();
+  for (uint32_t i = 0; i < facial.count; ++i) {
+    if (bones[facial.joints[i]].parent == w.jaw) below += facial.values[i];
+  }
+  const double of_jaw = below < share * all ? share * all - below : 0;
+  const double of_head = below > share * all ? below - share * all : 0;
+  const double others = all - below;
+  for (uint32_t i = 0; i < facial.count; ++i) {
+    const bool is_below = bones[facial.joints[i]].parent == w.jaw;
+    if (is_below && below > 0) facial.values[i] *= (below - of_head) / below;
+    if (!is_below && others > 0) facial.values[i] *= (others - of_jaw) / others;
+  }
+  facial.add(w.jaw, of_jaw);
+  facial.add(w.head, of_head);
+}
+
 /// The squared distance from which on a shape moves the skin: less is noise, as shapes of scans
 /// have everywhere. `room` is for all vertices.
 double noise_of(const AuthorMesh& mesh, const Shape& shape, Span<double> room) {
@@ -215,6 +237,8 @@ bool weigh_skin(Weighing& w) {
     if (!mesh.is_skin[v] || mesh.welded[v] != v) continue;
     InfluenceList facial, list;
     kernel_weights(w, v, facial);
+    const double of_jaw = w.jaw == kNone ? 0 : double{w.placement.jaw_share[v]};
+    if (w.jaw != kNone) share_with_jaw(w, of_jaw, facial);
     const double t = facial.count ? clamp01(from_mask[v] / (2 * w.spacing)) : 1;
     const double outside = t * t * (3 - 2 * t);
     double shares[BodyChain::kCapacity];
@@ -224,7 +248,8 @@ bool weigh_skin(Weighing& w) {
       list.add(facial.joints[i], facial.values[i] * (1 - outside) * of_head);
     }
     for (uint32_t i = 0; i + 1 < w.body.count; ++i) list.add(w.body.bones[i], shares[i]);
-    list.add(w.head, outside * of_head);
+    list.add(w.head, outside * of_head * (1 - of_jaw));
+    if (w.jaw != kNone) list.add(w.jaw, outside * of_head * of_jaw);
     store(list, v, w.out);
   }
   return true;
@@ -290,6 +315,7 @@ bool weigh(const AuthorMesh& mesh, const Placement& placement, const WeightOptio
   w.facial = std::min(options.facial_bones, placement.facial_count);
   w.lists = out.m + 1;
   w.head = bone_of_kind(placement, BoneKind::kHead, 0);
+  if (!placement.jaw_share.empty()) w.jaw = bone_of_kind(placement, BoneKind::kJaw, kNone);
   w.body = body_chain(placement);
   if (!find_median_spacing(placement, w.facial, mesh.diagonal, scratch, w.spacing) ||
       !make_surface_graph(mesh, scratch, scratch, w.graph) || !find_nearest_bones(w) ||

@@ -704,8 +704,9 @@ namespace Mien.Native {
       new[] { sizeof(MienAuthorShape), 40 },
       new[] { sizeof(MienAuthorMesh), 112 },
       new[] { sizeof(MienAuthorBone), 48 },
+      new[] { sizeof(MienAuthorLandmark), 40 },
       new[] { sizeof(MienAuthorLod), 24 },
-      new[] { sizeof(MienAuthorDesc), 224 },
+      new[] { sizeof(MienAuthorDesc), 240 },
       new[] { sizeof(MienDocumentDesc), 24 },
       new[] { sizeof(MienPrunedTargets), 24 },
       new[] { sizeof(MienPruneJointsDesc), 24 },
@@ -2352,6 +2353,15 @@ namespace Mien.Native {
     public BoneKind Kind;
   }
 
+  /// <summary>A point of the face that joints are placed by.</summary>
+  [StructLayout(LayoutKind.Sequential)]
+  public unsafe struct MienAuthorLandmark {
+    /// <summary>"nose" (tip), "throat", "lip_upper", "lip_lower" (in the middle), "mouth_l", "mouth_r" (corners, as the character sees them), "chin", "jaw" (its axis, in the middle plane), "eye_l", "eye_r" (centers of the eyeballs), "head", "neck" (pivots)</summary>
+    public MienStringView Name;
+    /// <summary>in the unit and axes of the mesh</summary>
+    public fixed double Position[3];
+  }
+
   /// <summary>A LOD of the mesh, made by the caller.</summary>
   [StructLayout(LayoutKind.Sequential)]
   public unsafe struct MienAuthorLod {
@@ -2425,6 +2435,9 @@ namespace Mien.Native {
     public MienAuthorLod* LodMeshes;
     /// <summary>one less than `lods`</summary>
     public UIntPtr LodMeshCount;
+    /// <summary>used instead of those that are found; each name once, in any order. With "jaw", or a landmark of the mouth, there is a jaw even if no shape opens it. NULL: all are found</summary>
+    public MienAuthorLandmark* Landmarks;
+    public UIntPtr LandmarkCount;
 
     /// <summary>All fields zero but StructSize.</summary>
     public static MienAuthorDesc Create() {
@@ -4260,9 +4273,10 @@ namespace Mien.Native {
     /// centimeters; positions keep their order, but positions that belong to no face are dropped. The same mesh,
     /// options and seed give the same bytes on any number of threads. `mesh` is required;
     /// `out_report` may be NULL. Close with mien_dna_close() and mien_author_report_close().
+    /// The report has the confidence of each landmark; a mesh is not refused because it is low.
     /// Fails with MIEN_ERROR_AUTHOR_MESH if the arrays of the mesh or of the caller's results contradict
-    /// each other, MIEN_ERROR_AUTHOR_REFUSED if the mesh cannot be rigged, MIEN_ERROR_AUTHOR_CANCELED if
-    /// `progress` canceled, MIEN_ERROR_DNA_LIMIT if the file would be too large.
+    /// each other, MIEN_ERROR_AUTHOR_REFUSED if the mesh cannot be rigged or landmarks contradict it,
+    /// MIEN_ERROR_AUTHOR_CANCELED if `progress` canceled, MIEN_ERROR_DNA_LIMIT if the file would be too large.
     /// See docs/authoring.md, 1 "What goes in and what comes out".</summary>
     [DllImport("mien-author", CallingConvention = CallingConvention.Cdecl)]
     public static extern Status mien_author_rig(MienAuthorMesh* mesh, MienAuthorDesc* desc, out IntPtr out_dna, out IntPtr out_report, MienError* error);

@@ -950,6 +950,12 @@ typedef struct MienAuthorBone {
     uint32_t kind; /* MIEN_BONE_...: the first bone is the root, and facial bones are consecutive */
 } MienAuthorBone;
 
+/* A point of the face that joints are placed by. */
+typedef struct MienAuthorLandmark {
+    MienStringView name; /* "nose" (tip), "throat", "lip_upper", "lip_lower" (in the middle), "mouth_l", "mouth_r" (corners, as the character sees them), "chin", "jaw" (its axis, in the middle plane), "eye_l", "eye_r" (centers of the eyeballs), "head", "neck" (pivots) */
+    double position[3]; /* in the unit and axes of the mesh */
+} MienAuthorLandmark;
+
 /* A LOD of the mesh, made by the caller. */
 typedef struct MienAuthorLod {
     uint32_t const* corners; /* indices of positions of the mesh, three per triangle, all three in the same object. Objects without triangles are not in the LOD */
@@ -991,6 +997,8 @@ typedef struct MienAuthorDesc {
     double lod_triangles; /* share of the triangles of a LOD that the next one keeps: above 0, at most 1. 0: 0.5. 1: all */
     MienAuthorLod const* lod_meshes; /* LOD 1, LOD 2 and so on. NULL: made according to lod_triangles */
     size_t lod_mesh_count; /* one less than `lods` */
+    MienAuthorLandmark const* landmarks; /* used instead of those that are found; each name once, in any order. With "jaw", or a landmark of the mouth, there is a jaw even if no shape opens it. NULL: all are found */
+    size_t landmark_count;
 } MienAuthorDesc;
 
 typedef struct MienDocumentDesc {
@@ -2258,9 +2266,10 @@ skin weights for every LOD, and a raw control for each expression. The file has 
 centimeters; positions keep their order, but positions that belong to no face are dropped. The same mesh,
 options and seed give the same bytes on any number of threads. `mesh` is required;
 `out_report` may be NULL. Close with mien_dna_close() and mien_author_report_close().
+The report has the confidence of each landmark; a mesh is not refused because it is low.
 Fails with MIEN_ERROR_AUTHOR_MESH if the arrays of the mesh or of the caller's results contradict
-each other, MIEN_ERROR_AUTHOR_REFUSED if the mesh cannot be rigged, MIEN_ERROR_AUTHOR_CANCELED if
-`progress` canceled, MIEN_ERROR_DNA_LIMIT if the file would be too large.
+each other, MIEN_ERROR_AUTHOR_REFUSED if the mesh cannot be rigged or landmarks contradict it,
+MIEN_ERROR_AUTHOR_CANCELED if `progress` canceled, MIEN_ERROR_DNA_LIMIT if the file would be too large.
 See docs/authoring.md, 1 "What goes in and what comes out". */
 MienStatus mien_author_rig(MienAuthorMesh const* mesh, MienAuthorDesc const* desc, MienDna** out_dna, MienAuthorReport** out_report, MienError* error);
 
@@ -3125,8 +3134,9 @@ api.sizes = {
   MienAuthorShape = 40,
   MienAuthorMesh = 112,
   MienAuthorBone = 48,
+  MienAuthorLandmark = 40,
   MienAuthorLod = 24,
-  MienAuthorDesc = 224,
+  MienAuthorDesc = 240,
   MienDocumentDesc = 24,
   MienPrunedTargets = 24,
   MienPruneJointsDesc = 24,

@@ -12,6 +12,7 @@
 
 #include "integrations/program/commands/author_images.h"
 #include "integrations/program/commands/author_input.h"
+#include "integrations/program/commands/author_landmarks.h"
 #include "integrations/program/commands/author_materials.h"
 #include "integrations/program/commands/mesh_view.h"
 #include "integrations/program/commands/options.h"
@@ -39,7 +40,7 @@ struct AuthorCommand {
   std::string symmetry = "auto", residual = "targets", metric = "depth";
   std::string up, front;  // empty: guessed
   std::string overlaps = "0", lod_triangles = "0.5";
-  std::string report, images, crop, objects, names, preset;
+  std::string report, images, crop, objects, names, preset, landmarks, confidence = "0.25";
   bool copy_textures = false;
   bool paper = false, no_neck_cut = false, mask_from_shapes = false, area_density = false;
   OutputFile output;
@@ -50,6 +51,14 @@ uint32_t parse_count(const char* option, const std::string& word, uint32_t least
   if (count >= least) return static_cast<uint32_t>(count);
   fail_usage(std::string(option) + " " + word, "this is below " + std::to_string(least),
              "give " + std::to_string(least) + " to " + std::to_string(most));
+}
+
+double parse_confidence(const std::string& word) {
+  char* end = nullptr;
+  const double least = std::strtod(word.c_str(), &end);
+  if (!word.empty() && *end == 0 && least >= 0 && least <= 1) return least;
+  fail_usage("--confidence \"" + word + "\"", "this is not a number from 0 to 1",
+             "give 0 to rig a mesh whatever was found on it");
 }
 
 double parse_share(const char* option, const std::string& word) {
@@ -447,7 +456,7 @@ void settle_axes(AuthorCommand& command, const MeshFile& mesh, const Session& se
                   " degrees about its axis " + std::string(1, "xyz"[guess.turned_about]) + ": " +
                   differ,
               "rotate it back in the program that made it, or rig it as it is with --up " +
-                  up_of(command) + " --front " + front_of(command));
+                  up_of(command) + " --front " + front_of(command) + " --confidence 0");
   }
   const MeshStand& stand = guess.stand;
   if (stand.up.word() == given.up.word() && stand.front.word() == given.front.word()) return;
@@ -526,10 +535,12 @@ std::vector<AuthorImage> draw_images(const AuthorCommand& command, const MienAut
 
 void run(AuthorCommand command, const Session& session) {
   MienAuthorDesc desc = parse_options(command);
+  const double least_confidence = parse_confidence(command.confidence);
   const Crop crop = command.crop.empty() ? Crop{} : parse_crop(command.crop);
   refuse_terminal(command.output.path, session, "a DNA file");
   std::vector<std::string> inputs = {command.mesh};
   if (!command.shapes.empty()) inputs.push_back(command.shapes);
+  if (!command.landmarks.empty()) inputs.push_back(command.landmarks);
   // Before the work, which takes a while.
   refuse_missing_folder(command.output.path);
   refuse_replacing(command.output, inputs);
@@ -542,6 +553,10 @@ void run(AuthorCommand command, const Session& session) {
   }
   auto interrupt = std::make_unique<EndOnInterrupt>();
   MeshFile file = read_mesh_file(command.mesh);
+  const LandmarksFile landmarks(command.landmarks, file);
+  const std::vector<MienAuthorLandmark> marks = landmarks.list();
+  desc.landmarks = marks.data();
+  desc.landmark_count = marks.size();
   if (!command.shapes.empty()) file.shapes = read_shapes(command.shapes, file);
   if (!command.names.empty()) rename_shapes(command, file);
   if (!command.preset.empty()) name_as_metahuman(file, session);
@@ -553,6 +568,7 @@ void run(AuthorCommand command, const Session& session) {
   settle_unit(command, body, file, desc, session);
 
   Made made = make_rig(command, desc, file, session);
+  refuse_uncertain(made.report, least_confidence, shown_name(command.mesh));
   made.report["names"] = usual_names(file, session);
   note_oddities(command, file, made.report, session);
   std::vector<AuthorImage> made_images;
@@ -604,6 +620,17 @@ Command add_author_command(CLI::App& app, const Session& session) {
                    "JSON with other names for shapes: {\"smirk\": \"mouthSmileLeft\"}; the\n"
                    "report lists what each name means in ARKit")
       ->type_name("FILE");
+  author
+      ->add_option("--landmarks", options->landmarks,
+                   "JSON with points of the face, used instead of those that are found:\n"
+                   "{\"nose\": [0, 1.2, 9], \"chin\": 1043, \"eye_l\": \"EyeBall_L\"}: a place,\n"
+                   "a position of MESH by its number from 0, or an object")
+      ->type_name("FILE");
+  author
+      ->add_option("--confidence", options->confidence,
+                   "Stop if a landmark that joints need is less certain than this:\n"
+                   "0 to 1 (default: 0.25)")
+      ->type_name("SHARE");
   author->add_option("--joints", options->joints, "Facial joints (default: 240)")->type_name("N");
   author
       ->add_option("--influences", options->influences,

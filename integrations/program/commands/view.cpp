@@ -2,10 +2,12 @@
 // mien view: the viewer of integrations/web, served on this machine with a file in it.
 #include <cstdio>
 #include <filesystem>
+#include <map>
 
 #include "integrations/program/commands/options.h"
 #include "integrations/program/io/baked_file.h"
 #include "integrations/program/io/input.h"
+#include "integrations/program/io/materials.h"
 #include "integrations/program/view/page.h"
 
 namespace mien::cli {
@@ -60,6 +62,36 @@ std::string name_of(const std::string& path, const std::string& bytes) {
   return is_glb && !says_glb ? name + ".glb" : name;
 }
 
+/// The materials beside the rig, and their textures. Returns their part of the page's address.
+std::string served_materials(const std::string& path, const std::string& name, view::Files& files,
+                          const Session& session) {
+  Materials materials = read_materials_beside(path);
+  if (materials.list.empty()) return "";
+  std::map<std::string, std::string> served;  // addresses, by path
+  for (SurfaceMaterial& material : materials.list) {
+    for (std::string& texture : material.textures) {
+      if (texture.empty()) continue;
+      if (const auto known = served.find(texture); known != served.end()) {
+        texture = known->second;
+        continue;
+      }
+      std::string& address = served[texture];
+      std::error_code reason;
+      if (!std::filesystem::is_regular_file(texture, reason)) {
+        note(session, "the texture " + one_line(texture) + " is missing");
+      } else {
+        TextureFile read = read_texture(texture);
+        address = "textures/" + std::to_string(served.size()) + (read.is_png ? ".png" : ".jpg");
+        files["/rig/" + address] = {read.mime_type(), std::move(read.bytes)};
+      }
+      texture = address;
+    }
+  }
+  const std::string file = materials_path(name);
+  files["/rig/" + file] = {"application/json", materials_json(materials, "")};
+  return "&materials=rig/" + url_encoded(url_encoded(file));
+}
+
 void run(const ViewOptions& options, const Session& session) {
   view::require_server();
   uint64_t port = 0;
@@ -73,9 +105,10 @@ void run(const ViewOptions& options, const Session& session) {
     std::string bytes = read_viewable(options.file);
     check_rig(bytes, shown_name(options.file));
     const std::string name = name_of(options.file, bytes);
+    const std::string of_materials = served_materials(options.file, name, files, session);
     files["/rig/" + name] = {"application/octet-stream", std::move(bytes)};
     // The page decodes its query, the server the path that is in it.
-    address += "?file=rig/" + url_encoded(url_encoded(name));
+    address += "?file=rig/" + url_encoded(url_encoded(name)) + of_materials;
   }
   view::serve(files, static_cast<uint16_t>(port), [&](uint16_t found) {
     const std::string url = "http://127.0.0.1:" + std::to_string(found) + address;
@@ -103,8 +136,9 @@ Command add_view_command(CLI::App& app, const Session& session) {
                    "Folder of the viewer (default: the one installed or built with the program)")
       ->type_name("FOLDER");
   view->footer(
-      "Serves the viewer on this machine until it is interrupted, and opens the browser. The file "
-      "is\n"
+      "Serves the viewer on this machine until it is interrupted, and opens the browser. The "
+      "file,\n"
+      "and head.materials.json with its textures beside head.dna, are\n"
       "read once and only sent to the page; nothing leaves the machine. Other users of the "
       "machine\n"
       "can open the address too.\n\n"

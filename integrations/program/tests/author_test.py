@@ -158,6 +158,60 @@ class AuthorTest(ProgramTest):
         self.ok("validate", path(name + ".dna"))
         return json.loads(read(name + ".json"))
 
+    def test_landmarks_are_given_by_place_number_and_object(self):
+        positions, faces = list(POSITIONS), list(FACES)
+        first = len(faces)
+        ball(positions, faces, (3, 1, 6), 1.3)
+        write("marked.obj", obj(positions, faces, {0: "head", first: "ball"}))
+        tip = max(range(len(POSITIONS)), key=lambda v: POSITIONS[v][2])
+        write("marks.json", json.dumps({"nose": tip, "eye_l": "ball", "head": [0, -9, -1.5]}))
+        self.ok("author", path("marked.obj"), "--landmarks", path("marks.json"), "--joints", "20", "--lods", "1",
+                  "-o", path("marked.dna"), "--report", path("marked.json"))
+        report = json.loads(read("marked.json"))
+        marks = report["landmarks"]
+        for name, place in {"nose": POSITIONS[tip], "eye_l": (3, 1, 6), "head": (0, -9, -1.5)}.items():
+            self.assertTrue(marks[name]["given"], name)
+            self.assertEqual(marks[name]["confidence"], 1)
+            for a, b in zip(marks[name]["position"], place):
+                self.assertAlmostEqual(a, b, 4)
+        bones = {bone["name"]: bone["position"] for bone in report["bones"]}
+        for a, b in zip(bones["head"] + bones["eye_l"], (0, -9, -1.5, 3, 1, 6)):
+            self.assertAlmostEqual(a, b, 4)
+        self.assertIsNone(marks["jaw"])
+        self.assertFalse(marks["chin"]["used"], "lips are one surface, so nothing rests on the guess")
+
+    def test_wrong_landmarks_are_refused(self):
+        for text, why in {"[1]": "expected an object of landmarks",
+                          '{"nostril": [0, 0, 0]}': "there is no landmark of this name",
+                          '{"nose": [0, 0]}': "expected three numbers",
+                          '{"nose": [0, 0, "x"]}': "three numbers",
+                          '{"nose": -1}': "expected three numbers",
+                          '{"nose": 99999999}': "numbered from 0",
+                          '{"nose": null}': "expected three numbers",
+                          '{"nose": "hat"}': 'no object "hat"',
+                          '{"nose": [0, 0, 1e999]}': "number overflow",
+                          '{"nose": [0, 0, 1], "nose": [0, 0, 2]}': "twice",
+                          '{"nose": [0, 0, 1]': "byte 19",
+                          '{"chin": [0, 900, 0]}': "outside the head",
+                          '{"mouth_l": [-2, -6, 9], "mouth_r": [2, -6, 9]}': "not on the character's left"}.items():
+            write("wrong.json", text)
+            self.fails(INVALID, "author", path("head.obj"), "--landmarks", path("wrong.json"),
+                        "--joints", "10", "--lods", "1", "-o", path("wrong.dna"), says=why)
+        self.fails(FILE, "author", path("head.obj"), "--landmarks", path("none.json"),
+                    "-o", path("wrong.dna"), says="none.json")
+
+    def test_stops_where_landmarks_are_not_certain(self):
+        positions, faces = [], []
+        ball(positions, faces, (0, 0, 0), 12, 30, 40)
+        write("ball.obj", obj(positions, faces))
+        command = ("author", path("ball.obj"), "--joints", "10", "--lods", "1", "-o", path("ball.dna"))
+        self.fails(INVALID, *command, says="not certain where these landmarks are: nose (0.")
+        self.assertFalse(os.path.exists(path("ball.dna")))
+        self.fails(INVALID, *command, says='--landmarks')
+        self.ok(*command, "--confidence", "0")
+        for word in ("-1", "2", "x", "nan"):
+            self.fails(USAGE, *command, "--confidence=" + word, says="not a number from 0 to 1")
+
     def test_a_mesh_alone_gives_joints_and_weights(self):
         report = self.author(path("head.obj"), "--joints", "40", "--lods", "3")
         self.assertIsNone(report["fit"])
@@ -312,8 +366,8 @@ class AuthorTest(ProgramTest):
             mesh = write(name + ".obj", obj([turn(*p, math.cos(angle), math.sin(angle)) for p in POSITIONS], FACES))
             self.fails(INVALID, "author", mesh, "-o", path("no.dna"), says="turned by about 20 degrees about its axis "
                        + axis)
-            self.assertEqual(run("author", mesh, "--joints", "20", "--lods", "1", "--up", "y", "--front", "z", "-o",
-                                 path("turned.dna")).returncode, DONE)
+            self.assertEqual(run("author", mesh, "--joints", "20", "--lods", "1", "--up", "y", "--front", "z",
+                                 "--confidence", "0", "-o", path("turned.dna")).returncode, DONE)
 
     def test_a_body_is_cropped_by_itself(self):
         positions, faces = list(POSITIONS), list(FACES)

@@ -2780,6 +2780,15 @@ class MienAuthorBone(Structure):
     kind: Any
 
 
+class MienAuthorLandmark(Structure):
+    _fields_ = [
+        ("name", MienStringView),
+        ("position", c_double * 3),
+    ]
+    name: Any
+    position: Any
+
+
 class MienAuthorLod(Structure):
     _fields_ = [
         ("corners", c_void_p),
@@ -2824,6 +2833,8 @@ class MienAuthorDesc(Structure):
         ("lod_triangles", c_double),
         ("lod_meshes", POINTER(MienAuthorLod)),
         ("lod_mesh_count", c_size_t),
+        ("landmarks", POINTER(MienAuthorLandmark)),
+        ("landmark_count", c_size_t),
     ]
     struct_size: Any
     facial_joints: Any
@@ -2856,6 +2867,8 @@ class MienAuthorDesc(Structure):
     lod_triangles: Any
     lod_meshes: Any
     lod_mesh_count: Any
+    landmarks: Any
+    landmark_count: Any
 
     def __init__(self, *,
                  facial_joints: int = 0,
@@ -2887,8 +2900,10 @@ class MienAuthorDesc(Structure):
                  overlap_correctives: int = 0,
                  lod_triangles: float = 0,
                  lod_meshes: Any = None,
-                 lod_mesh_count: int = 0) -> None:
-        super().__init__(224)
+                 lod_mesh_count: int = 0,
+                 landmarks: Any = None,
+                 landmark_count: int = 0) -> None:
+        super().__init__(240)
         self.facial_joints = facial_joints
         self.influences = influences
         self.lods = lods
@@ -2919,6 +2934,8 @@ class MienAuthorDesc(Structure):
         self.lod_triangles = lod_triangles
         self.lod_meshes = lod_meshes
         self.lod_mesh_count = lod_mesh_count
+        self.landmarks = landmarks
+        self.landmark_count = landmark_count
 
 
 class MienDocumentDesc(Structure):
@@ -4932,7 +4949,7 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
         (Status.AUTHOR_MESH,
          "the arrays of the mesh or of the caller's results contradict each other"),
         (Status.AUTHOR_REFUSED,
-         "the mesh cannot be rigged"),
+         "the mesh cannot be rigged or landmarks contradict it"),
         (Status.AUTHOR_CANCELED,
          "`progress` canceled"),
     ),

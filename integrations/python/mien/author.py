@@ -129,6 +129,16 @@ class _Given:
             to.position[:] = position.tolist()
             to.parent, to.kind = uint32(bone.parent, "parent"), uint32(bone.kind, "kind")
 
+    def landmarks(self, landmarks: Mapping[str, Any], desc: Any) -> None:
+        structs = (_api.MienAuthorLandmark * len(landmarks))()
+        self.kept.append(structs)
+        desc.landmarks = structs
+        desc.landmark_count = len(landmarks)
+        for to, (name, position) in zip(structs, landmarks.items()):
+            to.name = self.text(name)
+            at = self.numbers(position, f"landmark {name!r}", "float64", (3,))
+            to.position[:] = at.tolist()
+
     def weights(self, weights: Tuple[Any, Any], count: int, desc: Any) -> None:
         joints, shares = weights
         joints = self.numbers(joints, "weights[0]", "uint16", (count, None))
@@ -205,6 +215,7 @@ def author_rig(positions: Any, faces: Any, shapes: Optional[Mapping[str, Any]] =
                bone_motions: Optional[Mapping[str, Any]] = None, joint_groups: int = 0,
                overlap_correctives: int = 0, lod_triangles: float = 0.5,
                lod_meshes: Optional[Sequence[Any]] = None,
+               landmarks: Optional[Mapping[str, Any]] = None,
                progress: Optional[Callable[[str, float], Any]] = None,
                executor: Optional[Executor] = None) -> AuthoredRig:
     """Makes a rig from the mesh of a head: joints, skin weights of every LOD, and for each shape a raw
@@ -233,6 +244,8 @@ def author_rig(positions: Any, faces: Any, shapes: Optional[Mapping[str, Any]] =
     lod_triangles: share of its triangles that each further LOD keeps of the LOD before; 1: all
     lod_meshes:    of the caller, instead: (k, 3) positions of the corners of LOD 1, of LOD 2 and so on,
                    each triangle of one object; or a pair of that and (k, 3) indices of UVs
+    landmarks:     points of the face by name, used instead of those that are found:
+                   {"nose": (0, 1.2, 9)}; docs/authoring.md, "Landmarks", has the names
     progress:      called with the name of a step and a share from 0 to 1; what it returns, if true,
                    cancels. What it raises comes out of the call
     executor:      threads to work on; the result does not depend on them
@@ -273,6 +286,8 @@ def author_rig(positions: Any, faces: Any, shapes: Optional[Mapping[str, Any]] =
         given.weights(weights, len(places), desc)
     given.results(len(places), list(shapes or {}), desc, depth_groups=depth_groups, mask=mask,
                   lod_joints=lod_joints, bone_groups=bone_groups, bone_motions=bone_motions)
+    if landmarks is not None:
+        given.landmarks(landmarks, desc)
     if lod_meshes is not None:
         given.lods(lod_meshes, desc)
     made = _make(mesh, desc, progress, executor)

@@ -1948,6 +1948,16 @@ export interface AuthorBone {
   kind?: BoneKind;
 }
 
+/** A point of the face that joints are placed by. */
+export interface AuthorLandmark {
+  /**
+   * "nose" (tip), "throat", "lip_upper", "lip_lower" (in the middle), "mouth_l", "mouth_r" (corners, as the character sees them), "chin", "jaw" (its axis, in the middle plane), "eye_l", "eye_r" (centers of the eyeballs), "head", "neck" (pivots)
+   */
+  name?: string;
+  /** in the unit and axes of the mesh */
+  position?: readonly number[];
+}
+
 /** A LOD of the mesh, made by the caller. */
 export interface AuthorLod {
   /**
@@ -2037,6 +2047,11 @@ export interface AuthorDesc {
   lodMeshes?: readonly AuthorLod[];
   /** one less than `lods` */
   lodMeshCount?: number;
+  /**
+   * used instead of those that are found; each name once, in any order. With "jaw", or a landmark of the mouth, there is a jaw even if no shape opens it. NULL: all are found
+   */
+  landmarks?: readonly AuthorLandmark[];
+  landmarkCount?: number;
 }
 
 export interface DocumentDesc {
@@ -3385,8 +3400,9 @@ export interface Exports {
    * centimeters; positions keep their order, but positions that belong to no face are dropped. The same mesh,
    * options and seed give the same bytes on any number of threads. `mesh` is required;
    * `out_report` may be NULL. Close with mien_dna_close() and mien_author_report_close().
+   * The report has the confidence of each landmark; nothing is refused because it is low.
    * Fails with MIEN_ERROR_AUTHOR_MESH if the arrays of the mesh or of the caller's results contradict
-   * each other, MIEN_ERROR_AUTHOR_REFUSED if the mesh cannot be rigged, MIEN_ERROR_AUTHOR_CANCELED if
+   * each other, MIEN_ERROR_AUTHOR_REFUSED if the mesh cannot be rigged or landmarks contradict each other, MIEN_ERROR_AUTHOR_CANCELED if
    * `progress` canceled, MIEN_ERROR_DNA_LIMIT if the file would be too large.
    * See docs/authoring.md, 1 "What goes in and what comes out".
    */

@@ -973,12 +973,16 @@ export const layouts = {
     parent: [32, "u32"],
     kind: [36, "u32"],
   } },
+  AuthorLandmark: { size: 32, sized: false, fields: {
+    name: [0, "string"],
+    position: [8, "f64", 3],
+  } },
   AuthorLod: { size: 12, sized: false, fields: {
     corners: [0, "*u32", "cornerCount"],
     cornerCount: [4, "u32"],
     cornerUvs: [8, "*u32"],
   } },
-  AuthorDesc: { size: 152, sized: true, fields: {
+  AuthorDesc: { size: 160, sized: true, fields: {
     facialJoints: [4, "u32"],
     influences: [8, "u32"],
     lods: [12, "u32"],
@@ -1008,6 +1012,8 @@ export const layouts = {
     lodTriangles: [136, "f64"],
     lodMeshes: [144, "*AuthorLod", "lodMeshCount"],
     lodMeshCount: [148, "u32"],
+    landmarks: [152, "*AuthorLandmark", "landmarkCount"],
+    landmarkCount: [156, "u32"],
   } },
   DocumentDesc: { size: 16, sized: true, fields: {
     unknownLayers: [12, "u32"],

@@ -3014,6 +3014,26 @@ impl Default for MienAuthorBone {
     }
 }
 
+/// A point of the face that joints are placed by.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienAuthorLandmark {
+    /// "nose" (tip), "throat", "`lip_upper`", "`lip_lower`" (in the middle), "`mouth_l`",
+    /// "`mouth_r`" (corners, as the character sees them), "chin", "jaw" (its axis, in the middle
+    /// plane), "`eye_l`", "`eye_r`" (centers of the eyeballs), "head", "neck" (pivots).
+    pub name: MienStringView,
+    /// In the unit and axes of the mesh.
+    pub position: [f64; 3],
+}
+
+impl Default for MienAuthorLandmark {
+    /// All zero.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        unsafe { zeroed() }
+    }
+}
+
 /// A LOD of the mesh, made by the caller.
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -3108,6 +3128,10 @@ pub struct MienAuthorDesc {
     pub lod_meshes: *const MienAuthorLod,
     /// One less than `lods`.
     pub lod_mesh_count: usize,
+    /// Used instead of those that are found; each name once, in any order. With "jaw", or a
+    /// landmark of the mouth, there is a jaw even if no shape opens it. NULL: all are found.
+    pub landmarks: *const MienAuthorLandmark,
+    pub landmark_count: usize,
 }
 
 impl Default for MienAuthorDesc {
@@ -4868,12 +4892,13 @@ extern "C" {
     /// has the axes of the mesh, in centimeters; positions keep their order, but positions that
     /// belong to no face are dropped. The same mesh, options and seed give the same bytes on any
     /// number of threads. `mesh` is required; `out_report` may be NULL. Close with
-    /// `mien_dna_close()` and `mien_author_report_close()`.
+    /// `mien_dna_close()` and `mien_author_report_close()`. The report has the confidence of each
+    /// landmark; a mesh is not refused because it is low.
     ///
     /// Fails with `MIEN_ERROR_AUTHOR_MESH` if the arrays of the mesh or of the caller's results
-    /// contradict each other, `MIEN_ERROR_AUTHOR_REFUSED` if the mesh cannot be rigged,
-    /// `MIEN_ERROR_AUTHOR_CANCELED` if `progress` canceled, `MIEN_ERROR_DNA_LIMIT` if the file
-    /// would be too large.
+    /// contradict each other, `MIEN_ERROR_AUTHOR_REFUSED` if the mesh cannot be rigged or
+    /// landmarks contradict it, `MIEN_ERROR_AUTHOR_CANCELED` if `progress` canceled,
+    /// `MIEN_ERROR_DNA_LIMIT` if the file would be too large.
     ///
     /// See docs/authoring.md, 1 "What goes in and what comes out".
     pub fn mien_author_rig(mesh: *const MienAuthorMesh, desc: *const MienAuthorDesc, out_dna: *mut *mut MienDna, out_report: *mut *mut MienAuthorReport, error: *mut MienError) -> MienStatus;

@@ -159,13 +159,14 @@ fn structs_are_laid_out_as_in_c() {
             32 corners 40 corner_count 48 uvs 56 uv_count 64 corner_uvs 72 objects 80 object_count
             88 shapes 96 shape_count 104;
         MienAuthorBone 48 8: name 0 position 16 parent 40 kind 44;
+        MienAuthorLandmark 40 8: name 0 position 16;
         MienAuthorLod 24 8: corners 0 corner_count 8 corner_uvs 16;
-        MienAuthorDesc 224 8: struct_size 0 facial_joints 8 influences 12 lods 16 groups 20 seed 24
+        MienAuthorDesc 240 8: struct_size 0 facial_joints 8 influences 12 lods 16 groups 20 seed 24
             unit 32 up 40 front 44 symmetry 48 flags 52 name 56 face_object 72 bones 88 bone_count
             96 weight_joints 104 weights 112 parallel 120 progress_user 128 progress 136 allocator
             144 depth_groups 152 mask 160 lod_joints 168 bone_groups 176 bone_motions 184
             joint_groups 192 overlap_correctives 196 lod_triangles 200 lod_meshes 208 lod_mesh_count
-            216;
+            216 landmarks 224 landmark_count 232;
         MienDocumentDesc 24 8: struct_size 0 allocator 8 file_access 16 unknown_layers 20;
         MienPrunedTargets 24 8: struct_size 0 deltas 8 targets 16;
         MienPruneJointsDesc 24 8: struct_size 0 translation 8 rotation 12 scale 16 reserved 20;

@@ -73,6 +73,16 @@ pub struct AuthorLod<'a> {
     pub uvs: Option<&'a [[u32; 3]]>,
 }
 
+/// A point of the face that joints are placed by.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AuthorLandmark<'a> {
+    /// `nose`, `throat`, `lip_upper`, `lip_lower`, `mouth_l`, `mouth_r`, `chin`, `jaw`, `eye_l`, `eye_r`,
+    /// `head` or `neck`; each once.
+    pub name: &'a str,
+    /// In the mesh.
+    pub position: [f64; 3],
+}
+
 /// A rig that was made.
 #[derive(Debug)]
 #[non_exhaustive]
@@ -129,6 +139,7 @@ pub struct AuthorOptions<'a> {
     overlap_correctives: usize,
     lod_triangles: f64,
     lod_meshes: &'a [AuthorLod<'a>],
+    landmarks: &'a [AuthorLandmark<'a>],
     allocator: Option<Allocator>,
 }
 
@@ -158,6 +169,7 @@ impl Default for AuthorOptions<'_> {
             overlap_correctives: 0,
             lod_triangles: 0.0,
             lod_meshes: &[],
+            landmarks: &[],
             allocator: None,
         }
     }
@@ -401,6 +413,12 @@ impl<'a> AuthorOptions<'a> {
         self
     }
 
+    /// Landmarks of yours, used instead of those that are found.
+    pub fn landmarks(mut self, landmarks: &'a [AuthorLandmark<'a>]) -> Self {
+        self.landmarks = landmarks;
+        self
+    }
+
     /// Where memory comes from.
     pub fn allocator(mut self, allocator: &Allocator) -> Self {
         self.allocator = Some(allocator.clone());
@@ -462,6 +480,14 @@ impl<'a> AuthorOptions<'a> {
         Ok((influences, joints.as_ptr(), weights.as_ptr()))
     }
 
+    fn landmarks_of_c(&self) -> Vec<sys::MienAuthorLandmark> {
+        let landmark = |given: &AuthorLandmark<'_>| sys::MienAuthorLandmark {
+            name: view(given.name),
+            position: given.position,
+        };
+        self.landmarks.iter().map(landmark).collect()
+    }
+
     fn lod_meshes_of_c(&self) -> Result<Vec<sys::MienAuthorLod>> {
         let lod = |lod: &AuthorLod<'_>| {
             if lod.uvs.map_or(false, |uvs| uvs.len() != lod.triangles.len()) {
@@ -514,6 +540,7 @@ impl<'a> AuthorOptions<'a> {
         let bones = self.bones_of_c();
         let lods = self.check_results(mesh)?;
         let lod_meshes = self.lod_meshes_of_c()?;
+        let landmarks = self.landmarks_of_c();
         let (influences, weight_joints, weights) = self.weights_of_c(mesh.position_count)?;
         let mut report = Progress { report, panic: None };
         let user = (&mut report as *mut Progress<P>).cast();
@@ -552,6 +579,8 @@ impl<'a> AuthorOptions<'a> {
                     lod_triangles: self.lod_triangles,
                     lod_meshes: data(&lod_meshes),
                     lod_mesh_count: lod_meshes.len(),
+                    landmarks: data(&landmarks),
+                    landmark_count: landmarks.len(),
                     ..Default::default()
                 };
                 // SAFETY: sized structs; what they point to lives until this function returns, and is

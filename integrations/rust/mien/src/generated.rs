@@ -2539,7 +2539,7 @@ macro_rules! errors {
          - [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) if this build of libmien opens baked files only\n\
          - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if the file would be too large\n\
          - [`Status::AUTHOR_MESH`](crate::Status::AUTHOR_MESH) if the arrays of the mesh or of the caller's results contradict each other\n\
-         - [`Status::AUTHOR_REFUSED`](crate::Status::AUTHOR_REFUSED) if the mesh cannot be rigged\n\
+         - [`Status::AUTHOR_REFUSED`](crate::Status::AUTHOR_REFUSED) if the mesh cannot be rigged or landmarks contradict it\n\
          - [`Status::AUTHOR_CANCELED`](crate::Status::AUTHOR_CANCELED) if `progress` canceled"
     };
     (mien_author_report_json) => {

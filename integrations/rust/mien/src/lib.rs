@@ -72,7 +72,9 @@ mod threads;
 mod vertex_output;
 
 pub use allocator::Allocator;
-pub use author::{AuthorBone, AuthorLod, AuthorMesh, AuthorOptions, AuthorShape, AuthoredRig};
+pub use author::{
+    AuthorBone, AuthorLandmark, AuthorLod, AuthorMesh, AuthorOptions, AuthorShape, AuthoredRig,
+};
 pub use baked::{Baked, BakedOptions};
 pub use batch::Batch;
 pub use clip::{
