@@ -3400,10 +3400,10 @@ export interface Exports {
    * centimeters; positions keep their order, but positions that belong to no face are dropped. The same mesh,
    * options and seed give the same bytes on any number of threads. `mesh` is required;
    * `out_report` may be NULL. Close with mien_dna_close() and mien_author_report_close().
-   * The report has the confidence of each landmark; nothing is refused because it is low.
+   * The report has the confidence of each landmark; a mesh is not refused because it is low.
    * Fails with MIEN_ERROR_AUTHOR_MESH if the arrays of the mesh or of the caller's results contradict
-   * each other, MIEN_ERROR_AUTHOR_REFUSED if the mesh cannot be rigged or landmarks contradict each other, MIEN_ERROR_AUTHOR_CANCELED if
-   * `progress` canceled, MIEN_ERROR_DNA_LIMIT if the file would be too large.
+   * each other, MIEN_ERROR_AUTHOR_REFUSED if the mesh cannot be rigged or landmarks contradict it,
+   * MIEN_ERROR_AUTHOR_CANCELED if `progress` canceled, MIEN_ERROR_DNA_LIMIT if the file would be too large.
    * See docs/authoring.md, 1 "What goes in and what comes out".
    */
   mien_author_rig(mesh: number, desc: number, out_dna: number, out_report: number, error: number): number;
