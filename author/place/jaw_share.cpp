@@ -12,7 +12,9 @@ namespace mien::author {
 namespace {
 
 constexpr double kRadian = kPi / 180;
-constexpr int kShareSmoothing = 15;  // of smoothing
+// Shares are smoothed over this part of the distance from nose to chin, in so many rounds.
+constexpr double kSmoothed = 0.1;
+constexpr int kShareSmoothing = 15;
 
 /// Directions in the plane of symmetry: `forward` from the jaw's axis to the corners of the mouth.
 struct Wedge {
@@ -117,12 +119,23 @@ Status make_jaw_share(Placing& placing, const NeckCut& cut, Span<float>& out) {
                                : smooth_step(at_chin + 40 * kRadian, at_chin + 10 * kRadian, angle);
     share[v] = here * front * of_neck;
   }
+  // Each round spreads a share by about the length of an edge, so on a coarse mesh it is mixed in part.
+  const double width = kSmoothed * (marks[LandmarkKind::kNose].at.y - chin.y);
+  Span<double> parts;
+  if (!make(placing.scratch, n, parts)) return no_memory(placing);
+  for (uint32_t v = 0; v < n; ++v) {
+    double squares = 0;
+    const uint32_t first = graph.starts[v], last = graph.starts[v + 1];
+    for (uint32_t e = first; e < last; ++e) squares += graph.lengths[e] * graph.lengths[e];
+    const double spread = kShareSmoothing * squares / (1 + last - first);
+    parts[v] = spread > 0 ? std::min(1.0, 2 * width * width / spread) : 0;
+  }
   for (int round = 0; round < kShareSmoothing; ++round) {
     for (uint32_t v = 0; v < n; ++v) {
       const uint32_t first = graph.starts[v], last = graph.starts[v + 1];
       double sum = share[v];
       for (uint32_t e = first; e < last; ++e) sum += share[graph.neighbors[e]];
-      next[v] = sum / (1 + last - first);
+      next[v] = mix(share[v], sum / (1 + last - first), parts[v]);
     }
     std::swap(share, next);
   }

@@ -8,6 +8,7 @@
 #include "integrations/program/io/baked_file.h"
 #include "integrations/program/io/input.h"
 #include "integrations/program/io/materials.h"
+#include "integrations/program/io/text.h"
 #include "integrations/program/view/page.h"
 
 namespace mien::cli {
