@@ -195,7 +195,7 @@ Status find_mask(Placing& placing) {
   const Landmark& nose = report.landmarks[LandmarkKind::kNose];
   const Landmark& throat = report.landmarks[LandmarkKind::kThroat];
   placing.profile =
-      find_throat(front_profile(placing.mesh, placing.plane), nose.given ? &nose.at : nullptr);
+      find_throat(closed_profile(placing.mesh, placing.plane), nose.given ? &nose.at : nullptr);
   if (throat.given) {
     placing.profile.found = true;
     placing.profile.y = throat.at.y;

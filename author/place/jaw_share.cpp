@@ -59,12 +59,13 @@ Status nearest_on_lip(Placing& placing, Vec3 lip, int side, Span<uint32_t>& out)
 }  // namespace
 
 Vec3 jaw_by_proportions(const Landmarks& landmarks) {
-  // In shares of the height from chin to nose: above the middle of the mouth, and behind the lips.
-  constexpr double kAbove = 0.48, kBehind = 1.32;
+  // In shares of the height from chin to nose: above the upper lip, and behind it.
+  constexpr double kAbove = 0.44, kBehind = 1.32;
   const Vec3 nose = landmarks[LandmarkKind::kNose].at, chin = landmarks[LandmarkKind::kChin].at;
-  const Vec3 mouth =
-      (landmarks[LandmarkKind::kLipUpper].at + landmarks[LandmarkKind::kLipLower].at) * 0.5;
-  const double height = nose.y - chin.y;
+  // As if the lower lip was at the upper one, which an open mouth leaves where it is.
+  const Vec3 mouth = landmarks[LandmarkKind::kLipUpper].at;
+  const double gap = mouth.y - landmarks[LandmarkKind::kLipLower].at.y;
+  const double height = nose.y - chin.y - gap;
   return {mouth.x, mouth.y + kAbove * height, mouth.z - kBehind * height};
 }
 

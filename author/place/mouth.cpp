@@ -201,12 +201,16 @@ bool find_lips(const AuthorMesh& mesh, double x, double top, double floor, doubl
   out.upper_z = section[way[first]].z;
   out.lower_y = section[way[last]].y;
   out.lower_z = section[way[last]].z;
+  // The chin is what stands out most from the line between lip and floor, however far the mouth is open.
+  const Crossing &lip = section[way[last]], &end = section[way[count - 1]];
   double most = 0;
+  out.chin_y = lip.y;
+  out.chin_z = lip.z;
   for (size_t i = last; i < count; ++i) {
     const Crossing& p = section[way[i]];
-    const double forward = 0.8 * p.z - 0.6 * p.y;
-    if (i > last && !(forward > most)) continue;
-    most = forward;
+    const double out_of_line = (p.z - lip.z) * (lip.y - end.y) - (p.y - lip.y) * (lip.z - end.z);
+    if (!(out_of_line > most)) continue;
+    most = out_of_line;
     out.chin_y = p.y;
     out.chin_z = p.z;
   }

@@ -71,16 +71,49 @@ Profile front_profile(const AuthorMesh& mesh, double plane) {
   return profile;
 }
 
-Throat find_throat(const Profile& profile, const Vec3* tip) {
-  Throat throat;
-  throat.height = profile.height;
-  // The ragged edge of a cropped mesh could be taken for a notch.
-  const uint32_t lowest = (kProfileBins * 3 + 99) / 100;
+namespace {
+
+/// The tip of the nose, or kProfileBins.
+uint32_t foremost_bin(const Profile& profile) {
   uint32_t nose = kProfileBins;
   for (uint32_t bin = kProfileBins * 3 / 10; bin < kProfileBins * 9 / 10; ++bin) {
     if (!profile.has[bin]) continue;
     if (nose == kProfileBins || profile.front[bin] > profile.front[nose]) nose = bin;
   }
+  return nose;
+}
+
+}  // namespace
+
+Profile closed_profile(const AuthorMesh& mesh, double plane) {
+  // Of the half width of the head at the nose: beyond the corners of a mouth, but on the chin.
+  constexpr double kBeside = 0.42;
+  Profile profile = front_profile(mesh, plane);
+  const uint32_t nose = foremost_bin(profile);
+  if (nose == kProfileBins) return profile;
+  const double bin_height = profile.height / kProfileBins, y = profile.y(nose);
+  double half_width = 0;
+  for (uint32_t v = 0; v < mesh.positions.count; ++v) {
+    const Vec3 p = mesh.positions[v];
+    if (!mesh.is_skin[v] || std::abs(p.y - y) > 2 * bin_height) continue;
+    half_width = std::max(half_width, std::abs(p.x - plane));
+  }
+  for (const int side : {1, -1}) {
+    const Profile beside = front_profile(mesh, plane + side * kBeside * half_width);
+    for (uint32_t bin = 0; bin < nose; ++bin) {
+      if (!beside.has[bin] || !profile.has[bin]) continue;
+      profile.front[bin] = std::max(profile.front[bin], beside.front[bin]);
+    }
+  }
+  return profile;
+}
+
+Throat find_throat(const Profile& profile, const Vec3* tip) {
+  Throat throat;
+  throat.height = profile.height;
+  // The ragged edge of a cropped mesh could be taken for a notch.
+  const uint32_t lowest = (kProfileBins * 3 + 99) / 100;
+  uint32_t nose = foremost_bin(profile);
   if (tip && profile.height > 0) {
     const double at = (tip->y - profile.low) / profile.height * kProfileBins;
     nose = at > 0 ? std::min(kProfileBins - 1, static_cast<uint32_t>(at)) : 0;

@@ -19,6 +19,9 @@ struct Profile {
   double y(uint32_t bin) const { return low + height * (bin + 0.5) / kProfileBins; }
 };
 Profile front_profile(const AuthorMesh& mesh, double plane);
+/// The same for the plane of symmetry, without the gap of an open mouth: where the skin beside the mouth is farther in
+/// front, it counts.
+Profile closed_profile(const AuthorMesh& mesh, double plane);
 
 struct Throat {
   bool found = false;   // deep enough to be one
