@@ -65,7 +65,7 @@ std::string name_of(const std::string& path, const std::string& bytes) {
 
 /// The materials beside the rig, and their textures. Returns their part of the page's address.
 std::string served_materials(const std::string& path, const std::string& name, view::Files& files,
-                          const Session& session) {
+                             const Session& session) {
   Materials materials = read_materials_beside(path);
   if (materials.list.empty()) return "";
   std::map<std::string, std::string> served;  // addresses, by path
