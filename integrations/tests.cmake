@@ -64,7 +64,7 @@ endif()
 # An interpreter without the sanitizers has to load them before the library that needs them.
 set(python_environment "PYTHONPATH=${integrations}/python"
   "MIEN_LIBRARY=$<TARGET_FILE:mien>" "PYTHONDONTWRITEBYTECODE=1")
-set(python_tests author callbacks clip deformer document fit lifetime mapping misuse mix torch values wheel)
+set(python_tests author callbacks clip deformer document farm fit lifetime mapping misuse mix torch values wheel)
 if(MIEN_SANITIZE MATCHES "address")
   execute_process(COMMAND ${CMAKE_C_COMPILER} -print-file-name=libclang_rt.asan-${CMAKE_SYSTEM_PROCESSOR}.so
     OUTPUT_VARIABLE sanitizer OUTPUT_STRIP_TRAILING_WHITESPACE)

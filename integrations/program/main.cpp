@@ -115,6 +115,7 @@ int run(int argument_count, char** arguments, Session& session) {
       add_speak_command(app, session),
       add_play_command(app, session),
       add_solve_command(app, session),
+      add_farm_command(app, session),  // many tasks of the others
       add_view_command(app, session),
       add_bench_command(app, session),
       add_completion_command(app),

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "integrations/program/commands/commands.h"
+#include "integrations/program/commands/solve.h"
 
 namespace {
 
@@ -48,6 +49,11 @@ Command add_solve_command(CLI::App& app, const Session&) {
             fail(kUsage, "mien solve", "",
                  "this build of mien cannot solve (MIEN_BUILD_COMPILER=OFF)", "use a full build");
           }};
+}
+
+void solve_file(const SolveCommand&, const Session&) {
+  fail(kUsage, "mien solve", "", "this build of mien cannot solve (MIEN_BUILD_COMPILER=OFF)",
+       "use a full build");
 }
 
 Command add_edit_command(CLI::App& app, const Session&) {

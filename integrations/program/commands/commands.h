@@ -44,6 +44,7 @@ Command add_play_command(CLI::App& app, const Session& session);
 Command add_speak_command(CLI::App& app, const Session& session);
 Command add_bench_command(CLI::App& app, const Session& session);
 Command add_solve_command(CLI::App& app, const Session& session);
+Command add_farm_command(CLI::App& app, const Session& session);
 Command add_render_command(CLI::App& app, const Session& session);
 Command add_inspect_command(CLI::App& app, const Session& session);
 Command add_view_command(CLI::App& app, const Session& session);

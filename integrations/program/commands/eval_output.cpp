@@ -3,11 +3,11 @@
 
 #include <charconv>
 #include <cmath>
-#include <cstring>
 #include <vector>
 
 #include "integrations/program/commands/options.h"
 #include "integrations/program/io/json_writer.h"
+#include "integrations/program/io/npy_writer.h"
 #include "integrations/program/io/text.h"
 
 namespace mien::cli {
@@ -235,29 +235,13 @@ class NpyOutput : public BaseWriter {
   using BaseWriter::BaseWriter;
 
   void begin_file(const EvalHeading&, size_t rows) override {
-    std::string header = "{'descr': '<f4', 'fortran_order': False, 'shape': (" +
-                         std::to_string(rows) + ", " +
-                         std::to_string(rig_count(rig_, MIEN_KIND_JOINT)) + ", " +
-                         std::to_string(values_per_joint(info_)) + "), }";
-    // Magic, version and length take 10 bytes; the data begins at a multiple of 64.
-    while ((10 + header.size() + 1) % 64 != 0) header += ' ';
-    header += '\n';
-    std::string start("\x93NUMPY\x01\x00", 8);
-    start += static_cast<char>(header.size() & 255);
-    start += static_cast<char>(header.size() >> 8);
-    output_.write(start + header);
+    write_npy_header({rows, rig_count(rig_, MIEN_KIND_JOINT), values_per_joint(info_)}, output_);
   }
 
   void write(size_t frame, uint32_t lod, const MienInstance* instance) override {
     const MienFloatView view = view_of(kResults[0], instance);
-    std::vector<unsigned char> bytes(view.count * 4);
-    for (size_t i = 0; i < view.count; ++i) {
-      if (!std::isfinite(view.data[i])) fail_value(frame, lod, kResults[0].key, i);
-      uint32_t bits;
-      std::memcpy(&bits, &view.data[i], 4);
-      for (size_t k = 0; k < 4; ++k) bytes[4 * i + k] = static_cast<unsigned char>(bits >> (8 * k));
-    }
-    output_.write(bytes.data(), bytes.size());
+    const size_t written = write_npy_floats(view.data, view.count, output_);
+    if (written != view.count) fail_value(frame, lod, kResults[0].key, written);
   }
 
   void end() override {}

@@ -205,8 +205,8 @@ void note_losses(const ExportedRig& face, const gltf::Losses& losses, const Sess
   note_skin_and_meshes(shown, losses, session);
 }
 
-gltf::RigScene rig_scene(ExportedRig& face, const Frame& still, const std::vector<Frame>& frames,
-                         double rate, const GlbOptions& options, const Session& session) {
+gltf::RigScene neutral_rig_scene(ExportedRig& face, const GlbOptions& options,
+                                 const Session& session) {
   gltf::SceneOptions scene_options = face.scene_options(options);
   gltf::RigScene scene;
   {
@@ -215,18 +215,28 @@ gltf::RigScene rig_scene(ExportedRig& face, const Frame& still, const std::vecto
     scene = gltf::make_rig_scene(*face.source, scene_options);
   }
   note_losses(face, scene.losses, session);
+  return scene;
+}
+
+void animate_scene(ExportedRig& face, const Frame& still, const std::vector<Frame>& frames,
+                   double rate, const Session& session, gltf::RigScene& scene) {
   face.apply(still);
   gltf::set_pose(scene, *face.source, face.pose.get(), face.channel_weights());
-  if (!frames.empty()) {
-    gltf::AnimationRecorder recorder(scene, *face.source, "frames", rate);
-    Progress progress(session, "frame", frames.size());
-    for (size_t f = 0; f < frames.size(); ++f) {
-      progress.at(f);
-      face.apply(frames[f]);
-      recorder.add_frame(face.local_transforms(), face.channel_weights());
-    }
-    scene.scene.animation = recorder.finish();
+  if (frames.empty()) return;
+  gltf::AnimationRecorder recorder(scene, *face.source, "frames", rate);
+  Progress progress(session, "frame", frames.size());
+  for (size_t f = 0; f < frames.size(); ++f) {
+    progress.at(f);
+    face.apply(frames[f]);
+    recorder.add_frame(face.local_transforms(), face.channel_weights());
   }
+  scene.scene.animation = recorder.finish();
+}
+
+gltf::RigScene rig_scene(ExportedRig& face, const Frame& still, const std::vector<Frame>& frames,
+                         double rate, const GlbOptions& options, const Session& session) {
+  gltf::RigScene scene = neutral_rig_scene(face, options, session);
+  animate_scene(face, still, frames, rate, session, scene);
   return scene;
 }
 

@@ -61,6 +61,13 @@ void note_losses(const ExportedRig& face, const gltf::Losses& losses, const Sess
 /// The same of a baked face, whose vertices follow few bones.
 void note_baked_losses(const ExportedRig& face, const gltf::Losses& losses, const Session& session);
 
+/// Skeleton, skin and morph targets in the neutral pose. Throws gltf::ExportError.
+gltf::RigScene neutral_rig_scene(ExportedRig& face, const GlbOptions& options,
+                                 const Session& session);
+/// Puts that scene of the rig into the pose `still`, with `frames` as an animation, if there are any.
+void animate_scene(ExportedRig& face, const Frame& still, const std::vector<Frame>& frames,
+                   double rate, const Session& session, gltf::RigScene& scene);
+
 /// Skeleton, skin and morph targets, in the pose `still`, with `frames` as an animation, if there are any.
 /// Throws gltf::ExportError.
 gltf::RigScene rig_scene(ExportedRig& face, const Frame& still, const std::vector<Frame>& frames,

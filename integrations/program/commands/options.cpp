@@ -47,6 +47,7 @@ const OptionWords kOptionWords[] = {
     {"--target", {"face", "eyes", "mouth"}},
     {"--loop", {"clamp", "wrap"}},
     {"solve --kind", {"vertices", "joints", "landmarks3", "landmarks2", "weights"}},
+    {"--engine", {"local", "dask", "mpi", "slurm", "opencue", "deadline", "openjd", "flamenco"}},
     {"--symmetry", {"auto", "on", "off"}},
     {"--residual", {"targets", "off"}},
     {"--metric", {"depth", "euclid3"}},

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // mien solve: the controls of a rig for captured meshes, joints, landmarks, or controls of another rig.
+#include "integrations/program/commands/solve.h"
+
 #include <mien_solve.h>
 
 #include <algorithm>
@@ -25,13 +27,6 @@ using Fit = std::unique_ptr<MienFit, Destroy<MienFit, mien_fit_destroy>>;
 constexpr uint32_t kFirstIterations = 200, kMostIterations = 50;
 constexpr uint32_t kMostSolvedFrames = 10000000;
 constexpr float kUnobservable = 1e-5f;  // of what mien_fit_observability() gives; rounding is below
-
-struct SolveCommand {
-  TargetOptions target;
-  std::string rig, controls, rate, keys, smooth, sparse, report, images;
-  bool rigid = false;
-  OutputFile output;
-};
 
 float parse_weight(const char* option, const std::string& word) {
   if (word.empty()) return 0;
@@ -178,7 +173,9 @@ std::vector<std::string> list_unobservable(const Fit& fit, const std::vector<uin
   return found;
 }
 
-void run(const SolveCommand& command, const Session& session) {
+}  // namespace
+
+void solve_file(const SolveCommand& command, const Session& session) {
   auto interrupt = std::make_unique<EndOnInterrupt>();
   const TargetKind kind = find_kind(command.target);
   check_command(command, kind);
@@ -251,8 +248,6 @@ void run(const SolveCommand& command, const Session& session) {
   if (drawn) drawn->commit();
   note_written(session, command.output.path, output.size());
 }
-
-}  // namespace
 
 Command add_solve_command(CLI::App& app, const Session& session) {
   auto options = std::make_shared<SolveCommand>();
@@ -337,7 +332,7 @@ Command add_solve_command(CLI::App& app, const Session& session) {
       "  mien solve head.dna joints.npy --kind joints -o take.clip\n"
       "  mien solve head.dna face.csv --landmarks points.json -o take.clip --smooth 0.01\n"
       "  mien solve other.dna scene.json --from head.dna -o other.clip");
-  return {solve, [options, &session] { run(*options, session); }};
+  return {solve, [options, &session] { solve_file(*options, session); }};
 }
 
 }  // namespace mien::cli

@@ -197,8 +197,10 @@ math::Box PosedScene::neutral_box() const {
 
 namespace {
 
-void compile_scene(PosedScene& scene) {
-  scene.rig = create_rig(scene.file, sized<MienRigDesc>());
+void compile_scene(PosedScene& scene, uint32_t isa) {
+  auto desc = sized<MienRigDesc>();
+  desc.isa = isa;
+  scene.rig = create_rig(scene.file, desc);
   if (!has_geometry(scene.file)) return;
   auto error = sized<MienError>();
   MienDeformer* deformer = nullptr;
@@ -207,12 +209,8 @@ void compile_scene(PosedScene& scene) {
   scene.deformer.reset(deformer);
 }
 
-/// A baked file, used in place.
-void map_scene(PosedScene& scene, const PosedSceneOptions& options) {
-  BakedFile file = open_baked_file(options.rig, sized<MienBakedRigDesc>());
-  scene.baked = std::move(file.baked);
-  scene.rig = std::move(file.rig);
-  scene.deformer = std::move(file.deformer);
+/// Of a rig that has all its LODs.
+void choose_lod(PosedScene& scene, const PosedSceneOptions& options) {
   scene.rig_lod = options.lod;
   const uint32_t lod_count = rig_info(scene.rig.get()).lod_count;
   if (options.lod >= lod_count) {
@@ -221,6 +219,17 @@ void map_scene(PosedScene& scene, const PosedSceneOptions& options) {
              std::to_string(lod_count),
          "count from 0");
   }
+}
+
+/// A baked file, used in place.
+void map_scene(PosedScene& scene, const PosedSceneOptions& options) {
+  auto desc = sized<MienBakedRigDesc>();
+  desc.isa = options.isa;
+  BakedFile file = open_baked_file(options.rig, desc);
+  scene.baked = std::move(file.baked);
+  scene.rig = std::move(file.rig);
+  if (!options.no_geometry) scene.deformer = std::move(file.deformer);
+  choose_lod(scene, options);
 }
 
 /// Of the meshes of one LOD.
@@ -246,7 +255,7 @@ PosedScene finish_scene(PosedScene scene, const PosedSceneOptions& options,
         scene.shown);
   scene.instance.reset(instance);
   if (!scene.deformer) {
-    if (options.geometry_optional) return scene;
+    if (options.geometry_optional || options.no_geometry) return scene;
     fail(kInvalid, kCannot, scene.shown, "the file has no geometry",
          "give a rig with meshes; see 'mien info'");
   }
@@ -267,10 +276,12 @@ PosedScene open_scene(const PosedSceneOptions& options, const Session& session) 
     map_scene(scene, options);
   } else {
     auto desc = sized<MienDnaDesc>();
-    desc.layers = kEvaluationLayers | MIEN_LAYER_GEOMETRY;
-    desc.lods = uint64_t{1} << options.lod;  // nothing of the other LODs is read
+    desc.layers = kEvaluationLayers | (options.no_geometry ? 0 : uint32_t{MIEN_LAYER_GEOMETRY});
+    // Nothing of the other LODs is read.
+    if (!options.whole_rig) desc.lods = uint64_t{1} << options.lod;
     scene.file = open_rig_file(options.rig, desc, session);
-    compile_scene(scene);
+    compile_scene(scene, options.isa);
+    if (options.whole_rig) choose_lod(scene, options);
   }
   return finish_scene(std::move(scene), options, session);
 }
@@ -279,7 +290,7 @@ PosedScene open_scene(RigFile file, const Session& session) {
   PosedScene scene;
   scene.shown = file.shown;
   scene.file = std::move(file);
-  compile_scene(scene);
+  compile_scene(scene, MIEN_ISA_BEST);
   return finish_scene(std::move(scene), {}, session);
 }
 

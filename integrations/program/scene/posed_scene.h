@@ -37,6 +37,9 @@ struct PosedSceneOptions {
   std::string meshes;  // pattern; empty: all meshes that look right without textures
   bool wireframe = false;
   bool geometry_optional = false;  // accept a rig without meshes
+  bool whole_rig = false;          // load all LODs, so that indices are those of the file
+  bool no_geometry = false;        // load none; also optional then
+  uint32_t isa = MIEN_ISA_BEST;
 };
 
 struct PosedScene {
@@ -50,7 +53,7 @@ struct PosedScene {
   DeformerInstance pose;
   std::unique_ptr<HeadTurn> head;  // null until a frame turns it
   uint32_t lod = 0;                // as the file counts
-  uint32_t rig_lod = 0;            // as the rig counts: of a DNA file, no other LOD is loaded
+  uint32_t rig_lod = 0;  // as the rig counts: of a DNA file, usually no other LOD is loaded
   std::vector<SceneMesh> meshes;
   render::Axes axes;
   Materials materials;                                               // of the file beside the rig

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// What `mien solve` was asked to do.
+#pragma once
+
+#include <string>
+
+#include "integrations/program/commands/solve_target.h"
+
+namespace mien::cli {
+
+/// As it was typed.
+struct SolveCommand {
+  TargetOptions target;
+  std::string rig, controls, rate, keys, smooth, sparse, report, images;
+  bool rigid = false;
+  OutputFile output;
+};
+
+/// Finds the controls and writes them.
+void solve_file(const SolveCommand& command, const Session& session);
+
+}  // namespace mien::cli
