@@ -7,6 +7,8 @@
 #include "author/document/check_view.h"
 #include "author/document/control_poses.h"
 #include "author/document/renumber.h"
+#include "author/document/surface_match.h"
+#include "author/document/warp.h"
 
 namespace mien::author {
 

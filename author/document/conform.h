@@ -3,7 +3,7 @@
 #pragma once
 
 #include "author/document/document.h"
-#include "author/document/surface_match.h"
+#include "runtime/base/vector.h"
 
 namespace mien::author {
 

@@ -83,7 +83,7 @@ Status copy_layers(Document& document, const Document& from, uint32_t layers, Er
   }
   edit.view.ml_control_count = edit.view.mlbh.control_names.count;
   if (Status s = check_view(edit.view, error); s != Status::kOk) return s;
-  edit.commit();
+  edit.commit(true);
   return Status::kOk;
 }
 
@@ -124,10 +124,10 @@ Status copy_mesh(Document& document, const Document& from, uint32_t mesh, uint32
   }
   // Each position is found at itself.
   SurfaceMatch itself;
-  if (!make(arena, copy.skin_weights.count, itself.places))
+  Arena scratch(document.allocator());
+  if (!match_by_number(copy.skin_weights.count, scratch, itself))
     return no_memory(error, "a mesh of another document");
   for (uint32_t v = 0; v < copy.skin_weights.count; ++v) {
-    itself.places[v] = {{v, v, v}, {1, 0, 0}, 0};
     const dna::VertexSkinWeights& vertex = copy.skin_weights[v];
     bool some = vertex.weights.count == 0, all = true;
     for (uint32_t i = 0; i < vertex.joint_indices.count; ++i) {
@@ -299,7 +299,7 @@ Status merge_joints(Document& document, const Document& from, double tolerance, 
     view.jbmd.joints = {all.data, count};
   }
   if (Status s = check_view(view, error); s != Status::kOk) return s;
-  edit.commit();
+  edit.commit(true);
   return Status::kOk;
 }
 

@@ -2,6 +2,9 @@
 // Neutral transforms of the joints of a view, for row vectors: model = local * model of the parent.
 #pragma once
 
+#include <algorithm>
+
+#include "author/mesh/topology.h"
 #include "runtime/base/transform.h"
 #include "runtime/base/vector.h"
 #include "runtime/load/dna/format/dna_view.h"
@@ -27,6 +30,12 @@ inline Rigid operator*(const Rigid& a, const Rigid& b) {
 inline Rigid inverse(const Rigid& a) {
   const Matrix3 back = transposed(a.turn);
   return {back, turned(a.place, back) * -1};
+}
+
+/// Makes the box large enough for a point.
+inline void add(Box& box, const Vec3& p) {
+  box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
+  box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
 }
 
 inline RotationConvention convention_of(const dna::DnaView& view) {

@@ -14,17 +14,6 @@ namespace mien::author {
 
 namespace {
 
-struct Box3 {
-  Vec3 low = {1, 1, 1}, high;  // low above high: nothing in it
-
-  bool empty() const { return low.x > high.x; }
-  void add(Vec3 p) {
-    if (empty()) low = high = p;
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-};
-
 class Measurement {
  public:
   Measurement(const dna::DnaView& before, const dna::DnaView& after, const Allocator& allocator)
@@ -112,9 +101,13 @@ class Measurement {
     }
     for (uint32_t j = 0; j < joints_; ++j) {
       uint32_t i = 0;
+      bool first = true;
       for (uint32_t at : positions_[j]) {
         while (at >= firsts_[i + 1]) ++i;
-        boxes_[j].add(vector_of(mesh(i).positions, at - firsts_[i]));
+        const Vec3 p = vector_of(mesh(i).positions, at - firsts_[i]);
+        if (first) boxes_[j] = {p, p};
+        first = false;
+        add(boxes_[j], p);
       }
     }
     return true;
@@ -183,8 +176,8 @@ class Measurement {
     for (uint32_t j = 0; j < joints_; ++j) {
       bounds_[j] = 0;
       const Rigid &a = skins_[0][j], &b = skins_[1][j];
-      const Box3& box = boxes_[j];
-      if (box.empty() || memcmp(&a, &b, sizeof(Rigid)) == 0) continue;
+      const Box& box = boxes_[j];
+      if (positions_[j].count == 0 || memcmp(&a, &b, sizeof(Rigid)) == 0) continue;
       if (shift < 0) {
         shift = 0;
         for (uint32_t c = 0; c < weights_.count; ++c) {
@@ -243,7 +236,7 @@ class Measurement {
   Rows positions_, targets_;        // of joints; of channels
   Span<TargetPlace> target_meshes_;
   double most_weight_ = 0;  // sum of the weights of a position
-  Span<Box3> boxes_;        // [joint]
+  Span<Box> boxes_;         // [joint] around its positions
   Span<double> reaches_;    // [channel] below 0: not measured yet
 
   Span<double> controls_, weights_;  // of the pose

@@ -66,16 +66,55 @@ bool project_weights(const dna::Mesh& source, const SurfaceMatch& match, Span<co
   return true;
 }
 
+namespace {
+
+/// Targets where positions correspond by number: the same positions with turned deltas.
+bool turn_targets(const dna::Mesh& source, Span<const uint32_t> new_channels,
+                  Span<const Similarity> turns, Arena& arena,
+                  dna::List<dna::BlendShapeTarget>& out) {
+  if (!make(arena, source.blend_shape_targets.count, out)) return false;
+  uint32_t kept = 0;
+  for (const dna::BlendShapeTarget& target : source.blend_shape_targets) {
+    const uint32_t channel = new_channels[target.channel_index];
+    if (channel == kGone) continue;
+    NewVec3s deltas;
+    NewArray<uint32_t> vertices;
+    const uint32_t count = target.vertex_indices.count;
+    if (!copy_array(arena, target.vertex_indices, vertices) || !deltas.allocate(arena, count))
+      return false;
+    for (uint32_t i = 0; i < count; ++i) {
+      const Vec3 delta = vector_of(target.deltas, i);
+      const uint32_t v = target.vertex_indices[i];
+      // A product with 1 and 0 would lose the sign of a 0.
+      const bool stays = turns.empty() || turns[v].is_identity();
+      deltas.set(i, stays ? delta : turns[v].direction(delta));
+    }
+    out[kept].deltas = deltas;
+    out[kept].vertex_indices = vertices;
+    out[kept++].channel_index = static_cast<uint16_t>(channel);
+  }
+  out.count = kept;
+  return true;
+}
+
+}  // namespace
+
 bool project_targets(const dna::Mesh& source, const SurfaceMatch& match,
                      Span<const uint32_t> new_channels, Span<const Similarity> turns,
                      const Allocator& allocator, Arena& arena,
                      dna::List<dna::BlendShapeTarget>& out) {
+  if (match.by_number) return turn_targets(source, new_channels, turns, arena, out);
   const uint32_t old_positions = source.positions.xs.count;
   Span<Vec3> dense;
-  Span<dna::BlendShapeTarget> targets;
   // The positions whose place is on a triangle with a position of the source.
   Rows followers;
-  Span<uint32_t> moved, seen;  // by the target; [position] the last target that may move it
+  struct Moved {
+    uint32_t position;
+    Vec3 delta;
+    bool operator<(const Moved& other) const { return position < other.position; }
+  };
+  Span<Moved> moved;    // by the target
+  Span<uint32_t> seen;  // [position] the last target that may move it
   const auto visit = [&](const auto& put) {
     for (uint32_t v = 0; v < match.places.count; ++v) {
       for (int k = 0; k < 3; ++k) {
@@ -87,7 +126,7 @@ bool project_targets(const dna::Mesh& source, const SurfaceMatch& match,
   if (!make(scratch, old_positions, dense) || !make(scratch, match.places.count, moved) ||
       !make(scratch, match.places.count, seen) ||
       !make_rows(scratch, old_positions, visit, followers) ||
-      !make(arena, source.blend_shape_targets.count, targets)) {
+      !make(arena, source.blend_shape_targets.count, out)) {
     return false;
   }
   uint32_t kept = 0, number = 0;
@@ -95,35 +134,33 @@ bool project_targets(const dna::Mesh& source, const SurfaceMatch& match,
     const uint32_t channel = new_channels[target.channel_index];
     if (channel == kGone) continue;
     ++number;
+    for (uint32_t i = 0; i < target.vertex_indices.count; ++i)
+      dense[target.vertex_indices[i]] = vector_of(target.deltas, i);
     size_t count = 0;
     for (uint32_t i = 0; i < target.vertex_indices.count; ++i) {
-      dense[target.vertex_indices[i]] = vector_of(target.deltas, i);
       for (uint32_t v : followers[target.vertex_indices[i]]) {
         if (seen[v] == number) continue;
         seen[v] = number;
-        moved[count++] = v;
+        const Vec3 delta = match.at(v, dense);
+        if (!is_zero(delta)) moved[count++] = {v, delta};
       }
     }
+    for (uint32_t i = 0; i < target.vertex_indices.count; ++i) dense[target.vertex_indices[i]] = {};
+    if (count == 0) continue;
     std::sort(moved.data, moved.data + count);
-    uint32_t moving = 0;
-    for (size_t i = 0; i < count; ++i) moving += !is_zero(match.at(moved[i], dense));
     NewVec3s deltas;
     NewArray<uint32_t> vertices;
-    if (!deltas.allocate(arena, moving) || !make(arena, moving, vertices)) return false;
-    uint32_t next = 0;
-    for (const uint32_t v : moved.first(count)) {
-      const Vec3 delta = match.at(v, dense);
-      if (is_zero(delta)) continue;
-      deltas.set(next, turns.empty() ? delta : turns[v].direction(delta));
-      vertices.set(next++, v);
+    if (!deltas.allocate(arena, count) || !make(arena, count, vertices)) return false;
+    for (size_t i = 0; i < count; ++i) {
+      const Moved& found = moved[i];
+      deltas.set(i, turns.empty() ? found.delta : turns[found.position].direction(found.delta));
+      vertices.set(i, found.position);
     }
-    for (uint32_t i = 0; i < target.vertex_indices.count; ++i) dense[target.vertex_indices[i]] = {};
-    if (moving == 0) continue;
-    targets[kept].deltas = deltas;
-    targets[kept].vertex_indices = vertices;
-    targets[kept++].channel_index = static_cast<uint16_t>(channel);
+    out[kept].deltas = deltas;
+    out[kept].vertex_indices = vertices;
+    out[kept++].channel_index = static_cast<uint16_t>(channel);
   }
-  out = {targets.data, kept};
+  out.count = kept;
   return true;
 }
 

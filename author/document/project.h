@@ -4,6 +4,7 @@
 
 #include "author/document/document.h"
 #include "author/document/surface_match.h"
+#include "author/document/warp.h"
 
 namespace mien::author {
 

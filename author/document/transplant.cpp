@@ -43,9 +43,7 @@ bool match_meshes(Span<const Vec3> of_positions, const dna::Mesh& of, Span<const
                   const dna::Mesh& on, Match match, Arena& arena, SurfaceMatch& out) {
   if (!same_topology(of, on))
     return match_surfaces(of_positions, of, on_positions, on, match, arena, out);
-  if (!make(arena, of_positions.count, out.places)) return false;
-  for (uint32_t v = 0; v < out.places.count; ++v) out.places[v] = {{v, v, v}, {1, 0, 0}, 0};
-  return true;
+  return match_by_number(of_positions.count, arena, out);
 }
 
 class Transplanter {
@@ -68,10 +66,13 @@ class Transplanter {
   }
 
  private:
-  /// All layers of the template; name, metadata and so on stay the character's.
+  /// All layers of the template; name, metadata and so on stay the character's. move_meshes() copies what the meshes
+  /// need.
   bool take_rig() {
     dna::DnaView taken = rig_;
+    if (!copy_list(arena_, taken.geom.meshes)) return false;
     for (const dna::LayerKind& kind : dna::kLayerKinds) {
+      if (kind.id == dna::LayerId::kGeom) continue;
       const bool copied = dna::with_layer(
           taken, kind.id, [this](auto& record) { return copy_deeply(arena_, record); });
       if (!copied) return false;
@@ -164,11 +165,12 @@ class Transplanter {
       const dna::Mesh* own = own_mesh(meshes[i]);
       if (!own) continue;
       const dna::Mesh& of_rig = rig_.geom.meshes[meshes[i]];
+      Arena scratch(allocator_);
       SurfaceMatch match;
       Span<Vec3> own_positions, rig_positions;
-      if (!positions_of(*own, scratch_, own_positions) ||
-          !positions_of(of_rig, scratch_, rig_positions) ||
-          !match_meshes(own_positions, *own, rig_positions, of_rig, how_.match, scratch_, match)) {
+      if (!positions_of(*own, scratch, own_positions) ||
+          !positions_of(of_rig, scratch, rig_positions) ||
+          !match_meshes(own_positions, *own, rig_positions, of_rig, how_.match, scratch, match)) {
         return no_memory(error, "a transplant");
       }
       for (size_t v = 0; v < own_positions.count; ++v) {
@@ -194,6 +196,9 @@ class Transplanter {
 
   bool move_meshes(const Warp& warp) {
     WarpHint hint;
+    const auto motion_at = [&](Vec3 place) {
+      return warp.stays(place, hint) ? Similarity() : warp.at(place, hint);
+    };
     Span<uint32_t> joints, channels;
     const uint32_t joint_count = view_.defn.joint_names.count,
                    channel_count = view_.defn.channel_names.count;
@@ -202,15 +207,18 @@ class Transplanter {
     for (uint32_t j = 0; j < joint_count; ++j) joints[j] = j;
     for (uint32_t c = 0; c < channel_count; ++c) channels[c] = c;
     for (uint32_t m = 0; m < view_.geom.meshes.count; ++m) {
-      dna::Mesh& mesh = view_.geom.meshes[m];  // a copy already
+      dna::Mesh& mesh = view_.geom.meshes[m];
+      Arena scratch(allocator_);
       Span<Vec3> rig_positions;
-      if (!positions_of(mesh, scratch_, rig_positions)) return false;
+      if (!positions_of(mesh, scratch, rig_positions)) return false;
       const dna::Mesh* own = own_mesh(m);
       if (!own || !can_match(*own, how_.match) || !can_match(mesh, how_.match)) {
         NewVec3s moved;
-        if (!moved.allocate(arena_, rig_positions.count)) return false;
+        mesh.positions = {};
+        if (!copy_deeply(arena_, mesh) || !moved.allocate(arena_, rig_positions.count))
+          return false;
         for (size_t v = 0; v < rig_positions.count; ++v)
-          moved.set(v, warp.at(rig_positions[v], hint)(rig_positions[v]));
+          moved.set(v, motion_at(rig_positions[v])(rig_positions[v]));
         mesh.positions = moved;
         continue;
       }
@@ -218,28 +226,41 @@ class Transplanter {
       Span<Vec3> own_positions;
       Span<Similarity> turns;
       dna::Mesh made = *own;  // the same document's arrays, which stay where they are
-      if (!positions_of(*own, scratch_, own_positions) ||
-          !make(scratch_, own_positions.count, turns) ||
-          !match_meshes(own_positions, *own, rig_positions, mesh, how_.match, scratch_, match)) {
+      if (!positions_of(*own, scratch, own_positions) ||
+          !make(scratch, own_positions.count, turns) ||
+          !match_meshes(own_positions, *own, rig_positions, mesh, how_.match, scratch, match)) {
         return false;
       }
       for (size_t v = 0; v < own_positions.count; ++v)
-        turns[v] = warp.at(match.at(v, rig_positions), hint);
-      if (mesh.skin_weights.count != 0 &&
-          !project_weights(mesh, match, joints, joint_count, how_.influences, arena_,
-                           made.skin_weights)) {
-        return false;
-      }
-      uint32_t most = 0;
-      for (const dna::VertexSkinWeights& vertex : made.skin_weights)
-        most = std::max(most, vertex.weights.count);
-      made.maximum_influence_per_vertex = static_cast<uint16_t>(most);
+        turns[v] = motion_at(match.at(v, rig_positions));
+      if (!take_weights(mesh, match, joints, made)) return false;
       if (!project_targets(mesh, match, channels, turns, allocator_, arena_,
                            made.blend_shape_targets))
         return false;
       mesh = made;
       if (!pair_channels(view_, m, arena_)) return false;
     }
+    return true;
+  }
+
+  /// The weights of the template's mesh: the same ones where positions correspond by number.
+  bool take_weights(const dna::Mesh& of_rig, const SurfaceMatch& match, Span<const uint32_t> joints,
+                    dna::Mesh& out) {
+    uint32_t most = 0;
+    for (const dna::VertexSkinWeights& vertex : of_rig.skin_weights)
+      most = std::max(most, vertex.weights.count);
+    out.skin_weights = of_rig.skin_weights;
+    out.maximum_influence_per_vertex = of_rig.maximum_influence_per_vertex;
+    if (of_rig.skin_weights.count == 0) return true;
+    if (match.by_number && most <= how_.influences) return copy_deeply(arena_, out.skin_weights);
+    if (!project_weights(of_rig, match, joints, static_cast<uint32_t>(joints.count),
+                         how_.influences, arena_, out.skin_weights)) {
+      return false;
+    }
+    most = 0;
+    for (const dna::VertexSkinWeights& vertex : out.skin_weights)
+      most = std::max(most, vertex.weights.count);
+    out.maximum_influence_per_vertex = static_cast<uint16_t>(most);
     return true;
   }
 
@@ -254,68 +275,6 @@ class Transplanter {
   Span<Vec3> own_places_, rig_places_;   // of joints, in the model
   Span<Vec3> before_, after_;
 };
-
-/// Compares the effects of raw controls of the same name on meshes of the same name, before and after.
-Status measure_controls(const dna::DnaView& old_view, const dna::DnaView& new_view,
-                        const Allocator& allocator, Span<ControlError> out, uint32_t& out_count,
-                        Error& error) {
-  out_count = 0;
-  Arena arena(allocator);
-  ControlPoses old_poses, new_poses;
-  Span<uint32_t> old_control, old_mesh;
-  Span<double> controls, old_channels, new_channels;
-  Span<Rigid> old_skin, new_skin;
-  uint32_t most = 0;
-  for (const dna::Mesh& mesh : new_view.geom.meshes) most = std::max(most, mesh.positions.xs.count);
-  Span<Vec3> old_positions, new_positions;
-  if (!old_poses.prepare(old_view, arena) || !new_poses.prepare(new_view, arena) ||
-      !find_names(new_view.defn.raw_control_names, old_view.defn.raw_control_names, arena,
-                  old_control) ||
-      !find_names(new_view.defn.mesh_names, old_view.defn.mesh_names, arena, old_mesh) ||
-      !make(arena, kMaxControls, controls) ||
-      !make(arena, old_view.defn.channel_names.count, old_channels) ||
-      !make(arena, new_view.defn.channel_names.count, new_channels) ||
-      !make(arena, old_view.defn.joint_names.count, old_skin) ||
-      !make(arena, new_view.defn.joint_names.count, new_skin) ||
-      !make(arena, most, old_positions) || !make(arena, most, new_positions)) {
-    return no_memory(error, "measuring");
-  }
-  const dna::Array<uint16_t> meshes = new_view.defn.lod_meshes.at(0);
-  for (uint32_t control = 0; control < old_control.count; ++control) {
-    if (old_control[control] == kGone || out_count == out.count) continue;
-    Arena scratch(allocator);
-    old_poses.controls(old_control[control], controls);
-    old_poses.channels(controls, old_channels);
-    bool done = old_poses.skin(controls, scratch, old_skin);
-    new_poses.controls(control, controls);
-    new_poses.channels(controls, new_channels);
-    done = done && new_poses.skin(controls, scratch, new_skin);
-    if (!done) return no_memory(error, "measuring");
-    ControlError& found = out[out_count++] = {};
-    found.control = control;
-    double squares = 0;
-    size_t measured = 0;
-    for (uint32_t i = 0; i < meshes.count && meshes[i] < new_view.geom.meshes.count; ++i) {
-      const uint32_t own = old_mesh[meshes[i]];
-      if (own == kGone || own >= old_view.geom.meshes.count) continue;
-      const dna::Mesh& mesh = old_view.geom.meshes[own];
-      const size_t count = mesh.positions.xs.count;
-      if (count != new_view.geom.meshes[meshes[i]].positions.xs.count) continue;
-      old_poses.deform(own, old_skin, old_channels, old_positions.first(count));
-      new_poses.deform(meshes[i], new_skin, new_channels, new_positions.first(count));
-      for (uint32_t v = 0; v < count; ++v) {
-        const double distance = length(old_positions[v] - new_positions[v]);
-        found.worst = std::max(found.worst, distance);
-        found.moved =
-            std::max(found.moved, length(old_positions[v] - vector_of(mesh.positions, v)));
-        squares += distance * distance;
-      }
-      measured += count;
-    }
-    if (measured != 0) found.rms = std::sqrt(squares / static_cast<double>(measured));
-  }
-  return Status::kOk;
-}
 
 }  // namespace
 
@@ -340,7 +299,7 @@ Status transplant(Document& document, const Document& rig, const Transplant& how
       s != Status::kOk) {
     return s;
   }
-  edit.commit();
+  edit.commit(true);
   return Status::kOk;
 }
 

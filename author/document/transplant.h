@@ -2,6 +2,7 @@
 // The rig of a template for another character.
 #pragma once
 
+#include "author/document/control_errors.h"
 #include "author/document/document.h"
 #include "author/document/surface_match.h"
 
@@ -12,14 +13,6 @@ struct Transplant {
       Match::kUv;  // of meshes of the same name with different faces; positions of the same faces
                    // correspond by number
   uint32_t influences = 8;
-};
-
-/// How differently a control of both rigs acts after the transplant.
-struct ControlError {
-  uint32_t control = 0;  // number of the raw control in the template
-  double worst = 0;      // distance of a position of LOD 0, in the unit of the file
-  double rms = 0;
-  double moved = 0;  // the farthest that it moved a position before
 };
 
 /// Replaces the rig of the document by that of `rig`: definition, behavior and everything that belongs to

@@ -2,16 +2,17 @@
 # SPDX-License-Identifier: MIT
 """Runs the commands of the program on damaged files. `./dev fuzz --commands SECONDS` calls it.
 
-    commands.py PROGRAM SECONDS [--seed N] [--jobs N] [--findings DIR]
+    commands.py PROGRAM SECONDS [--seed N] [--jobs N] [--only COMMAND,...] [--findings DIR]
 
 PROGRAM is one with sanitizers. Each run damages one input of a command, now and then also an option.
 What must hold: the exit code is 0 to 4; no sanitizer speaks, and no signal ends the program; messages
-hold no control characters; within a minute and 2 GiB it is done; without success nothing is written, and
+hold no control characters; within a minute of CPU time and 2 GiB it is done; without success nothing is written, and
 nothing but the outputs ever is. The inputs and the command line of a finding are kept. Exits with 1 if
 there are any.
 """
 import argparse
 import concurrent.futures
+import json
 import os
 import pathlib
 import random
@@ -24,8 +25,11 @@ import sys
 import tempfile
 import time
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+import edit_scripts  # noqa: E402
+
 SCENE = pathlib.Path(__file__).resolve().parents[2] / "examples" / "scene.json"
-SECONDS_AT_MOST = 60
+SECONDS_AT_MOST = 60  # of CPU time; by the clock ten times that
 ENVIRONMENT = dict(os.environ, ASAN_OPTIONS="allocator_may_return_null=1:hard_rss_limit_mb=2048",
                    UBSAN_OPTIONS="halt_on_error=1")
 FRAMES = """{"frames": [{"raw": {"0": 0.5, "3": 1}}, {"raw": {"1": 0.25}}, {"gui": {"0": 1}}]}"""
@@ -53,7 +57,12 @@ COMMANDS = [
     "play {scene} {baked} -o {out:clip} -o {out:csv} --seconds 0.3",
     "author {obj} -o {out:dna} --joints 12 --lods 2 --report {out:json}",
     "author {glb} -o {out:dna} --joints 8 --lods 1", "author {obj} --shapes {glb} -o {out:dna} --joints 9",
+    "edit {rig} --script {script} -o {out:dna}", "edit {rig} --script {script} --dry-run",
+    "edit {rig} --transplant {template} -o {out:dna}", "edit {rig} --merge-joints {template} -o {out:dna}",
+    "edit {rig} --to-json -o {out:json}", "edit {text} --from-json -o {out:dna}", "diff {rig} {template} --json",
 ]
+ENDINGS = {"obj": "obj", "glb": "glb", "array": "json"}  # of inputs; others do not matter
+SCRIPT_READS = ["template", "array"]
 NUMBERS = ["0", "-1", "1", "2", "255", "65535", "65536", "4294967295", "1e30", "1e-30", "nan", "1e999", ""]
 WORDS = [0, 1, 2, 0x7F, 0xFF, 0x7FFF, 0xFFFF, 0x10000, 0x7FFFFFFF, 0x80000000, 0xFFFFFFFF, 0x7FC00000,
          0x7F800000, 0x3F800000]
@@ -63,12 +72,13 @@ def make_inputs(program, folder):
     """Files of each kind, made by the program itself."""
     def run(*arguments):
         subprocess.run([program, "-q", *map(str, arguments)], check=True, env=ENVIRONMENT)
-    inputs = {kind: [] for kind in "rig asset baked frames table clip scene obj glb".split()}
+    inputs = {kind: [] for kind in "rig asset baked frames table clip scene obj glb template script array text".split()}
     for name, options in (("plain", []), ("networks", ["--ml"]), ("body", ["--preset", "body"])):
         rig = folder / f"{name}.dna"
         run("gen", "-o", rig, *options)
         run("bake", rig, "-o", folder / f"{name}.rig")
         inputs["rig"].append(rig)
+        inputs["template"].append(rig)
         asset = folder / f"{name}.uasset"
         asset.write_bytes(b"\xc1\x83\x2a\x9e" + bytes(500) + rig.read_bytes() + bytes(100))
         inputs["asset"].append(asset)
@@ -82,7 +92,21 @@ def make_inputs(program, folder):
                        ("obj", "face.obj"), ("glb", "face.glb")):
         inputs[kind].append(folder / name)
     inputs["scene"].append(SCENE)
-    return {kind: [path.read_bytes() for path in paths] for kind, paths in inputs.items()}
+    run("edit", folder / "plain.dna", "--to-json", "-o", folder / "plain.json")
+    inputs["text"].append(folder / "plain.json")
+    made = {kind: [path.read_bytes() for path in paths] for kind, paths in inputs.items()}
+    return {**made, **make_edits(program, folder / "plain.dna", folder / "plain.json")}
+
+
+def make_edits(program, rig, text):
+    """Scripts for a rig, which read other files in the folder of the run, and an array of positions."""
+    info = subprocess.run([program, "info", rig, "--json", "--names", "all"], check=True, env=ENVIRONMENT,
+                          capture_output=True).stdout
+    names = edit_scripts.element_names(json.loads(info))
+    draw = random.Random(5)
+    scripts = [edit_scripts.random_script(draw, names, "template.in", "array.json").encode() for _ in range(2000)]
+    count = len(json.loads(text.read_bytes())["geom"]["meshes"][0]["positions"]["xs"])
+    return {"script": scripts, "array": [json.dumps([[i % 7, i % 5, i % 3] for i in range(count)]).encode()]}
 
 
 def damage_text(rng, text):
@@ -122,13 +146,15 @@ def damage_binary(rng, data, others):
     return bytes(data)
 
 
-def one_run(program, inputs, seed, scratch, findings):
+def one_run(program, commands, inputs, seed, scratch, findings):
     """The finding, or nothing."""
     rng = random.Random(seed)
     folder = pathlib.Path(tempfile.mkdtemp(dir=scratch))
-    command = rng.choice(COMMANDS)
+    command = rng.choice(commands)
     places = re.findall(r"{(?:out:)?(\w+)}", command)
-    damaged = rng.choice([p for p in places if p in inputs and "{" + p + "}" in command])
+    if "script" in places:
+        places += SCRIPT_READS
+    damaged = rng.choice([p for p in places if p in inputs and ("{" + p + "}" in command or p in SCRIPT_READS)])
     outputs = set()
 
     def fill(match):
@@ -138,11 +164,14 @@ def one_run(program, inputs, seed, scratch, findings):
             return f"out.{kind[4:]}"
         data = rng.choice(inputs[kind])
         if kind == damaged:
-            binary = kind in ("rig", "baked", "clip", "glb")
+            binary = kind in ("rig", "baked", "clip", "glb", "template")
             data = damage_binary(rng, data, inputs[kind]) if binary else damage_text(rng, data)
-        name = f"{kind}.{kind if kind in ('obj', 'glb') else 'in'}"
+        name = f"{kind}.{ENDINGS.get(kind, 'in')}"
         (folder / name).write_bytes(data)
         return name
+    if "script" in places:
+        for kind in SCRIPT_READS:
+            fill(re.match("(.*)", kind))
     arguments = shlex.split(re.sub(r"{([\w:]+)}", fill, command))
     if rng.random() < 0.1:
         numbers = [i for i, a in enumerate(arguments) if i > 1 and re.fullmatch(r"[\d./-]+", a)]
@@ -151,10 +180,11 @@ def one_run(program, inputs, seed, scratch, findings):
     before = {path.name for path in folder.iterdir()}
     what = ""
     try:
-        done = subprocess.run([program, *arguments], cwd=folder, env=ENVIRONMENT, capture_output=True,
-                              timeout=SECONDS_AT_MOST, stdin=subprocess.DEVNULL, check=False)
+        done = subprocess.run(["prlimit", f"--cpu={SECONDS_AT_MOST}", program, *arguments], cwd=folder,
+                              env=ENVIRONMENT, capture_output=True, timeout=10 * SECONDS_AT_MOST,
+                              stdin=subprocess.DEVNULL, check=False)
     except subprocess.TimeoutExpired:
-        what = f"not done within {SECONDS_AT_MOST} s"
+        what = f"not done within {10 * SECONDS_AT_MOST} s"
     else:
         errors = done.stderr.decode("utf-8", "replace")
         written = {path.name for path in folder.iterdir()} - before
@@ -184,11 +214,16 @@ def main():
     parser.add_argument("seconds", type=int)
     parser.add_argument("--seed", type=int, default=int(time.time()))
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    parser.add_argument("--only", default="", metavar="COMMAND,...", help="these commands of the program")
     parser.add_argument("--findings", type=pathlib.Path, default=pathlib.Path("build/findings"))
     options = parser.parse_args()
     program = options.program.resolve()
     options.findings.mkdir(parents=True, exist_ok=True)
-    runs, found = {command.split()[0]: 0 for command in COMMANDS}, []
+    only = options.only.split(",") if options.only else [command.split()[0] for command in COMMANDS]
+    commands = [command for command in COMMANDS if command.split()[0] in only]
+    if not commands:
+        parser.error(f"--only {options.only}: there is no such command here")
+    runs, found = {command.split()[0]: 0 for command in commands}, []
     with tempfile.TemporaryDirectory() as scratch:
         made = pathlib.Path(scratch) / "inputs"
         made.mkdir()
@@ -202,7 +237,7 @@ def main():
 
         def work():
             while time.monotonic() < end and len(found) < 20:
-                command, what = one_run(program, inputs, next(seeds), scratch, options.findings)
+                command, what = one_run(program, commands, inputs, next(seeds), scratch, options.findings)
                 runs[command] += 1
                 if what:
                     found.append(what)

@@ -7,6 +7,7 @@
 #include "integrations/program/diff/dna_diff.h"
 #include "integrations/program/edit/json_document.h"
 #include "integrations/program/io/output.h"
+#include "integrations/program/io/rig_file.h"
 
 namespace mien::cli {
 
@@ -27,6 +28,20 @@ Dna finished(const Document& document) {
   check(mien_document_to_dna(document.get(), nullptr, &dna, &error), &error, "cannot edit",
         document.shown);
   return Dna(dna);
+}
+
+/// What a dry run compares with: the file itself, or a copy of what cannot be read twice.
+RigFile file_before(const EditCommand& command, const Document& document, const Session& session) {
+  RigFile before;
+  if (command.from_json || is_stream(command.input)) {
+    before.dna = finished(document);
+    return before;
+  }
+  auto desc = sized<MienDnaDesc>();
+  desc.layers = MIEN_LAYER_ALL;
+  desc.unknown_layers = MIEN_UNKNOWN_LAYERS_KEEP;
+  desc.file_access = MIEN_FILE_MAP;
+  return open_rig_file(command.input, desc, session);
 }
 
 /// A script is applied where it is named.
@@ -94,8 +109,8 @@ void run(const EditCommand& command, const Session& session) {
   const std::vector<Edit> edits = with_scripts(command.edits);
   Document document = command.from_json ? read_json_document(command.input, session)
                                         : open_document(command.input, session);
-  Dna before;
-  if (command.dry_run) before = finished(document);
+  RigFile before;
+  if (command.dry_run) before = file_before(command, document, session);
   const std::vector<std::string> done = apply_edits(document, edits);
   if (command.to_json && !command.dry_run) {
     if (document.version != 0) {
@@ -107,7 +122,7 @@ void run(const EditCommand& command, const Session& session) {
     note_written(session, command.output.path, output.size());
     return;
   }
-  if (command.dry_run) return print_dry_run(before.get(), finished(document).get(), done);
+  if (command.dry_run) return print_dry_run(before.dna.get(), finished(document).get(), done);
   for (const std::string& sentence : done) note(session, document.shown + ": " + sentence);
   write_document(std::move(document), command.output.path, session);
 }
@@ -122,9 +137,8 @@ Command add_edit_command(CLI::App& app, const Session& session) {
       ->required();
   add_output_options(*edit, command->output, "File to write; - is standard output");
   edit->add_flag("-n,--dry-run", command->dry_run, "Print what would change, and write nothing");
-  edit->add_flag("--to-json", command->to_json,
-                 "Write the file as JSON, for version control: without losing a bit");
-  edit->add_flag("--from-json", command->from_json, "IN is such JSON");
+  edit->add_flag("--to-json", command->to_json, "Write lossless JSON, for version control");
+  edit->add_flag("--from-json", command->from_json, "IN is JSON that --to-json wrote");
   const auto add = [&](const char* name, const char* type_name, const char* text) {
     return edit
         ->add_option_function<std::string>(

@@ -43,7 +43,7 @@ std::string apply_skin_weights(Document& document, const std::string& value) {
 }
 
 std::string apply_limit_influences(Document& document, const std::string& value) {
-  const auto influences = static_cast<uint32_t>(parse_number(document.edit, value, 65535));
+  const auto influences = static_cast<uint32_t>(parse_number("--limit-influences", value, 65535));
   if (influences == 0) fail_edit_value(document, "each position needs one", "write 4, say");
   edit_meshes(document, "all", [&](uint32_t mesh) {
     edited(document, mien_document_limit_influences, mesh, influences);
@@ -61,7 +61,8 @@ std::string apply_smooth_weights(Document& document, const std::string& value) {
   constexpr float kStrength = 0.5f;
   constexpr uint32_t kInfluences = 8, kMostTimes = 1000;
   const NamePair pair = split_pair(document, value, '=', "MESH=TIMES", true);
-  const auto times = static_cast<uint32_t>(parse_number(document.edit, pair.second, kMostTimes));
+  const auto times =
+      static_cast<uint32_t>(parse_number("--smooth-weights", pair.second, kMostTimes));
   return "smoothed the skin weights of " + edit_meshes(document, pair.first, [&](uint32_t mesh) {
            edited(document, mien_document_smooth_weights, mesh, times, kStrength, kInfluences);
          });
@@ -105,21 +106,25 @@ std::string apply_prune_joints(Document& document, const std::string& value) {
          length_text(pruned.worst_distance);
 }
 
-/// "N M", or "N M uv".
+/// "N --from M", or "N --from M --match uv".
 std::string apply_make_lod(Document& document, const std::string& value) {
-  const NamePair first = split_pair(document, value, ' ', "--make-lod N --from M");
-  const size_t space = first.second.find(' ');
-  const std::string from = first.second.substr(0, space);
-  const std::string match = space == std::string::npos ? "surface" : first.second.substr(space + 1);
+  const std::string from_option = " --from ", match_option = " --match ";
+  const size_t from_at = value.find(from_option), match_at = value.find(match_option);
+  const std::string lod = value.substr(0, from_at);
+  const size_t from_begin = from_at + from_option.size();
+  const std::string from =
+      value.substr(from_begin, match_at == std::string::npos ? match_at : match_at - from_begin);
+  const std::string match =
+      match_at == std::string::npos ? "surface" : value.substr(match_at + match_option.size());
   if (match != "surface" && match != "uv")
     fail_edit_value(document, "\"" + match + "\" is not surface or uv", "choose one of them");
   auto desc = sized<MienProjectDesc>();
   desc.match = match == "uv" ? MIEN_MATCH_UV : MIEN_MATCH_SURFACE;
   double farthest = 0;
   edited(document, mien_document_make_lod,
-         static_cast<uint32_t>(parse_number("--make-lod", first.first, 32)),
+         static_cast<uint32_t>(parse_number("--make-lod", lod, 32)),
          static_cast<uint32_t>(parse_number("--from", from, 32)), &desc, &farthest);
-  return "made LOD " + first.first + " from LOD " + from + ": " +
+  return "made LOD " + lod + " from LOD " + from + ": " +
          (match == "uv" ? "texture coordinates differ" : "positions are off its surface") +
          " by at most " + length_text(farthest);
 }
@@ -223,8 +228,8 @@ std::vector<EditOption> mesh_edit_options() {
 std::vector<EditOption> other_file_edit_options() {
   const char* const kOthers = "Parts of other DNA files";
   return {
-      {"--copy-mesh", "MESH=DNA", kOthers, "Copy a mesh, over the one of that name or as a new one",
-       apply_copy_mesh},
+      {"--copy-mesh", "MESH=DNA", kOthers,
+       "Copy a mesh; it replaces the one of that name, or is added", apply_copy_mesh},
       {"--copy-layers", "LAYERS=DNA", kOthers,
        "Copy layers, named as for 'mien convert', with those that they need", apply_copy_layers},
       {"--merge-joints", "DNA", kOthers, "Add the joints that IN lacks, such as those of the body",

@@ -58,7 +58,8 @@ std::string apply_neutral(Document& document, const std::string& value) {
   const NamePair pair = split_pair(document, value, ':', form, true);
   const std::vector<double> numbers = parse_list(document, pair.second);
   if (numbers.size() != 3 && numbers.size() != 6) {
-    fail_edit_value(document, "these are not 3 or 6 numbers", std::string("write ") + form);
+    fail_edit_value(document, "expected 3 or 6 numbers, not " + std::to_string(numbers.size()),
+                    std::string("write ") + form);
   }
   const std::vector<float> transform(numbers.begin(), numbers.end());
   const uint32_t joint = find_element(document, MIEN_KIND_JOINT, pair.first);
@@ -154,7 +155,7 @@ const EditOption* find_edit_option(const std::string& name) {
 
 const std::vector<EditOption>& edit_options() {
   static const std::vector<EditOption> options = [] {
-    const char* const kNames = "Names and what is there";
+    const char* const kNames = "Names and parts";
     const char* const kPlaces = "Places";
     std::vector<EditOption> all = {
         {"--rename", "KIND:OLD=NEW", kNames,
@@ -180,8 +181,10 @@ const std::vector<EditOption>& edit_options() {
          "tx,ty,tz or tx,ty,tz,rx,ry,rz: neutral transform relative to the parent", apply_neutral},
         {"--scale", "F", kPlaces, "Scale the whole character about the origin", apply_scale},
         {"--rotate", "X,Y,Z", kPlaces,
-         "Rotate it about the origin: right-handed degrees about x, then y, then z", apply_rotate},
-        {"--translate", "X,Y,Z", kPlaces, "Move it", apply_translate},
+         "Rotate the whole character about the origin: right-handed degrees about x, then y, then "
+         "z",
+         apply_rotate},
+        {"--translate", "X,Y,Z", kPlaces, "Move the whole character", apply_translate},
         {"--system", "NAME", kPlaces,
          "Convert to the units, axes and winding of an engine or tool, as 'mien convert'",
          apply_system},
@@ -196,21 +199,18 @@ const std::vector<EditOption>& edit_options() {
 std::vector<Edit> join_options(const std::vector<Edit>& edits) {
   std::vector<Edit> joined;
   std::string before;  // the option before
+  size_t used = 0;
   for (const Edit& edit : edits) {
     const bool follows = edit.option == "--from" || edit.option == "--match";
     const char* const wanted = edit.option == "--match" ? "--from" : "--make-lod";
     if (follows ? before != wanted : before == "--make-lod") break;
     if (follows) {
-      joined.back().value += " " + edit.value;
+      joined.back().value += " " + edit.option + " " + edit.value;
     } else {
       joined.push_back(edit);
     }
     before = edit.option;
-  }
-  size_t used = 0;
-  for (const Edit& edit : joined) {
-    used += 1;
-    for (char c : edit.option == "--make-lod" ? edit.value : std::string()) used += c == ' ';
+    ++used;
   }
   if (before == "--make-lod" || used != edits.size()) {
     fail_usage("--make-lod", "--make-lod, --from and --match go together, in this order",

@@ -19,7 +19,7 @@ NamePair split_pair(const Document& document, const std::string& value, char sep
                     const char* form, bool at_last) {
   const size_t at = at_last ? value.rfind(separator) : value.find(separator);
   if (at == std::string::npos || at == 0 || at + 1 == value.size()) {
-    fail_edit_value(document, std::string("this is not ") + form, std::string("write ") + form);
+    fail_edit_value(document, std::string("expected ") + form, "see 'mien help edit'");
   }
   return {value.substr(0, at), value.substr(at + 1)};
 }
@@ -33,8 +33,8 @@ std::vector<double> parse_list(const Document& document, const std::string& list
     const auto [stop, error] = std::from_chars(at, end, number);
     if (error != std::errc() || !std::isfinite(number) ||
         !std::isfinite(static_cast<float>(number)) || (stop != end && *stop != ',')) {
-      fail_edit_value(document, "\"" + list + "\" is not a list of finite numbers",
-                      "separate them by commas, without spaces");
+      fail_edit_value(document, "\"" + list + "\" is not a finite number or a list of them",
+                      "separate numbers by commas, without spaces");
     }
     numbers.push_back(number);
     if (stop == end) return numbers;
@@ -46,8 +46,10 @@ std::vector<double> parse_list_of(const Document& document, const std::string& l
                                   const char* form) {
   std::vector<double> numbers = parse_list(document, list);
   if (numbers.size() != count) {
-    fail_edit_value(document, "these are not " + std::to_string(count) + " numbers",
-                    std::string("write ") + form);
+    fail_edit_value(
+        document,
+        "expected " + amount_text(count, "number") + ", not " + std::to_string(numbers.size()),
+        std::string("write ") + form);
   }
   return numbers;
 }

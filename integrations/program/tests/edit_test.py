@@ -16,6 +16,7 @@ import sys
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, "..", "..", "..", "tests", "support"))
 sys.path.insert(0, os.path.join(HERE, "..", "..", "python"))
+import edit_scripts  # noqa: E402
 from program import FILE, USAGE, INVALID, ProgramTest, main, make, make_folder, path, read, run, write  # noqa: E402
 
 mien = None  # the binding
@@ -390,7 +391,8 @@ class WrongUsage(EditTest):
                 ("--scale", "1e60", "finite"), ("--translate", "1,2", "3 numbers"), ("--lods", "40", "LOD"),
                 ("--version", "3.0", "2.8"), ("--system", "maja", "maya"), ("--metadata", "=x", "KEY=VALUE"),
                 ("--prune-targets", "-1", "below 0"), ("--make-lod", "1", "--from"), ("--from", "1", "--make-lod"),
-                ("--limit-influences", "0", "needs one")):
+                ("--limit-influences", "0", "needs one"), ("--limit-influences", "x", "--limit-influences"),
+                ("--translate", "1,2,3,4", "not 4")):
             self.fails(USAGE, "edit", path(SMALL), option, value, "-o", path("no.dna"), says=says)
         self.fails(USAGE, "edit", path(SMALL), "--name", "x", says="--dry-run")
 
@@ -478,45 +480,18 @@ class Json(EditTest):
         self.fails(FILE, "edit", path("none.json"), "--from-json", "-o", path("no.dna"), says="none.json")
 
 
-class Scripts(EditTest):
-    """Random scripts: each is done or refused with a line that says why, and a file that is written is valid."""
-
-    def command(self, draw, names):
-        def name(kind):
-            return draw.choice(names[kind] + ["none", "", "a=b"])
-        kind = draw.choice(("joint", "mesh", "blend-shape", "animated-map", "raw", "gui", "psd", "ml", "none"))
-        number = draw.choice(("0", "1", "2", "0.5", "-1", "1e9", "nan", "", "x", "99999999999"))
-        three = ",".join(draw.choice(("0", "1", "-30", "0.25", "inf", "")) for _ in range(draw.choice((2, 3, 3, 3, 4))))
-        mesh = name("mesh")
-        return draw.choice((
-            ["--rename", "%s:%s=%s" % (kind, name(kind), draw.choice(("new", "other", "", "jaw")))],
-            ["--remove", "%s:%s" % (kind, name(kind))], ["--remove", "%s:%s" % (kind, name(kind))],
-            ["--clear", draw.choice(("blend-shapes", "animated-maps", "joint-animation", "joint-animation:" + name("joint")))],
-            ["--lods", draw.choice(("0", "1-2", "0,2", "9", "2-1", ""))], ["--name", number], ["--metadata", "k=" + number],
-            ["--version", draw.choice(("2.1", "2.5", "2.8", "3"))], ["--neutral", name("joint") + ":" + three],
-            ["--scale", number], ["--rotate", three], ["--translate", three],
-            ["--system", draw.choice(("unreal", "maya", "none"))], ["--limit-influences", number],
-            ["--normalize-weights", draw.choice((mesh, "all"))], ["--smooth-weights", mesh + "=" + number],
-            ["--prune-targets", number], ["--prune-joints", three],
-            ["--make-lod", number, "--from", "0"], ["--make-lod", "1", "--from", number, "--match", draw.choice(("uv", "surface", "x"))],
-            ["--from", number], ["--copy-mesh", mesh + "=" + path("tiny.dna")], ["--copy-layers", "descriptor=" + path("tiny.dna")],
-            ["--merge-joints", path("tiny.dna")], ["--split-joints", path("tiny.dna")], ["--positions", mesh + "=" + path("p.json")],
-            ["--conform", mesh + "=" + path("p.json")], ["--script", "x"], ["--none", "x"], [number], []))
+class RandomScripts(EditTest):
+    """Each is done, or refused with a line that says why; a file that is written is valid."""
 
     def test_hundreds_of_them(self):
         make("gen", "-o", path("tiny.dna"), "--preset", "tiny")
-        names = {kind: self.names("tiny.dna", listed) for kind, listed in (
-            ("joint", "joints"), ("mesh", "meshes"), ("blend-shape", "channels"), ("animated-map", "maps"),
-            ("raw", "raw"), ("gui", "gui"))}
-        names.update({"psd": ["psd0", "psd1"], "ml": [], "none": []})
-        write("p.json", json.dumps([[i % 7, i % 5, i % 3] for i in range(len(self.all_positions("tiny.dna")))]))
+        positions = len(self.positions_of_json("tiny.dna"))
+        write("p.json", json.dumps([[i % 7, i % 5, i % 3] for i in range(positions)]))
+        names = edit_scripts.element_names(self.json("info", path("tiny.dna"), "--json", "--names", "all"))
         draw = random.Random(5)
         done = 0
         for _ in range(300):
-            script = [self.command(draw, names) for _ in range(draw.choice((1, 1, 2, 3)))]
-            text = json.dumps(script)
-            if draw.random() < 0.05:
-                text = text[:draw.randrange(len(text))]
+            text = edit_scripts.random_script(draw, names, path("tiny.dna"), path("p.json"))
             write("script.json", text)
             if os.path.exists(path("made.dna")):
                 os.remove(path("made.dna"))
@@ -530,7 +505,7 @@ class Scripts(EditTest):
             self.assertTrue(self.json("validate", path("made.dna"), "--json")["valid"], text)
         self.assertGreater(done, 40)
 
-    def all_positions(self, name):
+    def positions_of_json(self, name):
         text = self.ok("edit", path(name), "--to-json", "-o", "-").stdout
         return json.loads(text)["geom"]["meshes"][0]["positions"]["xs"]
 
@@ -538,11 +513,20 @@ class Scripts(EditTest):
 class Recipes(EditTest):
     def test_every_line_of_the_page_runs(self):
         with open(os.path.join(HERE, "..", "..", "..", "docs", "editing.md"), encoding="utf-8") as page:
-            lines = re.findall(r"^    mien (.*)$", page.read(), re.MULTILINE)
+            text = page.read()
+        lines = re.findall(r"^    mien (.*)$", text, re.MULTILINE)
         self.assertGreaterEqual(len(lines), 8)
         write("sculpt.obj", "".join("v %r %r %r\n" % (x, y, 1.05 * z) for x, y, z in self.positions("head.dna", 0)) + "f 1 2 3\n")
+        count = len(self.positions("head.dna", 0))
+        write("weights.json", json.dumps([[[0, 1]]] * count))
+        write("edits.json", re.search(r"```json\n(.*?)```", text, re.DOTALL).group(1))
+        self.edit("--remove", "joint:C_Jaw", rig="head.dna", to="body.dna")
+        shown = self.ok("help", "edit").stdout.decode()
+        missing = [name for name in re.findall(r"^  (?:-., ?)?(--[a-z-]+)", shown, re.MULTILINE)
+                   if not any(name in line.split() for line in lines)]
+        self.assertEqual(sorted(set(missing) - {"--help", "--force", "--quiet", "--output"}), [])
         for line in lines:
-            words = [path(word) if re.fullmatch(r"[a-z]+\.(dna|json)", word) else word.replace("sculpt.obj", path("sculpt.obj"))
+            words = [re.sub(r"\b[a-z]+\.(dna|json|obj)$", lambda found: path(found.group()), word)
                      for word in shlex.split(line)]
             self.ok(*words)
             if words[-2] == "-o" and words[-1].endswith(".dna"):
@@ -550,6 +534,8 @@ class Recipes(EditTest):
         self.assertEqual(self.json("info", path("mobile.dna"), "--json")["lod_count"], 6)
         self.assertEqual(self.names("light.dna", "channels"), [])
         self.assertIn("jaw", self.names("engine.dna", "joints"))
+        self.assertIn("C_Jaw", self.names("whole.dna", "joints"))
+        self.assertNotIn("C_Jaw", self.names("again.dna", "joints"))
 
 
 class Diff(EditTest):

@@ -388,8 +388,7 @@ TEST(Conform, MovesJointsNearAChangeOnly) {
 TEST(Transplant, OfItsOwnRigChangesNothing) {
   const DnaHandle head = generate_dna(MIEN_PRESET_HEAD, 0);
   const DocumentHandle document = create_document(head.get()), rig = create_document(head.get());
-  const auto positions = positions_at(document.get(), 0);
-  const auto world = world_x(document);
+  const Bytes before = bytes_of(document);
   MienTransplantDesc desc = sized<MienTransplantDesc>();
   desc.influences = 12;
   std::vector<MienControlError> errors(100);
@@ -400,14 +399,8 @@ TEST(Transplant, OfItsOwnRigChangesNothing) {
             MIEN_OK)
       << error.message;
   EXPECT_EQ(count, field_of(rig, "defn.rawControlNames").count);
-  EXPECT_EQ(positions_at(document.get(), 0), positions);
-  const auto after = world_x(document);
-  for (size_t j = 0; j < world.size(); ++j) EXPECT_NEAR(after[j], world[j], 1e-3);
-  for (size_t i = 0; i < count; ++i) {
-    EXPECT_LT(errors[i].worst, 0.01 + 0.005 * errors[i].moved)
-        << i << " worst " << errors[i].worst << " moved " << errors[i].moved;
-  }
-  EXPECT_TRUE(dna_of(document));
+  EXPECT_EQ(bytes_of(document), before);
+  for (size_t i = 0; i < count; ++i) EXPECT_EQ(errors[i].worst, 0) << i;
 }
 
 TEST(Transplant, GivesAnotherHeadTheControlsOfTheTemplate) {

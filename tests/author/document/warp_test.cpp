@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The motion of space with a surface, against the same sums over all points sorted by distance.
+#include "author/document/warp.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "author/base/random.h"
-#include "author/document/surface_match.h"
 #include "author/fit/procrustes.h"
 
 namespace mien::author {
