@@ -211,6 +211,8 @@ endif()
 add_test(NAME csharp_api
   COMMAND Python3::Interpreter ${integrations}/csharp/generate_api.py --check)
 set_tests_properties(csharp_api PROPERTIES LABELS guard)
+add_test(NAME csharp_project COMMAND Python3::Interpreter ${integrations}/csharp/tests/project_test.py)
+set_tests_properties(csharp_project PROPERTIES LABELS guard)
 if(MIEN_SANITIZE OR CMAKE_CROSSCOMPILING)
   # Mono is neither built with sanitizers nor for other machines.
 elseif(MIEN_MCS AND MIEN_MONO)
@@ -221,8 +223,17 @@ elseif(MIEN_MCS AND MIEN_MONO)
   add_test(NAME csharp_test COMMAND ${MIEN_MONO} --debug ${PROJECT_BINARY_DIR}/csharp_tests.exe)
   set_tests_properties(csharp_test PROPERTIES LABELS abi FIXTURES_REQUIRED csharp TIMEOUT 120
     ENVIRONMENT "LD_LIBRARY_PATH=$<TARGET_FILE_DIR:mien>")
+  # The package for Unity against stubs; what Unity sets from outside is never assigned there.
+  add_test(NAME unity_build COMMAND ${MIEN_MCS} -unsafe -langversion:latest -warnaserror -nowarn:219,414,649
+    -out:${PROJECT_BINARY_DIR}/unity_host.exe -recurse:${integrations}/csharp/Mien/*.cs
+    -recurse:${integrations}/unity/package/Runtime/*.cs -recurse:${integrations}/unity/package/Editor/*.cs
+    -recurse:${integrations}/unity/tests/*.cs)
+  set_tests_properties(unity_build PROPERTIES LABELS abi FIXTURES_SETUP unity)
+  add_test(NAME unity_test COMMAND ${MIEN_MONO} --debug ${PROJECT_BINARY_DIR}/unity_host.exe)
+  set_tests_properties(unity_test PROPERTIES LABELS abi FIXTURES_REQUIRED unity TIMEOUT 120
+    ENVIRONMENT "LD_LIBRARY_PATH=$<TARGET_FILE_DIR:mien>")
 else()
-  message(STATUS "NOT TESTED: the C# binding; there is no mcs and mono")
+  message(STATUS "NOT TESTED: the C# binding and the package for Unity; there is no mcs and mono")
 endif()
 
 # ---- Go ---------------------------------------------------------------------------------------------
