@@ -14,7 +14,7 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[3]
-BLOCK = re.compile(r"<!-- (run|file: [\w.]+) -->\n```\w+\n(.*?)^```$", re.DOTALL | re.MULTILINE)
+BLOCK = re.compile(r"<!-- (run|file: [\w.-]+) -->\n```\w+\n(.*?)^```$", re.DOTALL | re.MULTILINE)
 
 mien = library = None
 
@@ -71,7 +71,8 @@ class Tutorials(unittest.TestCase):
 
     def test_scan_to_rig(self):
         printed = self.follow("scan-to-rig", ["talker.dna", "report.json", "pictures/jaw.png", "pictures/eyes.png",
-                                              "pictures/head-turn.png", "talk.png", "talk.glb"])
+                                              "pictures/head-turn.png", "talk.png", "talk.glb", "hello.clip", "hello.png",
+                                              "hello.glb"])
         self.assertRegex(printed, r"jawOpen turns the jaw by 2\d degrees")
         self.assertIn("eye_r looks up with eyeLookUpRight: shape", printed)
 
