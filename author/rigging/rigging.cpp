@@ -6,9 +6,11 @@
 #include "author/base/dna_making.h"
 #include "author/fit/joint_tree.h"
 #include "author/place/extra_joints.h"
+#include "author/place/joined_eyes.h"
 #include "author/rigging/jaw_shape.h"
 #include "author/rigging/metahuman_names.h"
 #include "author/rigging/own_stages.h"
+#include "author/weights/body_weights.h"
 
 namespace mien::author {
 
@@ -44,7 +46,11 @@ class Rigger {
  private:
   Status read() {
     const Status status = read_mesh(source_, arena_, allocator_, out_.read, error_);
-    if (status != Status::kOk || !has_own_bones()) return status;
+    if (status != Status::kOk) return status;
+    if (!options_.place.paper && !separate_eyeballs(out_.read.mesh, arena_, allocator_)) {
+      return no_memory();
+    }
+    if (!has_own_bones()) return status;
     return check_bones(options_, !mesh_.shapes.empty(), error_);
   }
 
@@ -68,12 +74,26 @@ class Rigger {
       status = place_bones(mesh_, place, options_.parallel, arena_, allocator_, out_.placement,
                            out_.place, error_);
     }
+    if (status == Status::kOk && !has_own_bones() && !place.paper && !balance()) {
+      return no_memory();
+    }
     if (status == Status::kOk && options_.metahuman_names &&
         !name_as_metahuman(out_.placement, arena_)) {
       return no_memory();
     }
     if (status != Status::kOk || !has_own_bones()) return status;
     return take_bones(source_, options_, arena_, out_.placement, error_);
+  }
+
+  /// Unless the caller gave the joint of the head.
+  bool balance() {
+    Landmark& mark = out_.place.landmarks[LandmarkKind::kHead];
+    if (mark.given) return true;
+    if (!balance_head(mesh_, arena_, out_.placement)) return false;
+    for (const Bone& bone : out_.placement.bones) {
+      if (bone.kind == BoneKind::kHead) mark.at = bone.position;
+    }
+    return true;
   }
 
   /// Weights of every LOD over the bones that it keeps; only of LOD 0 if the caller gave them.

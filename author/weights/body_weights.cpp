@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "author/base/dna_making.h"
 #include "author/base/exact_math.h"
 #include "author/weights/carriers.h"
 
@@ -49,6 +50,51 @@ void share_body(const BodyChain& chain, double height, double (&shares)[BodyChai
     }
     shares[0] *= 1 - height;
   }
+}
+
+bool balance_head(const AuthorMesh& mesh, Arena& arena, Placement& placement) {
+  const NeckCut& cut = placement.neck_cut;
+  if (!cut.exists || !(cut.half_width > 0)) return true;
+  const BodyChain chain = body_chain(placement);
+  const Vec3 head = placement.bones[chain.bones[chain.count - 1]].position;
+  Span<Bone> bones;
+  Span<double> shares;
+  if (!make(arena, placement.bones.count, bones) || !make(arena, mesh.positions.count, shares)) {
+    return false;
+  }
+  for (uint32_t v = 0; v < mesh.positions.count; ++v) {
+    shares[v] = head_share(chain, height_in_neck(placement, mesh.positions[v]));
+  }
+  // How fast the volume between skin and joint changes with a nod about this joint.
+  const auto growth = [&](Vec3 joint) {
+    const auto nod = [&](uint32_t v) {
+      const Vec3 p = mesh.positions[v] - joint;
+      return Vec3{0, -p.z, p.y} * shares[v];
+    };
+    double sum = 0;
+    for (size_t t = 0; t + 2 < mesh.triangles.count; t += 3) {
+      const uint32_t* c = mesh.triangles.data + t;
+      if (!mesh.is_skin[c[0]]) continue;
+      const Vec3 p = mesh.positions[c[0]] - joint, q = mesh.positions[c[1]] - joint,
+                 r = mesh.positions[c[2]] - joint;
+      sum +=
+          dot(nod(c[0]), cross(q, r)) + dot(nod(c[1]), cross(r, p)) + dot(nod(c[2]), cross(p, q));
+    }
+    return sum;
+  };
+  const double step = cut.half_width / 2;
+  const double here = growth(head), there = growth(head + Vec3{0, 0, step});
+  if (!(std::abs(there - here) > 0)) return true;
+  const double shift = std::min(std::max(step * here / (here - there), -step), step);
+  std::copy(placement.bones.begin(), placement.bones.end(), bones.begin());
+  // The base of the neck stays.
+  const uint32_t first = placement.bones[chain.bones[0]].kind == BoneKind::kChest ? 1 : 0;
+  const double links = chain.count - 1 - first;
+  for (uint32_t n = first; n < chain.count; ++n) {
+    bones[chain.bones[n]].position.z += links > 0 ? shift * (n - first) / links : shift;
+  }
+  placement.bones = bones;
+  return true;
 }
 
 }  // namespace mien::author

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "author/mesh/author_mesh.h"
+#include "runtime/base/arena.h"
 
 namespace mien::author {
 
@@ -30,5 +31,10 @@ inline double head_share(const BodyChain& chain, double height) {
   share_body(chain, height, shares);
   return shares[chain.count - 1];
 }
+
+/// Moves the joint of the head to the front or the back, and joints of the neck with it, so that the neck neither
+/// grows nor shrinks when the head begins to nod. `placement` gets a new list of bones in `arena`. False if memory
+/// ran out.
+bool balance_head(const AuthorMesh& mesh, Arena& arena, Placement& placement);
 
 }  // namespace mien::author

@@ -161,6 +161,56 @@ TEST(GazeShapes, ShapesThatTurnTheEyeballsStayAsTheyAre) {
   }
 }
 
+/// Faces from each eyeball to the next vertices of the skin, or of the other eyeball, which make one surface of them.
+void join(EyesRig& rig, bool to_each_other) {
+  const auto at = [&](size_t v) {
+    const double* p = &rig.mesh.positions[3 * v];
+    return Vec3{p[0], p[1], p[2]};
+  };
+  const size_t ends[] = {rig.skin, rig.left_end, rig.mesh.positions.size() / 3};
+  for (int e = 0; e < 2; ++e) {
+    for (const Vec3 way : {Vec3{0, 1, 0}, Vec3{0, -1, 0}, Vec3{1, 0, 0}}) {
+      size_t from = ends[e];
+      for (size_t v = ends[e]; v < ends[e + 1]; ++v) {
+        if (dot(at(v), way) > dot(at(from), way)) from = v;
+      }
+      const size_t first = to_each_other ? ends[1 - e] : 0;
+      const size_t end = to_each_other ? ends[2 - e] : rig.skin;
+      size_t near[2] = {first, first + 1};
+      for (size_t v = first; v < end; ++v) {
+        if (length(at(v) - at(from)) >= length(at(near[0]) - at(from))) continue;
+        near[1] = near[0];
+        near[0] = v;
+      }
+      rig.mesh.face({static_cast<uint32_t>(from), static_cast<uint32_t>(near[0]),
+                     static_cast<uint32_t>(near[1])});
+    }
+  }
+}
+
+TEST(GazeShapes, EyesThatAreJoinedWithTheSkinOrWithEachOtherTurn) {
+  for (const bool to_each_other : {false, true}) {
+    EyesRig rig(false);
+    join(rig, to_each_other);
+    rig.make();
+    const Rigging& rigging = rig.rigging;
+    ASSERT_EQ(rigging.dna.defn.raw_control_names.count, 2 * kGazeWays) << to_each_other;
+    EXPECT_EQ(findings(rig.bytes), 0u);
+    const Vec3 left = rigging.placement.bones[bone_named(rigging, "eye_l")].position;
+    EXPECT_LT(length(left - Vec3{3.2, 1, 7.15}), 0.05);
+    const Vec3 right = rigging.placement.bones[bone_named(rigging, "eye_r")].position;
+    EXPECT_LT(length(right - Vec3{-3.2, 1, 7.15}), 0.05);
+    expect_eyes_turn(rig, GazeSource::kAdded);
+    // All of the ball but where it is joined.
+    size_t turning = 0;
+    const uint32_t eye = bone_named(rigging, "eye_l");
+    for (size_t v = rig.skin; v < rig.left_end; ++v) {
+      turning += share_below(rigging, static_cast<uint32_t>(v), eye) > 0.999;
+    }
+    EXPECT_GE(turning + 8, rig.left_end - rig.skin);
+  }
+}
+
 TEST(GazeShapes, AHeadWithoutEyeballsGetsNone) {
   TestMesh mesh = procedural_mesh(4, false);
   Arena arena(default_allocator());
