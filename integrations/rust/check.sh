@@ -51,6 +51,7 @@ fi
 
 export MIEN_LIB_DIR=$build/lib
 run shared cargo test --quiet --locked
+LD_LIBRARY_PATH=$build/lib run shared cargo run --quiet --locked --example batch_matrices
 if cargo clippy --version >/dev/null 2>&1; then
   # What every clippy calls wrong; of matters of taste each version has its own.
   run shared cargo clippy --quiet --locked --all-targets -- \
