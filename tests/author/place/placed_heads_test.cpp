@@ -153,6 +153,51 @@ TEST_P(PlacedHeads, BonesOfASymmetricMeshAreMirrorImages) {
   }
 }
 
+TEST_P(PlacedHeads, BonesOfUnlikeHalvesAreInPairs) {
+  TestMesh uneven = mesh(false);
+  const Placed even(uneven, with_joints(61));
+  ASSERT_EQ(even.status, Status::kOk);
+  // Sheared, and one cheek is fuller, by parts of the size of the face.
+  Vec3 low = even.read.mesh.positions[even.placement.mask[0]], high = low;
+  for (const uint32_t v : even.placement.mask) {
+    const Vec3 p = even.read.mesh.positions[v];
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  const double width = high.x - low.x;
+  const Vec3 cheek = {low.x + 0.75 * width, low.y + 0.4 * (high.y - low.y), 0};
+  uneven.transform([&](double x, double y, double z) {
+    const double dx = (x - cheek.x) / (0.2 * width), dy = (y - cheek.y) / (0.2 * width);
+    return std::array<double, 3>{x + 0.05 * (z - low.z), y,
+                                 z + 0.05 * width * std::exp(-dx * dx - dy * dy)};
+  });
+  const Placed placed(uneven, with_joints(61));
+  ASSERT_EQ(placed.status, Status::kOk);
+  printf("%s: halves differ by %.1f %% of the face\n", GetParam(),
+         100 * placed.report.symmetry_error);
+  EXPECT_GT(placed.report.symmetry_error, 0.005);
+  ASSERT_TRUE(placed.placement.symmetric);
+  ASSERT_TRUE(placed.report.paired);
+  const Span<const Bone> bones = placed.placement.bones;
+  uint32_t pairs = 0, unlike = 0;
+  for (uint32_t b = placed.placement.first_facial;
+       b < placed.placement.first_facial + placed.placement.facial_count; ++b) {
+    const Bone& twin = bones[bones[b].mirror];
+    EXPECT_EQ(twin.mirror, b);
+    const std::string name(bones[b].name.data, bones[b].name.count);
+    std::string other(twin.name.data, twin.name.count);
+    if (bones[b].mirror == b || name.compare(0, 9, "FACIAL_L_") != 0) continue;
+    ASSERT_EQ(other.compare(0, 9, "FACIAL_R_"), 0) << other;
+    other[7] = 'L';
+    EXPECT_EQ(name, other);
+    EXPECT_GT(bones[b].position.x, twin.position.x);
+    ++pairs;
+    unlike += std::abs(bones[b].position.z - twin.position.z) > 1e-3 * width;
+  }
+  EXPECT_GT(pairs, 20u);
+  EXPECT_GT(unlike, pairs / 4) << "each lies where its side is";
+}
+
 TEST_P(PlacedHeads, ShuffledShiftedScaledAndTurnedMeshesHaveTheSameBones) {
   const PlaceOptions options = with_joints(80);
   const TestMesh given = mesh(true);
