@@ -61,6 +61,7 @@ Status check_same_system(const dna::DnaView& a, const dna::DnaView& b, Error& er
 Status copy_layers(Document& document, const Document& from, uint32_t layers, Error& error) {
   Edit edit(document);
   if (!edit.begin(error)) return error.status;
+  document.forget_pages();
   for (const dna::LayerKind& kind : dna::kLayerKinds) {
     if ((layers & kind.loaded_by) == 0) continue;
     dna::DnaView source = from.view();
@@ -109,6 +110,7 @@ Status copy_mesh(Document& document, const Document& from, uint32_t mesh, uint32
 
   dna::Mesh copy = other.geom.meshes[mesh];
   Span<uint32_t> joints, channels;
+  document.forget_pages();
   if (!copy_deeply(arena, copy) ||
       !find_names(other.defn.joint_names, view.defn.joint_names, arena, joints) ||
       !find_names(other.defn.channel_names, view.defn.channel_names, arena, channels)) {

@@ -4,6 +4,7 @@
 #include <new>
 
 #include "author/base/dna_making.h"
+#include "runtime/base/file_pages.h"
 #include "runtime/load/dna/dna_reader.h"
 
 namespace mien::author {
@@ -123,6 +124,8 @@ Status Document::open(const MappedFile& file, bool keep_unknown, Error& error) {
   checked_ = original_checked_ = true;
   return Status::kOk;
 }
+
+void Document::forget_pages() const { mien::forget_pages(file_); }
 
 Status Document::mark(uint64_t& out, Error& error) {
   void* memory = allocator_.get(sizeof(Mark), alignof(Mark));

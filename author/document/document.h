@@ -78,6 +78,9 @@ class Document {
   /// The state before the first edit.
   const dna::DnaView& original() const { return original_; }
 
+  /// Lets pages of the file leave memory, where an operation takes much of its own.
+  void forget_pages() const;
+
   /// A number for undo(), larger than those before; 0 is the state before the first edit.
   Status mark(uint64_t& out, Error& error);
   /// Goes back to a mark. Later marks become invalid, this one stays valid.

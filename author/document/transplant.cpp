@@ -291,8 +291,10 @@ Status transplant(Document& document, const Document& rig, const Transplant& how
   Edit edit(document);
   if (!edit.begin(error)) return error.status;
   const dna::DnaView before = document.view();
+  document.forget_pages();
   Transplanter work(before, rig.view(), how, edit, document.allocator());
   if (Status s = work.run(error); s != Status::kOk) return s;
+  rig.forget_pages();
   if (Status s = check_view(edit.view, error); s != Status::kOk) return s;
   if (Status s =
           measure_controls(before, edit.view, document.allocator(), out_errors, out_count, error);

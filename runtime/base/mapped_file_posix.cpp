@@ -12,7 +12,7 @@
 #include <cstdio>
 #include <cstring>
 
-#include "runtime/base/mapped_file.h"
+#include "runtime/base/file_pages.h"
 
 namespace mien {
 namespace {
@@ -113,6 +113,11 @@ Status open_file(const char* path, FileAccess access, const FileLimits& limits,
   const int reason = errno;
   close(descriptor);
   return good ? status : fail_with(error, Status::kFileRead, path, reason);
+}
+
+void forget_pages(const MappedFile& file) {
+  if (!file.mapped) return;
+  (void)madvise(const_cast<uint8_t*>(file.bytes), file.size, MADV_DONTNEED);
 }
 
 void close_file(MappedFile& file) {

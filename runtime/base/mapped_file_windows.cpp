@@ -7,7 +7,7 @@
 #include <cstring>
 #include <cwchar>
 
-#include "runtime/base/mapped_file.h"
+#include "runtime/base/file_pages.h"
 
 namespace mien {
 namespace {
@@ -141,6 +141,8 @@ Status open_file(const char* path, FileAccess access, const FileLimits& limits,
   CloseHandle(file);
   return status;
 }
+
+void forget_pages(const MappedFile&) {}  // the system drops them when it needs the memory
 
 void close_file(MappedFile& file) {
   if (file.mapped) {

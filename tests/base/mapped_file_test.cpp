@@ -6,10 +6,12 @@
 #include <atomic>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "runtime/base/file_pages.h"
 #include "tests/support/temporary_path.h"
 
 namespace mien {
@@ -246,6 +248,43 @@ TEST(SystemFile, FailsWithThePathAndTheReason) {
   EXPECT_NE(strstr(error.message, "face.dna"), nullptr) << error.message;
   EXPECT_NE(text_of(path, FileAccess::kMap).find("cannot open"), std::string::npos);
   EXPECT_NE(text_of(path, FileAccess::kMap).find("face.dna"), std::string::npos);
+}
+
+#if defined(__linux__)
+/// Bytes of this process that are in memory.
+size_t resident_bytes() {
+  std::ifstream file("/proc/self/statm");
+  size_t pages = 0, resident = 0;
+  file >> pages >> resident;
+  return resident * 4096;
+}
+#endif
+
+TEST(ForgetPages, KeepsTheBytes) {
+  const Folder folder;
+  const std::string path = (folder.path / "large").string();
+  std::string text(size_t{16} << 20, 'a');
+  for (size_t i = 0; i < text.size(); ++i) text[i] = static_cast<char>(i * 7 + (i >> 12));
+  Error error;
+  ASSERT_EQ(write_text(path, text, error), Status::kOk) << error.message;
+  for (FileAccess access : {FileAccess::kMap, FileAccess::kRead}) {
+    MappedFile file;
+    ASSERT_EQ(open_file(path.c_str(), access, {}, default_allocator(), file, error), Status::kOk);
+    ASSERT_EQ(file.size, text.size());
+    EXPECT_EQ(memcmp(file.bytes, text.data(), text.size()), 0);
+#if defined(__linux__)
+    const size_t before = resident_bytes();
+    forget_pages(file);
+    if (file.mapped && before != 0) {
+      EXPECT_LT(resident_bytes() + text.size() / 2, before);
+    }
+#else
+    forget_pages(file);
+#endif
+    EXPECT_EQ(memcmp(file.bytes, text.data(), text.size()), 0);
+    close_file(file);
+    forget_pages(file);  // of nothing
+  }
 }
 
 }  // namespace

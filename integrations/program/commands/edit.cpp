@@ -30,13 +30,7 @@ Dna finished(const Document& document) {
   return Dna(dna);
 }
 
-/// What a dry run compares with: the file itself, or a copy of what cannot be read twice.
-RigFile file_before(const EditCommand& command, const Document& document, const Session& session) {
-  RigFile before;
-  if (command.from_json || is_stream(command.input)) {
-    before.dna = finished(document);
-    return before;
-  }
+RigFile open_edited_file(const EditCommand& command, const Session& session) {
   auto desc = sized<MienDnaDesc>();
   desc.layers = MIEN_LAYER_ALL;
   desc.unknown_layers = MIEN_UNKNOWN_LAYERS_KEEP;
@@ -58,11 +52,19 @@ std::vector<Edit> with_scripts(const std::vector<Edit>& edits) {
   return all;
 }
 
-void print_dry_run(const MienDna* before, const MienDna* after,
-                   const std::vector<std::string>& done) {
+void print_dry_run(const EditCommand& command, Document document, const std::vector<Edit>& edits,
+                   const Session& session) {
+  // A file is opened again at the end, in place of the document.
+  const bool again = !command.from_json && !is_stream(command.input);
+  RigFile before;
+  if (!again) before.dna = finished(document);
+  const std::vector<std::string> done = apply_edits(document, edits);
+  const Dna after = finished(document);
+  document.handle.reset();
+  if (again) before = open_edited_file(command, session);
   Output output("-");
   for (const std::string& sentence : done) output.write(sentence + "\n");
-  output.write(diff_text(diff_dna(before, after)));
+  output.write(diff_text(diff_dna(before.dna.get(), after.get())));
   output.commit();
 }
 
@@ -109,10 +111,9 @@ void run(const EditCommand& command, const Session& session) {
   const std::vector<Edit> edits = with_scripts(command.edits);
   Document document = command.from_json ? read_json_document(command.input, session)
                                         : open_document(command.input, session);
-  RigFile before;
-  if (command.dry_run) before = file_before(command, document, session);
+  if (command.dry_run) return print_dry_run(command, std::move(document), edits, session);
   const std::vector<std::string> done = apply_edits(document, edits);
-  if (command.to_json && !command.dry_run) {
+  if (command.to_json) {
     if (document.version != 0) {
       fail_usage("mien edit", "--version goes with a DNA file", "leave out --to-json or --version");
     }
@@ -122,7 +123,6 @@ void run(const EditCommand& command, const Session& session) {
     note_written(session, command.output.path, output.size());
     return;
   }
-  if (command.dry_run) return print_dry_run(before.dna.get(), finished(document).get(), done);
   for (const std::string& sentence : done) note(session, document.shown + ": " + sentence);
   write_document(std::move(document), command.output.path, session);
 }
