@@ -38,7 +38,7 @@ struct Vote {
 };
 
 /// Votes of a cell.
-struct Cell {
+struct EyeCell {
   double share = 0;
   Vec3 center;
   double radius = 0;
@@ -143,20 +143,20 @@ class BallFinder {
     if (!make(scratch_, count, cells_)) return false;
     size_t used = 0;
     for (size_t i = 0; i < count; ++i) {
-      if (i == 0 || votes[i].compare(votes[i - 1]) != 0) cells_[used++] = Cell();
-      Cell& cell = cells_[used - 1];
+      if (i == 0 || votes[i].compare(votes[i - 1]) != 0) cells_[used++] = EyeCell();
+      EyeCell& cell = cells_[used - 1];
       const double share = votes[i].share;
       cell.share += share;
       cell.center = cell.center + votes[i].center * share;
       cell.radius += share * length(mesh_.positions[votes[i].vertex] - votes[i].center);
     }
     cells_.count = used;
-    for (Cell& cell : cells_) {
+    for (EyeCell& cell : cells_) {
       if (!(cell.share > 0)) continue;
       cell.center = cell.center * (1 / cell.share);
       cell.radius /= cell.share;
     }
-    std::sort(cells_.begin(), cells_.end(), [](const Cell& a, const Cell& b) {
+    std::sort(cells_.begin(), cells_.end(), [](const EyeCell& a, const EyeCell& b) {
       if (a.share != b.share) return a.share > b.share;
       if (a.center.x != b.center.x) return a.center.x > b.center.x;
       return a.center.y != b.center.y ? a.center.y > b.center.y : a.center.z > b.center.z;
@@ -166,7 +166,7 @@ class BallFinder {
 
   /// Marks what lies on the sphere, with its outside to the outside, and finds its component. False if it is not
   /// enough, or if it is all of its component already.
-  bool is_ball(const Cell& cell, uint32_t& component) {
+  bool is_ball(const EyeCell& cell, uint32_t& component) {
     const double rounds[] = {0.25, 0.12, 0.08, 0.06};  // distances from the sphere, in radii
     Sphere sphere;
     sphere.center = cell.center;
@@ -250,7 +250,7 @@ class BallFinder {
   Span<double> areas_;
   Span<uint8_t> in_ball_;
   Span<uint32_t> of_ball_;  // marked vertices of each component
-  Span<Cell> cells_;
+  Span<EyeCell> cells_;
 };
 
 }  // namespace
