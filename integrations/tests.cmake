@@ -246,6 +246,20 @@ if(NOT CMAKE_CROSSCOMPILING)
   set_tests_properties(godot_test PROPERTIES LABELS abi TIMEOUT 120)
 endif()
 
+# ---- Unreal Engine ---------------------------------------------------------------------------------
+
+# The plugin against stubs of the engine's headers.
+if(NOT CMAKE_CROSSCOMPILING)
+  set(unreal ${integrations}/unreal/Mien/Source/MienFace)
+  add_executable(unreal_test ${unreal}/Private/AnimNode_Mien.cpp ${unreal}/Private/MienFaceComponent.cpp
+    ${unreal}/Private/MienModule.cpp ${integrations}/unreal/tests/host.cpp)
+  target_include_directories(unreal_test PRIVATE ${unreal}/Public ${integrations}/unreal/tests/stubs)
+  target_compile_options(unreal_test PRIVATE -frtti)
+  target_link_libraries(unreal_test PRIVATE mien_author)
+  add_test(NAME unreal_test COMMAND unreal_test ${CMAKE_CURRENT_BINARY_DIR})
+  set_tests_properties(unreal_test PROPERTIES LABELS abi TIMEOUT 120)
+endif()
+
 # ---- Go ---------------------------------------------------------------------------------------------
 
 add_test(NAME go_api

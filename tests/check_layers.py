@@ -162,7 +162,8 @@ def check_program_include(path, resolved):
 def check_include(path, quoted, target, resolved):
     """Why a file may not include this, or None."""
     if resolved is None:
-        if quoted and not is_kernel(path):
+        # Those of an engine are found in its own folders.
+        if quoted and not is_kernel(path) and not path.startswith("integrations/unreal/"):
             return "there is no such file in the project"
         if is_in_kernels(path) and not (target.startswith("xsimd") or KERNEL_HEADERS.fullmatch(target)):
             return "kernel files and headers of simd include C headers and xsimd only"

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// clang-format off: the generated header has to be the last.
+#include <mien.h>
+
+#include "Components/ActorComponent.h"
+#include "CoreMinimal.h"
+#include "MienFaceComponent.generated.h"
+// clang-format on
+
+/** One character: controls by name; joints for FAnimNode_Mien, morph targets for the skeletal mesh of its actor. Set
+ *  controls on the game thread, before the component ticks. */
+UCLASS(meta = (BlueprintSpawnableComponent))
+class MIENFACE_API UMienFaceComponent : public UActorComponent {
+  GENERATED_BODY()
+
+ public:
+  UMienFaceComponent();
+
+  /** A .dna file, which is opened in the axes and units of Unreal, or a file of `mien bake --system unreal`. */
+  UPROPERTY(EditAnywhere, BlueprintReadOnly, Category = Mien)
+  FString RigFile;
+
+  UPROPERTY(EditAnywhere, BlueprintReadWrite, Category = Mien)
+  int32 Lod = 0;
+
+  /** False, and a message in the log, if the file cannot be used. BeginPlay calls it. */
+  UFUNCTION(BlueprintCallable, Category = Mien)
+  bool Open();
+
+  /** False if the rig has no raw control of this name. */
+  UFUNCTION(BlueprintCallable, Category = Mien)
+  bool SetControl(const FString& Name, float Value);
+
+  virtual void BeginPlay() override;
+  virtual void EndPlay(const EEndPlayReason::Type Reason) override;
+  virtual void TickComponent(float DeltaTime, ELevelTick TickType,
+                             FActorComponentTickFunction* Function) override;
+
+  /** Of the joints, in the order of the rig. */
+  const TArray<FName>& JointNames() const { return Joints; }
+
+  /** Copies what the last tick computed, relative to the parents. For any thread. */
+  void CopyJointTransforms(TArray<FTransform>& Out) const;
+
+ private:
+  void Close();
+
+  MienBaked* Baked = nullptr;
+  MienRig* Rig = nullptr;
+  MienDeformer* Deformer = nullptr;
+  MienInstance* Instance = nullptr;
+  MienDeformerInstance* Pose = nullptr;
+  TArray<FName> Joints, Channels;
+  TArray<float> Numbers;  // ten of each joint
+  TArray<FTransform> Transforms;
+  mutable FCriticalSection Lock;  // of Transforms
+};

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+// Runs component and animation node for some frames as an actor would, and compares with the library.
+#undef NDEBUG
+#include <mien_author.h>
+
+#include <cassert>
+
+#include "AnimNode_Mien.h"
+#include "Animation/AnimInstanceProxy.h"
+#include "Components/SkeletalMeshComponent.h"
+#include "GameFramework/Actor.h"
+#include "MienFaceComponent.h"
+
+int main(int argc, char** argv) {
+  assert(argc == 2);  // a folder for files
+  const std::string path = std::string(argv[1]) + "/unreal_test.dna",
+                    baked = std::string(argv[1]) + "/unreal_test.rig";
+  MienGenerateDesc generate = mien_generate_desc_default();
+  generate.preset = MIEN_PRESET_SMALL;
+  MienDna *made = nullptr, *dna = nullptr;
+  assert(mien_dna_generate(&generate, &made, nullptr) == MIEN_OK);
+  assert(mien_dna_write_file(made, path.c_str(), nullptr, nullptr) == MIEN_OK);
+  mien_dna_close(made);
+  MienCoordinateSystem system = mien_coordinate_system_default();
+  assert(mien_coordinate_system_find("unreal", &system) == MIEN_OK);
+  MienDnaDesc desc = mien_dna_desc_default();
+  desc.system = &system;
+  MienRig* rig = nullptr;
+  MienDeformer* deformer = nullptr;
+  MienInstance* instance = nullptr;
+  MienDeformerInstance* pose = nullptr;
+  assert(mien_dna_open_file(path.c_str(), &desc, &dna, nullptr) == MIEN_OK);
+  assert(mien_rig_create(dna, nullptr, &rig, nullptr) == MIEN_OK);
+  assert(mien_deformer_create(dna, rig, nullptr, &deformer, nullptr) == MIEN_OK);
+  assert(mien_instance_create(rig, nullptr, &instance, nullptr) == MIEN_OK);
+  assert(mien_deformer_instance_create(deformer, nullptr, &pose, nullptr) == MIEN_OK);
+  assert(mien_bake_file(rig, deformer, baked.c_str(), nullptr) == MIEN_OK);
+
+  AActor actor;
+  UMienFaceComponent face;
+  USkeletalMeshComponent mesh;
+  face.Owner = mesh.Owner = &actor;
+  actor.Components = {&mesh, &face};
+  assert(face.PrimaryComponentTick.bCanEverTick);
+  face.RigFile = "no such file.dna";
+  face.BeginPlay();
+  assert(logged_errors == 1 && !face.SetControl("any", 1));
+  face.TickComponent(0.1f, LEVELTICK_All, nullptr);  // does nothing
+  for (const std::string& file : {path, baked}) {
+    face.RigFile = file.c_str();
+    face.BeginPlay();
+    assert(logged_errors == 1 && !face.SetControl("no such control", 1));
+    FAnimNode_Mien node;
+    FAnimInstanceProxy proxy{&mesh};
+    node.Initialize_AnyThread({&proxy});
+    FPoseContext output;
+    const TArray<FName>& joints = face.JointNames();
+    assert(joints.Num() > 4);
+    for (int32 j = 0; j + 1 < joints.Num(); ++j)
+      output.Pose.Bones.Bones[joints[j]] = j;  // the last is no bone
+    output.Pose.Transforms.resize(static_cast<size_t>(joints.Num()) / 2 + 1);
+
+    MienMutableFloatView controls{};
+    assert(mien_instance_raw_controls(instance, &controls) == MIEN_OK);
+    uint32_t raw_count = 0;
+    assert(mien_rig_count(rig, MIEN_KIND_RAW_CONTROL, &raw_count) == MIEN_OK);
+    for (uint32_t frame = 0; frame < 3; ++frame) {
+      for (uint32_t c = 0; c < raw_count; ++c) {
+        const float value = static_cast<float>((c * 7 + frame * 3) % 11) / 10;
+        MienStringView name{};
+        assert(mien_rig_name(rig, MIEN_KIND_RAW_CONTROL, c, &name) == MIEN_OK);
+        assert(face.SetControl(
+            FString::ConstructFromPtrSize(name.data, static_cast<int32>(name.count)), value));
+        controls.data[c] = value;
+      }
+      face.TickComponent(0.1f, LEVELTICK_All, nullptr);
+      node.Update_AnyThread({});
+      node.Evaluate_AnyThread(output);
+      assert(mien_rig_evaluate(rig, instance, 0) == MIEN_OK);
+      assert(mien_deformer_instance_update(pose, instance) == MIEN_OK);
+      std::vector<float> wanted(static_cast<size_t>(10 * joints.Num()));
+      assert(mien_deformer_instance_local_transforms(pose, wanted.data(), wanted.size()) ==
+             MIEN_OK);
+      for (int32 j = 0; j + 1 < joints.Num(); j += 2) {
+        const FTransform& got = output.Pose.Transforms[static_cast<size_t>(j) / 2];
+        const double values[] = {
+            got.Translation.X, got.Translation.Y, got.Translation.Z, got.Rotation.X, got.Rotation.Y,
+            got.Rotation.Z,    got.Rotation.W,    got.Scale3D.X,     got.Scale3D.Y,  got.Scale3D.Z};
+        for (size_t k = 0; k < 10; ++k)
+          assert(values[k] == double{wanted[static_cast<size_t>(j) * 10 + k]});
+      }
+      MienFloatView weights{};
+      assert(mien_instance_blend_shapes(instance, &weights) == MIEN_OK &&
+             weights.count == mesh.Morphs.size());
+      for (uint32_t c = 0; c < weights.count; ++c) {
+        MienStringView name{};
+        assert(mien_rig_name(rig, MIEN_KIND_BLEND_SHAPE_CHANNEL, c, &name) == MIEN_OK);
+        const FName key(FString::ConstructFromPtrSize(name.data, static_cast<int32>(name.count)));
+        assert(mesh.Morphs.at(key) == weights.data[c]);
+      }
+      assert(node.BasePose.Evaluated == static_cast<int>(frame) + 1);
+    }
+    face.EndPlay(EEndPlayReason::Destroyed);
+  }
+  mien_deformer_instance_destroy(pose);
+  mien_instance_destroy(instance);
+  mien_deformer_destroy(deformer);
+  mien_rig_destroy(rig);
+  mien_dna_close(dna);
+  std::remove(path.c_str());
+  std::remove(baked.c_str());
+  std::puts("component and node agree with the library");
+  return 0;
+}

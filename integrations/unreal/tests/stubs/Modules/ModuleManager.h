@@ -1,0 +1,3 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#define IMPLEMENT_MODULE(type, name)
