@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// clang-format off: the generated header has to be the last.
-#include "AnimNode_Mien.generated.h"
+// The generated header has to be the last.
+// clang-format off
 #include "Animation/AnimNodeBase.h"
 #include "CoreMinimal.h"
+#include "AnimNode_Mien.generated.h"
 // clang-format on
 
 class UMienFaceComponent;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// clang-format off: the generated header has to be the last.
-#include <mien.h>
-
+// The generated header has to be the last.
+// clang-format off
 #include "Components/ActorComponent.h"
 #include "CoreMinimal.h"
+
+#include <mien.h>
+
 #include "MienFaceComponent.generated.h"
 // clang-format on
 
