@@ -58,9 +58,32 @@ uint32_t material_number(const std::string& name, gltf::Scene& scene) {
   return static_cast<uint32_t>(scene.materials.size() - 1);
 }
 
-void add_file(const std::string& path, bool rigid, gltf::Scene& scene,
-              std::vector<gltf::Attached>& all, const Session& session) {
+/// The material of an object for the meshes of the scene from `first` on.
+void keep_material(const std::string& path, const MeshFile& file, uint32_t number, size_t first,
+                   const gltf::Scene& scene, Attachments& all) {
+  if (number == kNoMaterial) return;
+  const MeshMaterial& from = file.materials[number];
+  SurfaceMaterial material = from.surface;
+  for (size_t k = 0; k < kTextureKinds; ++k) {
+    if (from.images[k] == kNoMaterial) continue;
+    material.textures[k] = path + "#" + std::to_string(from.images[k]);
+    all.images.emplace(material.textures[k], file.images[from.images[k]]);
+  }
+  for (size_t m = first; m < scene.meshes.size(); ++m) {
+    const std::string& name = scene.meshes[m].name;
+    const auto same_name = [&](const gltf::Mesh& mesh) { return mesh.name == name; };
+    const auto begin = scene.meshes.begin();
+    // Materials are found by names.
+    if (std::any_of(begin, begin + static_cast<std::ptrdiff_t>(m), same_name)) continue;
+    all.materials.of_mesh[name] = all.materials.list.size();
+  }
+  all.materials.list.push_back(std::move(material));
+}
+
+void add_file(const std::string& path, bool rigid, gltf::Scene& scene, Attachments& all,
+              const Session& session) {
   const MeshFile file = read_mesh_file(path);
+  for (const std::string& problem : file.material_problems) note(session, one_line(problem));
   const std::string stem = std::filesystem::path(path).stem().string();
   std::vector<MeshObject> objects = file.objects;
   if (objects.empty()) {
@@ -73,7 +96,9 @@ void add_file(const std::string& path, bool rigid, gltf::Scene& scene,
     const std::string name = object.name.empty() ? stem : object.name;
     gltf::Attachment attachment = attachment_of(file, object, first_corner, name);
     attachment.rigid = rigid;
+    const size_t first = scene.meshes.size();
     gltf::Attached attached = gltf::attach(attachment, material_number(name, scene), scene);
+    keep_material(path, file, object.material, first, scene, all);
     char text[160];
     std::snprintf(text, sizeof(text), ", %.2g mm from it on average, %.2g mm at most",
                   attached.mean * 1000, attached.max * 1000);
@@ -81,15 +106,15 @@ void add_file(const std::string& path, bool rigid, gltf::Scene& scene,
                        one_line(scene.meshes[attached.base].name) + text;
     if (rigid) line += "; " + std::to_string(attached.parts) + " rigid parts";
     note(session, line);
-    all.push_back(std::move(attached));
+    all.meshes.push_back(std::move(attached));
   }
 }
 
 }  // namespace
 
-std::vector<gltf::Attached> add_attachments(const AttachmentOptions& options, gltf::Scene& scene,
-                                            const Session& session) {
-  std::vector<gltf::Attached> attached;
+Attachments add_attachments(const AttachmentOptions& options, gltf::Scene& scene,
+                            const Session& session) {
+  Attachments attached;
   const size_t first = scene.meshes.size();
   for (const std::string& path : options.soft) add_file(path, false, scene, attached, session);
   for (const std::string& path : options.rigid) add_file(path, true, scene, attached, session);
@@ -109,6 +134,28 @@ std::vector<gltf::Attached> add_attachments(const AttachmentOptions& options, gl
     }
   }
   return attached;
+}
+
+void add_attached_materials(const Attachments& attachments, gltf::ImageOptions options,
+                            gltf::Scene& scene, const Session& session) {
+  Materials materials = attachments.materials;
+  options.held = &attachments.images;
+  for (SurfaceMaterial& material : materials.list) {
+    for (std::string& path : material.textures) {
+      if (path.empty()) continue;
+      const bool held = attachments.images.count(path) != 0;
+      if (held ? options.embed : std::filesystem::is_regular_file(path)) continue;
+      note(session, "material " + one_line(material.name) + ": " +
+                        (held ? "its image is within " + one_line(path) +
+                                    ", so this format cannot name it: it is left out"
+                              : "there is no file " + one_line(path) + ", which is left out"));
+      path.clear();
+    }
+  }
+  for (const std::string& mesh : apply_materials(materials, options, scene)) {
+    note(session,
+         "attached mesh " + one_line(mesh) + " has no texture coordinates, so it gets no textures");
+  }
 }
 
 }  // namespace mien::cli

@@ -247,10 +247,12 @@ gltf::ImageOptions image_options(const ExportOptions& options, Format format) {
 
 /// Of a scene in the format. With integers only where that loses nothing to see, unless it was asked for.
 std::string scene_bytes(const ExportedRig& face, gltf::Scene& scene, Format format, double rate,
-                        const ExportOptions& options, const Session& session,
-                        const gltf::Vrm* vrm = nullptr) {
+                        const Attachments& attachments, const ExportOptions& options,
+                        const Session& session, const gltf::Vrm* vrm = nullptr) {
   keep_morphs(scene, options, session);
   apply_options(scene, options.glb);
+  // What is said beside the rig comes later, and wins.
+  add_attached_materials(attachments, image_options(options, format), scene, session);
   add_materials(face, options.textures, image_options(options, format), scene, session);
   if (format != Format::kUsda) return glb_bytes(scene, options.glb, vrm);
   gltf::UsdOptions usd;
@@ -326,11 +328,10 @@ std::string baked_bytes(ExportedRig& face, const Frame& still, const std::vector
     vrm = make_person(scene.scene.name, options.authors.empty() ? unknown : options.authors, scene);
     vrm.looks = measure_looks(*face.source, set);
   }
-  const std::vector<gltf::Attached> attached =
-      add_attachments(options.attachments, scene.scene, session);
+  const Attachments attached = add_attachments(options.attachments, scene.scene, session);
   {
     Progress progress(session, "measuring attached meshes", 1);
-    measure_attached(*face.source, set, scene, attached, report,
+    measure_attached(*face.source, set, scene, attached.meshes, report,
                      [&](double share) { progress.at_share(share); });
   }
   ExportOptions encoded = options;
@@ -338,7 +339,7 @@ std::string baked_bytes(ExportedRig& face, const Frame& still, const std::vector
     encoded.glb.quantize = options.glb.quantize ||
                            gltf::quantization_error(scene.scene) <= kUnseenError * report.diagonal;
   }
-  const std::string bytes = scene_bytes(face, scene.scene, format, rate, encoded, session,
+  const std::string bytes = scene_bytes(face, scene.scene, format, rate, attached, encoded, session,
                                         format == Format::kVrm ? &vrm : nullptr);
   FILE* const to = options.output.path == "-" ? stderr : stdout;
   if (!session.quiet) print_bake_report(report, to);
@@ -446,8 +447,8 @@ void run(ExportOptions options, const Session& session) {
       bytes = cache_bytes(face, frames, rate, options, session);
     } else {
       gltf::RigScene scene = rig_scene(face, still, frames, rate, options.glb, session);
-      add_attachments(options.attachments, scene.scene, session);
-      bytes = scene_bytes(face, scene.scene, format, rate, options, session);
+      const Attachments attached = add_attachments(options.attachments, scene.scene, session);
+      bytes = scene_bytes(face, scene.scene, format, rate, attached, options, session);
     }
     Output output(options.output.path);
     output.write(bytes);

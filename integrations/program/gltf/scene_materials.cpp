@@ -38,7 +38,8 @@ uint32_t image_number(const std::string& path, const ImageOptions& options, Know
   const auto [found, is_new] =
       known.try_emplace(path, KnownImage{static_cast<uint32_t>(scene.images.size()), false});
   if (!is_new) return found->second.number;
-  cli::TextureFile file = cli::read_texture(path);
+  const bool held = options.held && options.held->count(path) != 0;
+  cli::TextureFile file = held ? options.held->at(path) : cli::read_texture(path);
   found->second.has_alpha = has_alpha(file);
   Image image{
       fs::path(path).stem().string(), file.mime_type(), {}, path_from(options.folder, path)};

@@ -2,6 +2,10 @@
 // Materials with textures for the meshes of a scene.
 #pragma once
 
+#include <map>
+#include <string>
+#include <vector>
+
 #include "integrations/program/gltf/scene.h"
 #include "integrations/program/io/materials.h"
 
@@ -10,6 +14,8 @@ namespace mien::gltf {
 struct ImageOptions {
   bool embed = true;   // the bytes, or else the path
   std::string folder;  // of the file to write, which paths are relative to
+  const std::map<std::string, cli::TextureFile>* held =
+      nullptr;  // images that are no files, by "paths"
 };
 
 /// A path from a folder, which is the current one if it is empty.

@@ -130,11 +130,16 @@ ShadowMap::ShadowMap(const Scene& scene, Vec3 to_light, int size) {
   lens_.center_x = float(size) / 2 - box.center().x / texel_;
   lens_.center_y = float(size) / 2 + box.center().y / texel_;
   depth_zero_ = box.min.z - std::max(box.size().z, extent);
+  const Coverage coverage = [&](uint32_t number, float x, float y) {
+    const Vec3 origin =
+        right_ * ((x - lens_.center_x) * texel_) + up_ * ((lens_.center_y - y) * texel_);
+    return scene.alpha(number, origin, -back_);
+  };
   for (size_t s = 0; s < turned.size(); ++s) {
     for (Vec3& p : turned[s]) p.z -= depth_zero_;
     TriangleList list = scene.surfaces()[s].triangles();
     list.positions = turned[s].data();
-    draw(list, lens_, map_);
+    draw(list, lens_, map_, scene.surfaces()[s].hides_all() ? Coverage() : coverage);
   }
 }
 

@@ -161,7 +161,12 @@ Image render_image(const std::vector<Surface>& surfaces, const Camera& camera,
 
   Visibility seen;
   seen.reset(options.width, options.height, options.samples);
-  for (const PlacedSurface& surface : scene.surfaces()) draw(surface.triangles(), lens, seen);
+  const Coverage coverage = [&](uint32_t number, float x, float y) {
+    return scene.alpha(number, {}, ray_at(x, y));
+  };
+  for (const PlacedSurface& surface : scene.surfaces()) {
+    draw(surface.triangles(), lens, seen, surface.hides_all() ? Coverage() : coverage);
+  }
   const ShadowMap key(scene, key_direction(), kShadowSize);
   const ShadowMap rims[kRimCount] = {{scene, rim_direction(0), kShadowSize},
                                      {scene, rim_direction(1), kShadowSize}};

@@ -26,6 +26,7 @@ struct Material {
   float softness = 0.35f;   // how far light reaches around into shadow, as in skin
   float roughness = 0.45f;  // 0.05 is wet, 0.6 chalk
   float reflectance = 0.03f;
+  float alpha = 1;  // how much of what is behind it the surface hides
 };
 
 /// Triangles as a deformer gives them. The arrays stay the caller's.
@@ -43,7 +44,7 @@ struct Surface {
   const uint8_t* inner_edges = nullptr;
   // u v of each vertex, (0, 0) at the lower left of the image; null: no textures.
   const float* texture_coordinates = nullptr;
-  // Each may be null. The color (sRGB) is multiplied by that of the material, the roughness, which is
+  // Each may be null. The color (sRGB) and its alpha are multiplied by those of the material, the roughness, which is
   // green, takes the place of the material's; normals are tangent space, green towards larger v.
   const Texture *color_texture = nullptr, *normal_texture = nullptr, *roughness_texture = nullptr;
   Material material;
@@ -65,7 +66,8 @@ struct RenderOptions {
   std::function<void(double share)> progress;  // called now and then while an image is made
 };
 
-/// Corners that are not finite, degenerate triangles and indices past the end are left out. Width
+/// Surfaces hide what is behind them at a share of the samples of a pixel, their alpha: with one sample, where it is
+/// at least half. Corners that are not finite, degenerate triangles and indices past the end are left out. Width
 /// and height are 1 to 8192. Throws std::bad_alloc.
 Image render_image(const std::vector<Surface>& surfaces, const Camera& camera,
                    const RenderOptions& options);

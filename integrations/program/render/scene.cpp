@@ -86,7 +86,25 @@ void paint(const Surface& s, const Painted& at, Fragment& f) {
   f.normal = normalized(turned, f.normal);
 }
 
+/// Weights of the corners where a ray meets a triangle: volumes between the ray and each edge, which hold for corners
+/// behind the viewer too.
+void weights_along(Vec3 ray, const Vec3 (&p)[3], float (&w)[3]) {
+  w[0] = dot(ray, cross(p[1], p[2]));
+  w[1] = dot(ray, cross(p[2], p[0]));
+  w[2] = dot(ray, cross(p[0], p[1]));
+  const float sign = w[0] + w[1] + w[2] < 0 ? -1.0f : 1.0f;
+  float sum = 0;
+  for (float& weight : w) sum += weight = std::max(weight * sign, 0.0f);
+  const bool good = sum > 0 && std::isfinite(sum);
+  for (float& weight : w) weight = good ? weight / sum : 1 / 3.0f;
+}
+
 }  // namespace
+
+bool PlacedSurface::hides_all() const {
+  const bool painted = surface.texture_coordinates && surface.color_texture;
+  return surface.material.alpha >= 1 && !(painted && surface.color_texture->has_alpha());
+}
 
 TriangleList PlacedSurface::triangles() const {
   return list_triangles(surface, places.data(), first_number);
@@ -151,14 +169,8 @@ Fragment Scene::fragment(uint32_t number, Vec3 ray) const {
   Vec3 p[3];
   on.triangles().corner_positions(f.triangle, p);
 
-  // Volumes between the ray and each edge: weights that hold for corners behind the viewer too.
-  float w[3] = {dot(ray, cross(p[1], p[2])), dot(ray, cross(p[2], p[0])),
-                dot(ray, cross(p[0], p[1]))};
-  const float sign = w[0] + w[1] + w[2] < 0 ? -1.0f : 1.0f;
-  float sum = 0;
-  for (float& weight : w) sum += weight = std::max(weight * sign, 0.0f);
-  const bool good = sum > 0 && std::isfinite(sum);
-  for (int k = 0; k < 3; ++k) w[k] = good ? w[k] / sum : 1 / 3.0f;
+  float w[3];
+  weights_along(ray, p, w);
 
   const Surface& s = on.surface;
   const uint32_t* corners = s.triangles + 3 * size_t{f.triangle};
@@ -192,6 +204,25 @@ Fragment Scene::fragment(uint32_t number, Vec3 ray) const {
     }
   }
   return f;
+}
+
+float Scene::alpha(uint32_t number, Vec3 origin, Vec3 ray) const {
+  const PlacedSurface& on = surface_of(number);
+  const Surface& s = on.surface;
+  if (!s.texture_coordinates || !s.color_texture) return s.material.alpha;
+  const size_t triangle = number - on.first_number;
+  Vec3 p[3];
+  on.triangles().corner_positions(triangle, p);
+  const Vec3 from[3] = {p[0] - origin, p[1] - origin, p[2] - origin};
+  float w[3];
+  weights_along(ray, from, w);
+  const Vec3 place = p[0] * w[0] + p[1] * w[1] + p[2] * w[2];
+  const Vec3 flat = normalized(cross(p[1] - p[0], p[2] - p[0]), kTowardsViewer);
+  const float slope = std::max(std::fabs(dot(flat, normalized(place, kTowardsViewer))), 0.1f);
+  const Painted at =
+      find_paint(s, s.triangles + 3 * triangle, p, w, pixel_ * length(place) / slope);
+  const float size = std::sqrt(float(s.color_texture->width()) * float(s.color_texture->height()));
+  return s.material.alpha * s.color_texture->alpha_at(at.u, at.v, at.texels * size);
 }
 
 }  // namespace mien::render

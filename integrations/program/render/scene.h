@@ -18,6 +18,7 @@ struct PlacedSurface {
   float facing;  // 1 or -1: times the winding's normal it is on the side of the normals
   uint32_t first_number;
 
+  bool hides_all() const;  // its alpha is 1 everywhere
   TriangleList triangles() const;
   math::Vec3 normal(size_t vertex) const;
 };
@@ -40,6 +41,8 @@ class Scene {
   const PlacedSurface& surface_of(uint32_t number) const;
   /// Where the line of sight along `ray` (z is -1) meets the plane of a triangle.
   Fragment fragment(uint32_t number, math::Vec3 ray) const;
+  /// The alpha where a ray meets the plane of a triangle.
+  float alpha(uint32_t number, math::Vec3 origin, math::Vec3 ray) const;
 
   float scale() const { return scale_; }  // diagonal of the box around everything
 

@@ -85,9 +85,15 @@ struct DepthPlane {
   }
 };
 
+/// Whether a sample shows a triangle of that coverage.
+bool shows(float coverage, uint32_t number, uint32_t sample, uint32_t count) {
+  const uint32_t order = (sample * 5 + (number * 2654435761u >> 16)) % count;
+  return coverage * float(count) >= float(order) + 0.5f;
+}
+
 template <class Int>
 void fill(const Corner (&t)[3], int64_t area, const PixelRange& range, const SamplePattern& pattern,
-          uint32_t number, Visibility& out) {
+          uint32_t number, const Coverage& coverage, Visibility& out) {
   const int32_t first_x = range.x0 * kSubpixels, first_y = range.y0 * kSubpixels;
   Edge<Int> e0, e1, e2;
   e0.set(t[0], t[1], first_x, first_y, pattern);
@@ -112,7 +118,14 @@ void fill(const Corner (&t)[3], int64_t area, const PixelRange& range, const Sam
             (p0 + e0.at_sample[s]) | (p1 + e1.at_sample[s]) | (p2 + e2.at_sample[s]);
         if (outside < 0) continue;
         const float d = std::min(std::max(pixel_depth + plane.at_sample[s], plane.min), plane.max);
-        if (d > seen[s].depth) seen[s] = {d, number};
+        if (!(d > seen[s].depth)) continue;
+        if (coverage) {
+          const float px = float(x) + float(pattern.places[s][0]) / kSubpixels;
+          const float py = float(y) + float(pattern.places[s][1]) / kSubpixels;
+          const float share = coverage(number, px, py);
+          if (!shows(share, number, uint32_t(s), uint32_t(pattern.count))) continue;
+        }
+        seen[s] = {d, number};
       }
     }
     r0 += e0.step_y;
@@ -123,7 +136,7 @@ void fill(const Corner (&t)[3], int64_t area, const PixelRange& range, const Sam
 
 /// A triangle whose corners lie within the guard border.
 void draw_corners(Corner a, Corner b, Corner c, uint32_t number, const SamplePattern& pattern,
-                  Visibility& out) {
+                  const Coverage& coverage, Visibility& out) {
   int64_t area = area2(a, b, c);
   if (area == 0) return;
   if (area < 0) {
@@ -141,8 +154,8 @@ void draw_corners(Corner a, Corner b, Corner c, uint32_t number, const SamplePat
   const Corner corners[3] = {a, b, c};
   // The functions of edges stay below twice the square of the extent.
   const bool small = right - left < 96 * kSubpixels && bottom - top < 96 * kSubpixels;
-  small ? fill<int32_t>(corners, area, range, pattern, number, out)
-        : fill<int64_t>(corners, area, range, pattern, number, out);
+  small ? fill<int32_t>(corners, area, range, pattern, number, coverage, out)
+        : fill<int64_t>(corners, area, range, pattern, number, coverage, out);
 }
 
 /// A polygon in view space that planes are cutting off. Five planes add at most five corners.
@@ -166,9 +179,10 @@ struct Polygon {
 
 class Drawing {
  public:
-  Drawing(const TriangleList& triangles, const Lens& lens, Visibility& out)
-      : triangles_(triangles), lens_(lens), pattern_(sample_pattern(out.samples)), out_(out),
-        projected_(triangles.position_count) {
+  Drawing(const TriangleList& triangles, const Lens& lens, const Coverage& coverage,
+          Visibility& out)
+      : triangles_(triangles), lens_(lens), pattern_(sample_pattern(out.samples)),
+        coverage_(coverage), out_(out), projected_(triangles.position_count) {
     for (size_t i = 0; i < projected_.size(); ++i) {
       const Vec3 p = triangles.positions[i];
       projected_[i].good = is_finite(p) && project(p, projected_[i].corner);
@@ -181,7 +195,7 @@ class Drawing {
     const Projected &a = projected_[at[0]], &b = projected_[at[1]], &c = projected_[at[2]];
     const uint32_t number = triangles_.first_number + uint32_t(triangle);
     if (a.good && b.good && c.good) {
-      draw_corners(a.corner, b.corner, c.corner, number, pattern_, out_);
+      draw_corners(a.corner, b.corner, c.corner, number, pattern_, coverage_, out_);
       return;
     }
     const Vec3* p = triangles_.positions;
@@ -227,13 +241,14 @@ class Drawing {
       if (!project(polygon.corners[i], corners[i])) return;  // numbers too large to cut
     }
     for (int i = 2; i < polygon.count; ++i) {
-      draw_corners(corners[0], corners[i - 1], corners[i], number, pattern_, out_);
+      draw_corners(corners[0], corners[i - 1], corners[i], number, pattern_, coverage_, out_);
     }
   }
 
   const TriangleList& triangles_;
   const Lens& lens_;
   SamplePattern pattern_;
+  const Coverage& coverage_;
   Visibility& out_;
   std::vector<Projected> projected_;  // of each position: most are corners of six triangles
 };
@@ -287,8 +302,9 @@ bool TriangleList::corner_positions(size_t triangle, Vec3 (&out)[3]) const {
   return true;
 }
 
-void draw(const TriangleList& triangles, const Lens& lens, Visibility& out) {
-  Drawing drawing(triangles, lens, out);
+void draw(const TriangleList& triangles, const Lens& lens, Visibility& out,
+          const Coverage& coverage) {
+  Drawing drawing(triangles, lens, coverage, out);
   for (size_t t = 0; t < triangles.count; ++t) drawing.add(t);
 }
 

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "integrations/program/math/vector.h"
@@ -57,7 +58,7 @@ struct Visibility {
 
 constexpr int kMaxPixels = 8192;  // along one side
 
-/// Draws triangles of `positions`, numbered from `first_number` on. Corner k of triangle t is
+/// Triangles of `positions`, numbered from `first_number` on. Corner k of triangle t is
 /// position `positions_of[corners[3 * t + k]]`, or `corners[3 * t + k]` if `positions_of` is null.
 /// Both sides show. Of equal depths the triangle drawn first stays. Triangles that are not finite,
 /// or name a position that is not there, are left out.
@@ -74,6 +75,13 @@ struct TriangleList {
   bool corner_indices(size_t triangle, size_t (&out)[3]) const;
   bool corner_positions(size_t triangle, math::Vec3 (&out)[3]) const;
 };
-void draw(const TriangleList& triangles, const Lens& lens, Visibility& out);
+
+/// How much of a triangle hides what is behind it at a place of the picture, 0 to 1.
+using Coverage = std::function<float(uint32_t number, float x, float y)>;
+
+/// With `coverage`, a triangle is drawn to that share of the samples around a place; each triangle takes others, so
+/// that layers add up.
+void draw(const TriangleList& triangles, const Lens& lens, Visibility& out,
+          const Coverage& coverage = nullptr);
 
 }  // namespace mien::render

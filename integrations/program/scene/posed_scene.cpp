@@ -50,7 +50,9 @@ const render::Texture* find_texture(PosedScene& scene, const std::string& path,
     return nullptr;
   }
   try {
-    found->second = std::make_unique<render::Texture>(render::read_png(file.bytes));
+    std::vector<uint8_t> alpha;
+    render::Image image = render::read_png(file.bytes, alpha);
+    found->second = std::make_unique<render::Texture>(std::move(image), std::move(alpha));
   } catch (const std::runtime_error& error) {
     fail(kInvalid, "cannot read texture", one_line(path), error.what(), "write the image again");
   }
@@ -71,6 +73,7 @@ void take_material(PosedScene& scene, SceneMesh& mesh, const Session& session) {
   if (from->has_color || has_image) {
     const auto& c = from->color;
     mesh.material.color = render::to_srgb({float(c[0]), float(c[1]), float(c[2])});
+    mesh.material.alpha = std::min(std::max(float(c[3]), 0.0f), 1.0f);
     // A plain color would take the iris from an eye.
     if (has_image || mesh.mesh_class != MeshClass::kEye) mesh.colors.clear();
   }
@@ -118,7 +121,8 @@ void choose_meshes(PosedScene& scene, const PosedSceneOptions& options, const Se
     any = true;
     nearest.offer(name);
     const bool chosen = options.meshes.empty()
-                            ? !mesh.colors.empty() || !needs_textures(mesh.mesh_class)
+                            ? !mesh.colors.empty() || !needs_textures(mesh.mesh_class) ||
+                                  mesh.textures[size_t(TextureKind::kBaseColor)] != nullptr
                             : matches_pattern(options.meshes, name);
     if (chosen) scene.meshes.push_back(mesh);
   }

@@ -21,12 +21,12 @@ MESH = "head_lod0_mesh"
 
 
 def png(color, size=4, other=None):
-    """A chessboard of two colors, or one color."""
+    """A chessboard of two colors, or one color; of three numbers, or of four with an alpha."""
     rows = b"".join(b"\0" + b"".join(bytes(color if (x + y) % 2 == 0 or not other else other) for x in range(size))
                     for y in range(size))
     def chunk(kind, body):
         return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", size, size, 8, 2, 0, 0, 0))
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", size, size, 8, 2 if len(color) == 3 else 6, 0, 0, 0))
             + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
 
 
@@ -159,6 +159,22 @@ class Sidecar(MaterialsTest):
         chalk = self.draw(base_color=gray, roughness=png((255, 255, 255)))
         self.assertGreater(apart(glossy, chalk), 2)
 
+    def test_alpha_shows_what_is_behind(self):
+        """A surface of alpha 0 is not there, and one of a half lets half of the backdrop through."""
+        def at(color):
+            picture = self.draw(base_color=png(color))
+            return picture.at(80, 80), picture.at(2, 80)
+        (opaque, backdrop), (gone, _), (half, _) = (at((200, 20, 20) + alpha) for alpha in ((255,), (0,), (128,)))
+        self.assertEqual(at((200, 20, 20))[0], opaque)
+        self.assertGreater(opaque[0], 2 * opaque[2])
+        self.assertLess(max(gone) - min(gone), 40, "the backdrop is gray")
+        self.assertLess(abs(half[0] - (opaque[0] + gone[0]) / 2), 45)
+        self.assertGreater(min(opaque[0] - half[0], half[0] - gone[0]) if opaque[0] > gone[0] else 99, 5)
+        # The same by the alpha of the material.
+        self.sidecar({"materials": [{"name": "a", "base_color": [1, 0, 0, 0]}], "meshes": {MESH: "a"}})
+        self.ok("render", path("tiny.dna"), "-o", path("drawn.png"), "--size", "160", "--force")
+        self.assertEqual(Picture(read("drawn.png")).at(80, 80), gone)
+
     def test_jpeg_goes_along_but_is_not_drawn(self):
         jpeg = b"\xff\xd8\xff\xe0" + bytes(64)
         write("a.jpg", jpeg)
@@ -242,6 +258,34 @@ class Author(MaterialsTest):
         write("bad.mtl", mtl)
         write("hat.obj", "mtllib bad.mtl\no hat\n%s\nv 0 0.2 0\nv 0.1 0.2 0\nv 0 0.2 0.1\nf 1 2 3\n" % uses)
         return ("export", path("tiny.dna"), "-o", path("no.glb"), "--influences", "12", "--attach", path("hat.obj"))
+
+    def test_attached_meshes_bring_their_materials(self):
+        mtl = "newmtl felt\nKd 0.5 0.25 1\nPr 0.75\nd 0.5\nmap_Kd %s\n" % "textures/head_basecolor.png"
+        command = list(self.attach(mtl, "usemtl felt"))
+        write("hat.obj", read("hat.obj").replace(b"f 1 2 3", b"vt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3"))
+        self.ok(*command, "--force")
+        material, _ = self.material(Glb(read("no.glb")), "hat")
+        surface = material["pbrMetallicRoughness"]
+        self.assertEqual(material["name"], "felt")
+        self.assertAlmostEqual(surface["roughnessFactor"], 0.75)
+        self.assertEqual((surface["baseColorFactor"][3], material["alphaMode"]), (0.5, "BLEND"))
+        self.assertEqual(self.image(Glb(read("no.glb")), surface, "baseColorTexture"), RED)
+        # A GLB holds its image, which a USD file cannot name.
+        write("hat.glb", read("no.glb"))
+        other = [path("hat.glb") if word == path("hat.obj") else word for word in command]
+        self.ok(*other, "--force")
+        glb = Glb(read("no.glb"))
+        felt, = [m for m in glb.json["materials"] if m["name"] == "felt"]
+        self.assertEqual(self.image(glb, felt["pbrMetallicRoughness"], "baseColorTexture"), RED)
+        usd = self.ok(*[path("no.usda") if word == path("no.glb") else word for word in other], "--force")
+        self.assertIn("hat.glb#0", usd.stderr)
+        # What stands beside the rig wins.
+        self.sidecar({"materials": [{"name": "straw", "roughness": 0.25}], "meshes": {"hat": "straw"}})
+        self.ok(*command, "--force")
+        self.assertEqual(self.material(Glb(read("no.glb")), "hat")[0]["name"], "straw")
+        write("bad.mtl", mtl.replace("head_basecolor", "nowhere"))
+        os.remove(path("tiny.materials.json"))
+        self.assertIn("nowhere.png", self.ok(*command, "--force").stderr)
 
     def test_hostile_mtl(self):
         for mtl, says in (("newmtl a\nKd x 0 0\n", "line 2"), ("Kd 1 1 1\n", "newmtl"), ("newmtl a\nKd 1 1\n", "lacks"),
