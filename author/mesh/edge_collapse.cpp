@@ -18,6 +18,10 @@ constexpr double kAlong = 1e-3;
 constexpr double kBorder = 10, kSeam = 1;  // weights of moving off a border or a seam
 constexpr double kLeastTurn = 0.2;    // cosine between normals in this LOD and the previous one
 constexpr double kLeastShape = 0.05;  // 1: equilateral, 0: a line
+// Cosine between a triangle and the mean of the normals that its corners had at first: LODs turn no further.
+constexpr double kLeastFacing = 0.2;
+// How much more an error counts where an expression stretches the surface to twice its length, as on lips and lids.
+constexpr double kFeature = 8;
 constexpr double kStraight = 0.995;   // cosine between edges of a border
 constexpr uint32_t kLeastLoop = 10;   // places of a border of the skin
 constexpr double kSameLength = 1e-3;  // diagonals of a quad that differ by less are equal
@@ -41,8 +45,9 @@ bool EdgeCollapse::make(const AuthorMesh& mesh, Span<const Shape> poses, Arena& 
   if (!author::make(arena, n, first_) || !author::make(arena, n, valence_) ||
       !author::make(arena, n, locked_) || !author::make(arena, n, border_) ||
       !author::make(arena, n * (poses.count + 1), quadrics_) || !author::make(arena, n, areas_) ||
-      !author::make(arena, n, costs_) || !author::make(arena, n, targets_) ||
-      !author::make(arena, n, slots_) || !author::make(arena, n, heap_) ||
+      !author::make(arena, n, normals_) || !author::make(arena, n, costs_) ||
+      !author::make(arena, n, targets_) || !author::make(arena, n, slots_) ||
+      !author::make(arena, n, heap_) ||
       !author::make(arena, mesh.component_count, component_counts_) ||
       !author::make(arena, n, loops_) || !find_places(scratch, vertex_places) ||
       !find_mirror(mesh, vertex_places, arena, scratch, mirror_) ||
@@ -309,17 +314,36 @@ bool EdgeCollapse::is_one_fan(uint32_t place) {
   return count == ring.corner_count;
 }
 
+/// How much an expression stretches a triangle: the largest change of an edge over its length, at most 1. Lips and
+/// lids open, so their edges grow to a multiple; skin that moves along does not.
+double EdgeCollapse::stretch_of(uint32_t triangle) const {
+  double most = 0;
+  for (uint32_t c = 3 * triangle; c < 3 * triangle + 3; ++c) {
+    const uint32_t a = places_[c], b = places_[next_corner(c)];
+    const Vec3 edge = at(b, 0) - at(a, 0);
+    for (size_t pose = 1; pose <= poses_.count; ++pose) {
+      const double change = length(at(b, pose) - at(a, pose) - edge);
+      if (change > most * length(edge)) most = change / length(edge);
+      if (!(most < 1)) return 1;
+    }
+  }
+  return most;
+}
+
 void EdgeCollapse::make_quadrics() {
   const size_t poses = poses_.count + 1;
   for (uint32_t t = 0; t < alive_.count; ++t) {
+    const double weight = 1 + kFeature * stretch_of(t);
     for (size_t pose = 0; pose < poses; ++pose) {
       const Vec3 n = normal_of(t, kNone, kNone, pose);
       const double twice = length(n);
       if (!(twice > 0)) continue;
       for (uint32_t c = 3 * t; c < 3 * t + 3; ++c) {
         quadrics_[places_[c] * poses + pose].add_plane(n * (1 / twice), at(places_[c], pose),
-                                                       twice / 6);
-        if (pose == 0) areas_[places_[c]] += twice / 6;
+                                                       weight * twice / 6);
+        if (pose > 0) continue;
+        areas_[places_[c]] += weight * twice / 6;
+        normals_[places_[c]] = normals_[places_[c]] + n;
       }
     }
     for (uint32_t c = 3 * t; c < 3 * t + 3; ++c) {
@@ -338,6 +362,7 @@ void EdgeCollapse::make_quadrics() {
       }
     }
   }
+  for (Vec3& normal : normals_) normal = normalized(normal);
 }
 
 /// Moving off the edge within the triangle costs, too.
@@ -454,6 +479,11 @@ bool EdgeCollapse::keeps_facing(uint32_t u, const Ring& ring, uint32_t v,
     const Vec3 n = normalized(normal_of(c / 3, u, v, 0));
     if (is_zero(n) || (!is_zero(facing_[c / 3]) && dot(n, facing_[c / 3]) < kLeastTurn)) {
       return false;
+    }
+    const Vec3 first = normals_[v] + normals_[places_[a]] + normals_[places_[b]];
+    if (dot(n, first) < kLeastFacing * length(first)) {
+      const Vec3 now = normalized(normal_of(c / 3, kNone, kNone, 0));
+      if (dot(n, first) < dot(now, first)) return false;
     }
     const Vec3 p = at(places_[a], 0), q = at(places_[b], 0);
     const double shape = shape_of(at(v, 0), p, q);

@@ -71,6 +71,7 @@ class EdgeCollapse {
   bool classify_edges(Arena& arena, Arena& scratch);
   bool find_loops(Span<const uint64_t> border_edges, Arena& arena);
   bool is_one_fan(uint32_t place);
+  double stretch_of(uint32_t triangle) const;
   void make_quadrics();
   void add_border(uint32_t corner, double weight);
 
@@ -122,6 +123,7 @@ class EdgeCollapse {
   Span<uint32_t> loops_;  // of places on borders of the skin: their loop, else kNone
   Span<uint32_t> loop_counts_;  // places of each loop
   Span<Quadric> quadrics_;      // one for each pose
+  Span<Vec3> normals_;          // at rest, before anything was removed; length 1
   Span<double> areas_, costs_;
   Span<uint32_t> targets_, slots_;
   Span<uint32_t> heap_;
