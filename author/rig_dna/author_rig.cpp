@@ -448,7 +448,8 @@ class RigMaker {
 
   bool write(dna::DnaView& out) {
     if (!starts("write") || !fill_index(8, arena_, out) || !fill_descriptor(model_, arena_, out) ||
-        !fill_controls(model_, arena_, out) || !fill_joints(model_, arena_, scratch_, out) ||
+        !fill_controls(model_, arena_, scratch_, out) ||
+        !fill_joints(model_, arena_, scratch_, out) ||
         !fill_meshes(model_, arena_, allocator_, out)) {
       return false;
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Descriptor, controls and joints of an authored rig.
 #include "author/base/dna_making.h"
+#include "author/base/face_controls.h"
 #include "author/rig_dna/rig_model.h"
 
 namespace mien::author {
@@ -125,30 +126,76 @@ bool fill_descriptor(const RigModel& rig, Arena& arena, dna::DnaView& out) {
          copy_text(arena, Text().add("mien_author"), desc.db_name);
 }
 
-bool fill_controls(const RigModel& rig, Arena& arena, dna::DnaView& out) {
+namespace {
+
+bool same_text(dna::String a, const Text& b) {
+  return a.count == b.count && memcmp(a.chars(), b.chars, b.count) == 0;
+}
+
+struct DrivingGui {
+  uint32_t gui = 0, ramp_count = 1;
+  Ramp ramps[2] = {{0, 1, 1, 0}};
+};
+
+/// The GUI control of an expression: that of MetaHuman heads, which may drive several expressions, or one of its own.
+/// `guis` begins with the `gui_count` names so far.
+bool find_driving_gui(Name expression, Arena& arena, Span<dna::String> guis, uint32_t& gui_count,
+                      DrivingGui& out) {
   static constexpr char kPrefix[] = "CTRL_";
+  const ControlFamily* family = nullptr;
+  FamilyControl control;
+  out.gui = gui_count;
+  if (!find_face_control(expression, family, control)) {
+    return join_text(arena, {{kPrefix, 5}, expression}, guis[gui_count++]);
+  }
+  out.ramp_count = find_ramps(control, out.ramps);
+  Text name;
+  write_gui_name(*family, control, name);
+  for (out.gui = 0; out.gui < gui_count; ++out.gui) {
+    if (same_text(guis[out.gui], name)) return true;
+  }
+  return copy_text(arena, name, guis[gui_count++]);
+}
+
+}  // namespace
+
+bool fill_controls(const RigModel& rig, Arena& arena, Arena& scratch, dna::DnaView& out) {
   const size_t count = rig.mesh.shapes.count;
   dna::NewArray<uint16_t> inputs, outputs, map_lods;
   dna::NewArray<float> from, to, slope, cut;
-  if (!make(arena, count, out.defn.raw_control_names) ||
-      !make(arena, count, out.defn.gui_control_names) || !make(arena, count, inputs) ||
-      !make(arena, count, outputs) || !make(arena, count, from) || !make(arena, count, to) ||
-      !make(arena, count, slope) || !make(arena, count, cut) ||
-      !make(arena, rig.lod_count(), map_lods)) {
+  Span<dna::String> guis;
+  Span<DrivingGui> driving;
+  uint32_t gui_count = 0, rows = 0;
+  if (!make(arena, count, out.defn.raw_control_names) || !make(arena, count, guis) ||
+      !make(scratch, count, driving)) {
     return false;
   }
   for (uint32_t i = 0; i < count; ++i) {
     const Name name = rig.mesh.shapes[i].name;
+    driving[i] = DrivingGui();
     if (!join_text(arena, {name}, out.defn.raw_control_names[i]) ||
-        !join_text(arena, {{kPrefix, 5}, name}, out.defn.gui_control_names[i])) {
+        !find_driving_gui(name, arena, guis, gui_count, driving[i])) {
       return false;
     }
-    inputs.set(i, static_cast<uint16_t>(i));
-    outputs.set(i, static_cast<uint16_t>(i));
-    from.set(i, 0);
-    to.set(i, 1);
-    slope.set(i, 1);
-    cut.set(i, 0);
+    rows += driving[i].ramp_count;
+  }
+  out.defn.gui_control_names = {guis.data, gui_count};
+  if (!make(arena, rows, inputs) || !make(arena, rows, outputs) || !make(arena, rows, from) ||
+      !make(arena, rows, to) || !make(arena, rows, slope) || !make(arena, rows, cut) ||
+      !make(arena, rig.lod_count(), map_lods)) {
+    return false;
+  }
+  rows = 0;
+  for (uint32_t i = 0; i < count; ++i) {
+    for (uint32_t r = 0; r < driving[i].ramp_count; ++r, ++rows) {
+      const Ramp& ramp = driving[i].ramps[r];
+      inputs.set(rows, static_cast<uint16_t>(driving[i].gui));
+      outputs.set(rows, static_cast<uint16_t>(i));
+      from.set(rows, ramp.from);
+      to.set(rows, ramp.to);
+      slope.set(rows, ramp.slope);
+      cut.set(rows, ramp.cut);
+    }
   }
   out.bhvr.controls.conditionals = {inputs, outputs, from, to, slope, cut};
   if (!fill_correctives(rig, arena, out.bhvr.controls)) return false;

@@ -46,7 +46,7 @@ bool join_text(Arena& arena, std::initializer_list<Name> parts, dna::String& out
 /// Names, axes, units.
 bool fill_descriptor(const RigModel& rig, Arena& arena, dna::DnaView& out);
 /// A GUI control for each raw control; correctives.
-bool fill_controls(const RigModel& rig, Arena& arena, dna::DnaView& out);
+bool fill_controls(const RigModel& rig, Arena& arena, Arena& scratch, dna::DnaView& out);
 /// Joint names, hierarchy, neutral pose, joint groups.
 bool fill_joints(const RigModel& rig, Arena& arena, Arena& scratch, dna::DnaView& out);
 /// Meshes of every LOD, blend shape channels.

@@ -25,6 +25,11 @@ constexpr double kLid = 1.2, kBeyondLid = 1.8, kAside = 1.25;
 constexpr const char* kAddedNames[2][kGazeWays] = {
     {"eyeLookOutLeft", "eyeLookInLeft", "eyeLookUpLeft", "eyeLookDownLeft"},
     {"eyeLookInRight", "eyeLookOutRight", "eyeLookUpRight", "eyeLookDownRight"}};
+constexpr const char* kMetahumanGaze[2][kGazeWays] = {
+    {"CTRL_expressions.eyeLookLeftL", "CTRL_expressions.eyeLookRightL",
+     "CTRL_expressions.eyeLookUpL", "CTRL_expressions.eyeLookDownL"},
+    {"CTRL_expressions.eyeLookLeftR", "CTRL_expressions.eyeLookRightR",
+     "CTRL_expressions.eyeLookUpR", "CTRL_expressions.eyeLookDownR"}};
 
 bool take(const char*& at, const char* word) {
   const size_t count = strlen(word);
@@ -88,9 +93,10 @@ struct Ball {
 
 class GazeMaker {
  public:
-  GazeMaker(const Placement& placement, Arena& arena, const Allocator& allocator, AuthorMesh& mesh,
-            GazeReport& report)
-      : placement_(placement), arena_(arena), scratch_(allocator), mesh_(mesh), report_(report) {}
+  GazeMaker(const Placement& placement, bool metahuman_names, Arena& arena,
+            const Allocator& allocator, AuthorMesh& mesh, GazeReport& report)
+      : placement_(placement), added_names_(metahuman_names ? kMetahumanGaze : kAddedNames),
+        arena_(arena), scratch_(allocator), mesh_(mesh), report_(report) {}
 
   bool make() {
     if (!find_balls()) return false;
@@ -158,7 +164,7 @@ class GazeMaker {
       return turn(e, way, false, shapes[found]);
     }
     Shape& added = shapes[count];
-    added.name = {kAddedNames[e][way], strlen(kAddedNames[e][way])};
+    added.name = {added_names_[e][way], strlen(added_names_[e][way])};
     added.number = static_cast<uint32_t>(count++);
     report.controls[way] = added.name;
     report.sources[way] = GazeSource::kAdded;
@@ -239,6 +245,7 @@ class GazeMaker {
   }
 
   const Placement& placement_;
+  const char* const (*added_names_)[kGazeWays];
   Arena& arena_;
   Arena scratch_;
   AuthorMesh& mesh_;
@@ -249,10 +256,10 @@ class GazeMaker {
 
 }  // namespace
 
-bool add_gaze_shapes(const Placement& placement, Arena& arena, const Allocator& allocator,
-                     AuthorMesh& mesh, GazeReport& report) {
+bool add_gaze_shapes(const Placement& placement, bool metahuman_names, Arena& arena,
+                     const Allocator& allocator, AuthorMesh& mesh, GazeReport& report) {
   report = GazeReport();
-  return GazeMaker(placement, arena, allocator, mesh, report).make();
+  return GazeMaker(placement, metahuman_names, arena, allocator, mesh, report).make();
 }
 
 }  // namespace mien::author

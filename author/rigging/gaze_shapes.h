@@ -44,9 +44,9 @@ struct GazeName {
 bool read_gaze_name(Name name, GazeName& out);
 
 /// Completes and adds expressions for the left and the right eye of `placement`, if they are eyeballs of the
-/// mesh. `mesh` gets a new list of shapes in `arena`; shapes that need nothing are kept. False if memory
-/// ran out.
-bool add_gaze_shapes(const Placement& placement, Arena& arena, const Allocator& allocator,
-                     AuthorMesh& mesh, GazeReport& report);
+/// mesh. `mesh` gets a new list of shapes in `arena`; shapes that need nothing are kept. New ones have the names of
+/// ARKit, or those of MetaHuman's raw controls. False if memory ran out.
+bool add_gaze_shapes(const Placement& placement, bool metahuman_names, Arena& arena,
+                     const Allocator& allocator, AuthorMesh& mesh, GazeReport& report);
 
 }  // namespace mien::author

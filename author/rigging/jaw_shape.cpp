@@ -2,6 +2,7 @@
 #include "author/rigging/jaw_shape.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "author/base/dna_making.h"
 #include "author/base/joint_motion.h"
@@ -9,8 +10,8 @@
 
 namespace mien::author {
 
-bool add_jaw_shape(const Placement& placement, const SkinWeights& weights, Arena& arena,
-                   AuthorMesh& mesh, PlaceReport& report) {
+bool add_jaw_shape(const Placement& placement, const SkinWeights& weights, bool metahuman_names,
+                   Arena& arena, AuthorMesh& mesh, PlaceReport& report) {
   constexpr double kDegrees = 20;
   if (placement.jaw_share.empty() || jaw_open_shape(mesh) != kNone) return true;
   const size_t n = mesh.positions.count, given = mesh.shapes.count;
@@ -42,7 +43,8 @@ bool add_jaw_shape(const Placement& placement, const SkinWeights& weights, Arena
     moving[count++] = v;
   }
   std::copy(mesh.shapes.begin(), mesh.shapes.end(), shapes.begin());
-  shapes[given].name = {"jawOpen", 7};
+  const char* const name = metahuman_names ? "CTRL_expressions.jawOpen" : "jawOpen";
+  shapes[given].name = {name, strlen(name)};
   shapes[given].displacements = displacements;
   shapes[given].moving = moving.first(count);
   shapes[given].number = static_cast<uint32_t>(given);

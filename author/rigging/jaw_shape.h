@@ -6,9 +6,10 @@
 
 namespace mien::author {
 
-/// Adds jawOpen to a mesh whose jaw was placed by landmarks: everything below the jaw turns with it, by
-/// `weights`. `mesh` gets a new list of shapes in `arena`, other meshes stay as they are. False if memory ran out.
-bool add_jaw_shape(const Placement& placement, const SkinWeights& weights, Arena& arena,
-                   AuthorMesh& mesh, PlaceReport& report);
+/// Adds jawOpen, or MetaHuman's control of that name, to a mesh whose jaw was placed by landmarks: everything
+/// below the jaw turns with it, by `weights`. `mesh` gets a new list of shapes in `arena`, other meshes stay as they
+/// are. False if memory ran out.
+bool add_jaw_shape(const Placement& placement, const SkinWeights& weights, bool metahuman_names,
+                   Arena& arena, AuthorMesh& mesh, PlaceReport& report);
 
 }  // namespace mien::author

@@ -109,8 +109,10 @@ class Rigger {
     if (Status measured = measure(out_.made_weights); measured != Status::kOk) return measured;
     if (has_own_bones() || options_.place.paper) return Status::kOk;
     return hang_bones() &&
-                   add_jaw_shape(out_.placement, weights_[0], arena_, out_.read.mesh, out_.place) &&
-                   add_gaze_shapes(out_.placement, arena_, allocator_, out_.read.mesh, out_.gaze)
+                   add_jaw_shape(out_.placement, weights_[0], options_.metahuman_names, arena_,
+                                 out_.read.mesh, out_.place) &&
+                   add_gaze_shapes(out_.placement, options_.metahuman_names, arena_, allocator_,
+                                   out_.read.mesh, out_.gaze)
                ? Status::kOk
                : no_memory();
   }

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "author/base/dna_making.h"
+#include "author/base/face_controls.h"
 #include "author/base/random.h"
 #include "author/generate/synthetic/rig.h"
 
@@ -13,9 +14,15 @@ namespace mien::synthetic {
 
 using author::copy_text;
 using author::fill_index;
+using author::kBrow, author::kCheek, author::kChin, author::kEye, author::kForehead,
+    author::kLowerLid, author::kLowerLip, author::kMouthCorner, author::kNeck, author::kNose,
+    author::kRegionKindCount, author::kSide, author::kTeeth, author::kTongue, author::kUpperLid,
+    author::kUpperLip;
 using author::make;
 using author::make_lod_map;
 using author::NewVec3s;
+using author::Ramp;
+using author::RegionKind;
 using author::Text;
 
 /// 1 in the middle, 0 from `radius` on, with a smooth end; takes squares to avoid the root.
@@ -59,25 +66,6 @@ uint32_t shrink(uint32_t count, uint32_t lod, uint32_t lod_count);
 
 enum BaseJoint : uint16_t { kRoot, kNeckJoint, kHeadJoint, kFaceJoint, kJawJoint, kBaseJointCount };
 
-enum RegionKind : uint8_t {
-  kForehead,
-  kBrow,
-  kUpperLid,
-  kLowerLid,
-  kEye,
-  kNose,
-  kCheek,
-  kUpperLip,
-  kLowerLip,
-  kMouthCorner,
-  kChin,
-  kSide,
-  kTongue,
-  kTeeth,
-  kNeck,
-  kRegionKindCount
-};
-
 /// A patch of the head: a kind, or its left or right half.
 struct Region {
   RegionKind kind;
@@ -112,10 +100,6 @@ struct Joint {
 };
 
 // Controls --------------------------------------------------------------------------------------
-
-struct Ramp {
-  float from = 0, to = 0, slope = 0, cut = 0;
-};
 
 constexpr uint32_t kMaxMembers = 5;
 

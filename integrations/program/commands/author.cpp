@@ -14,6 +14,7 @@
 #include "integrations/program/commands/author_input.h"
 #include "integrations/program/commands/author_landmarks.h"
 #include "integrations/program/commands/author_materials.h"
+#include "integrations/program/commands/author_metahuman.h"
 #include "integrations/program/commands/mesh_view.h"
 #include "integrations/program/commands/options.h"
 #include "integrations/program/io/input.h"
@@ -396,22 +397,6 @@ void rename_shapes(const AuthorCommand& command, MeshFile& mesh) {
   }
 }
 
-/// Names of controls as MetaHuman heads have them, for shapes that mean one of theirs. Others keep their names.
-void name_as_metahuman(MeshFile& mesh, const Session& session) {
-  std::set<std::string> taken;
-  for (const MeshShape& shape : mesh.shapes) taken.insert(shape.name);
-  size_t count = 0;
-  for (MeshShape& shape : mesh.shapes) {
-    const std::string name = metahuman_name(shape.name);
-    if (name.empty() || !taken.insert(name).second) continue;
-    shape.name = name;
-    ++count;
-  }
-  if (mesh.shapes.empty()) return;
-  note(session, std::to_string(count) + " of " + std::to_string(mesh.shapes.size()) +
-                    " shapes have a counterpart among MetaHuman's raw controls, and its name");
-}
-
 /// The usual names of shapes, for the report; a note lists unknown ones.
 Json usual_names(const MeshFile& mesh, const Session& session) {
   Json usual = Json::object();
@@ -420,7 +405,8 @@ Json usual_names(const MeshFile& mesh, const Session& session) {
   for (const MeshShape& shape : mesh.shapes) {
     const std::string name = usual_name(shape.name);
     usual[shape.name] = name.empty() ? Json() : Json(name);
-    if (!name.empty()) continue;
+    // Those of MetaHuman heads that no other vocabulary has.
+    if (!name.empty() || shape.name.compare(0, 17, "CTRL_expressions.") == 0) continue;
     if (++unknown_count <= 8) unknown += (unknown.empty() ? "" : ", ") + one_line(shape.name);
   }
   if (unknown_count > 8) unknown += ", ...";
@@ -559,10 +545,11 @@ void run(AuthorCommand command, const Session& session) {
   desc.landmark_count = marks.size();
   if (!command.shapes.empty()) file.shapes = read_shapes(command.shapes, file);
   if (!command.names.empty()) rename_shapes(command, file);
-  if (!command.preset.empty()) name_as_metahuman(file, session);
   if (!command.crop.empty() || !command.objects.empty()) keep_faces(command, crop, file);
   if (command.up.empty() && command.front.empty()) settle_axes(command, file, session);
   set_axes(command, desc);
+  Json metahuman;
+  if (!command.preset.empty()) metahuman = name_as_metahuman(stand_of(command), file, session);
   const BodyGuess body = guess_body(file, stand_of(command));
   settle_crop(command, body, file, session);
   settle_unit(command, body, file, desc, session);
@@ -570,6 +557,7 @@ void run(AuthorCommand command, const Session& session) {
   Made made = make_rig(command, desc, file, session);
   refuse_uncertain(made.report, least_confidence, shown_name(command.mesh));
   made.report["names"] = usual_names(file, session);
+  if (!command.preset.empty()) made.report["metahuman"] = metahuman;
   note_oddities(command, file, made.report, session);
   std::vector<AuthorImage> made_images;
   if (!command.images.empty()) made_images = draw_images(command, desc, file, made, session);

@@ -543,6 +543,49 @@ class AuthorTest(ProgramTest):
             self.assertIn(joint, joints)
         self.fails(USAGE, "author", path("head.glb"), *options[:-1], "unreal", says="metahuman")
 
+    def test_a_shape_that_means_several_controls_of_metahuman_heads_is_divided(self):
+        """Their sum is the shape, and each is where it says; one axis of a GUI control drives two of them."""
+        options = ["--joints", "12", "--lods", "1", "--report", path("meta.json"), "--force", "-o"]
+        write("other.json", b'{"smile": "mouthFunnel", "jawOpen": "wobble"}')
+        done = self.ok("author", path("head.glb"), *options, path("divided.dna"), "--preset", "metahuman", "--names",
+                       path("other.json"))
+        self.assertIn("1 of 2 shapes have a counterpart", done.stderr)
+        self.assertIn("without one: wobble", done.stderr)
+        self.assertIn("1 of 5 shapes have names that no standard has", done.stderr)
+        parts = ["CTRL_expressions.mouthFunnel" + end for end in ("UL", "UR", "DL", "DR")]
+        self.assertEqual(json.loads(read("meta.json"))["metahuman"], {"mouthFunnel": parts, "wobble": []})
+        self.assertEqual(sorted(self.names("divided.dna", "raw")), sorted(parts) + ["wobble"])
+        self.assertEqual(sorted(self.names("divided.dna", "gui")),
+                         sorted("CTRL_%s_mouth_funnel%s.ty" % (side, lip) for side in "LR" for lip in "UD")
+                         + ["CTRL_wobble"])
+        self.ok("author", path("head.glb"), *options, path("whole.dna"), "--names", path("other.json"))
+
+        def posed(rig, *controls):
+            self.ok("export", path(rig), "-o", path("posed.obj"), "--force", "-q",
+                    *(word for control in controls for word in ("--set", control + "=1")))
+            return [tuple(float(w) for w in line.split()[1:4]) for line in read("posed.obj").decode().splitlines()
+                    if line.startswith("v ")]
+
+        rest, whole = posed("whole.dna"), posed("whole.dna", "mouthFunnel")
+        largest = max(math.dist(a, b) for a, b in zip(rest, whole))
+        self.assertGreater(largest, 0)
+        self.assertLess(max(math.dist(a, b) for a, b in zip(posed("divided.dna", *parts), whole)), 0.2 * largest)
+        left = posed("divided.dna", parts[0], parts[2])
+        for p, a, b, c in zip(rest, rest, whole, left):
+            if math.dist(a, b) > 0.5 * largest:
+                self.assertAlmostEqual(math.dist(c, b if p[0] > 0 else a), 0, delta=0.25 * largest)
+
+    def test_gui_controls_of_metahuman_heads(self):
+        write("other.json", b'{"smile": "mouthSmile_L", "jawOpen": "mouthFrown_L"}')
+        self.ok("author", path("head.glb"), "--joints", "12", "--lods", "1", "-o", path("gui.dna"), "--force",
+                "--preset", "metahuman", "--names", path("other.json"))
+        self.assertEqual(self.names("gui.dna", "gui"), ["CTRL_L_mouth_cornerPull.ty"])
+        for value, raw in ((0.5, {"CornerPull": 0.5, "CornerDepress": 0}), (-0.25, {"CornerPull": 0, "CornerDepress": 0.25})):
+            controls = self.evaluate_one("gui.dna", {"gui": {"CTRL_L_mouth_cornerPull.ty": value}})["raw"]
+            for name, wanted in raw.items():
+                index = self.names("gui.dna", "raw").index(f"CTRL_expressions.mouth{name}L")
+                self.assertAlmostEqual(controls[index], wanted, places=6)
+
     def test_the_report_has_every_figure_of_the_joint_groups_and_weights(self):
         report = self.author(path("head.glb"), "--joints", "40", "--lods", "2")
         groups = report["joint_groups"]
