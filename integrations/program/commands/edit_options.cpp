@@ -2,6 +2,7 @@
 #include "integrations/program/commands/edit_options.h"
 
 #include <algorithm>
+#include <set>
 
 #include "integrations/program/commands/edit_values.h"
 #include "integrations/program/commands/options.h"
@@ -25,12 +26,32 @@ std::string apply_rename(Document& document, const std::string& value) {
          names.second + "\"";
 }
 
+/// The quaternion joints that a removal gave joint groups of their own, behind the others; see
+/// mien_document_remove().
+std::string regrouped_text(const Document& document, uint64_t groups_before) {
+  const std::string groups = "bhvr.joints.jointGroups";
+  const uint64_t count = field_count(document, groups);
+  std::set<std::string> names;
+  for (uint64_t g = groups_before; g < count; ++g) {
+    const std::string path = groups + "[" + std::to_string(g) + "].jointIndices";
+    for (const int64_t joint : read_integers(document, path)) {
+      names.insert("\"" + read_string(document, "defn.jointNames[" + std::to_string(joint) + "]") +
+                   "\"");
+    }
+  }
+  if (names.empty()) return "";
+  return "; to keep the order of rotations, joint groups of their own (within 0.01 degrees) for " +
+         list_of({names.begin(), names.end()}, "and");
+}
+
 std::string apply_remove(Document& document, const std::string& value) {
   const NamePair pair = split_pair(document, value, ':', "KIND:NAME");
   const uint32_t kind = kind_named(document, pair.first);
   const uint32_t index = find_element(document, kind, pair.second);
+  const uint64_t groups = field_count(document, "bhvr.joints.jointGroups");
   edited(document, mien_document_remove, kind, &index, 1);
-  return std::string("removed ") + kind_noun(kind) + " \"" + pair.second + "\"";
+  return std::string("removed ") + kind_noun(kind) + " \"" + pair.second + "\"" +
+         regrouped_text(document, groups);
 }
 
 std::string apply_clear(Document& document, const std::string& value) {

@@ -111,6 +111,15 @@ std::string read_string(const Document& document, const std::string& path) {
   return to_string(view);
 }
 
+std::vector<int64_t> read_integers(const Document& document, const std::string& path) {
+  std::vector<int64_t> values(field_count(document, path));
+  auto error = sized<MienError>();
+  check(mien_document_read_integers(document.get(), path.c_str(), 0, values.size(), values.data(),
+                                    &error),
+        &error, "cannot read " + path, document.shown);
+  return values;
+}
+
 std::vector<float> mesh_positions(const Document& document, uint32_t mesh) {
   if (mesh >= field_count(document, "geom.meshes")) {
     fail_edit(document, "the file has no geometry of this mesh", "give the file with geometry");

@@ -42,6 +42,7 @@ uint32_t find_element(const Document& document, uint32_t kind, const std::string
 
 uint64_t field_count(const Document& document, const std::string& path);
 std::string read_string(const Document& document, const std::string& path);
+std::vector<int64_t> read_integers(const Document& document, const std::string& path);
 
 /// 3 numbers per position of a mesh.
 std::vector<float> mesh_positions(const Document& document, uint32_t mesh);

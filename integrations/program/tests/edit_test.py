@@ -121,6 +121,24 @@ class Edits(EditTest):
             k = joints.index(name)
             self.assertEqual(after[9 * i:9 * i + 9], before[9 * k:9 * k + 9], name)
 
+    def test_joints_whose_rotations_are_ordered_anew_are_named(self):
+        rig = "turning.dna"
+        write(rig, read(os.path.join(HERE, "..", "..", "..", "tests", "golden", "small_rot.dna")))
+        done = self.edit("--remove", "joint:JNT_13", rig=rig)
+        named = re.findall('"([^"]+)"', done.stderr.split("groups of their own")[1])
+        self.assertGreater(len(named), 1)
+        controls = {"raw": {name: 0.25 + 0.5 * (i % 2) for i, name in enumerate(self.names(rig, "raw"))}}
+        joints, left = self.names(rig, "joints"), self.names("out.dna", "joints")
+        before, after = (self.evaluate_one(of, controls)["joints"] for of in (rig, "out.dna"))
+        for i, name in enumerate(left):
+            k = joints.index(name)
+            was, now = before[9 * k:9 * k + 9], after[9 * i:9 * i + 9]
+            if name in named:
+                for a, b in zip(was, now):
+                    self.assertAlmostEqual(a, b, delta=1e-2, msg=name)
+            else:
+                self.assertEqual(was, now, name)
+
     def test_a_removed_mesh_and_blend_shape(self):
         meshes, channels = self.names(SMALL, "meshes"), self.names(SMALL, "channels")
         self.edit("--remove", "mesh:" + meshes[0], "--remove", "blend-shape:" + channels[1])
