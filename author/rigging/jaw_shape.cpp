@@ -12,7 +12,7 @@ namespace mien::author {
 
 bool add_jaw_shape(const Placement& placement, const SkinWeights& weights, bool metahuman_names,
                    Arena& arena, AuthorMesh& mesh, PlaceReport& report) {
-  constexpr double kDegrees = 20;
+  constexpr double kOpenDegrees = 20;
   if (placement.jaw_share.empty() || jaw_open_shape(mesh) != kNone) return true;
   const size_t n = mesh.positions.count, given = mesh.shapes.count;
   Span<uint8_t> below;
@@ -29,7 +29,7 @@ bool add_jaw_shape(const Placement& placement, const SkinWeights& weights, bool 
     below[b] = bone.kind == BoneKind::kJaw || (bone.parent < b && below[bone.parent]);
     if (bone.kind == BoneKind::kJaw) pivot = bone.position;
   }
-  const double angles[3] = {kDegrees, 0, 0};
+  const double angles[3] = {kOpenDegrees, 0, 0};
   const Affine turn = motion(angles, pivot, {});
   size_t count = 0;
   for (uint32_t v = 0; v < n; ++v) {
@@ -50,7 +50,7 @@ bool add_jaw_shape(const Placement& placement, const SkinWeights& weights, bool 
   shapes[given].number = static_cast<uint32_t>(given);
   mesh.shapes = shapes;
   report.jaw_shape = shapes[given].name;
-  report.jaw_angle = kDegrees;
+  report.jaw_angle = kOpenDegrees;
   return true;
 }
 

@@ -56,10 +56,10 @@ bool find_object(const MeshFile& mesh, const std::string& name, std::array<doubl
 
 LandmarksFile::LandmarksFile(const std::string& path, const MeshFile& mesh) {
   if (path.empty()) return;
-  using Json = nlohmann::basic_json<MemberList>;
+  using LandmarkJson = nlohmann::basic_json<MemberList>;
   const std::string shown = shown_name(path);
-  const Json document = parse_json<Json>(read_json(path, kCannotUseLandmarks), kCannotUseLandmarks,
-                                         shown, kLandmarksExample);
+  const LandmarkJson document = parse_json<LandmarkJson>(
+      read_json(path, kCannotUseLandmarks), kCannotUseLandmarks, shown, kLandmarksExample);
   if (!document.is_object()) wrong_landmark(shown, "expected an object of landmarks");
   for (const auto& [name, place] : document.items()) {
     const std::string where = shown + ", " + one_line(name);
