@@ -71,7 +71,8 @@ DoneTasks::DoneTasks(const FarmJob& job) {
         }
         done_[json.at("rig").get<std::string>() + '\n' + json.at("take").get<std::string>() + '\n' +
               std::to_string(json.at("first").get<uint64_t>()) + '\n' +
-              std::to_string(json.at("count").get<uint64_t>())] = std::move(done);
+              std::to_string(json.at("count").get<uint64_t>())]
+            .push_back(std::move(done));
       } catch (const RecordJson::exception&) {
         // The end of a file whose worker was killed.
       }
@@ -81,13 +82,15 @@ DoneTasks::DoneTasks(const FarmJob& job) {
 
 bool DoneTasks::is_done(const FarmJob& job, const FarmTask& task, const TaskInputs& inputs) const {
   const auto found = done_.find(task_key(job, task));
-  if (found == done_.end() || !(found->second.inputs == inputs)) return false;
-  return std::all_of(
-      found->second.files.begin(), found->second.files.end(), [](const DoneFile& file) {
-        std::error_code reason;
-        const uint64_t bytes = fs::file_size(file.path, reason);
-        return !reason && bytes == file.bytes && file_fingerprint(file.path) == file.fingerprint;
-      });
+  if (found == done_.end()) return false;
+  const auto is_kept = [](const DoneFile& file) {
+    std::error_code reason;
+    const uint64_t bytes = fs::file_size(file.path, reason);
+    return !reason && bytes == file.bytes && file_fingerprint(file.path) == file.fingerprint;
+  };
+  return std::any_of(found->second.begin(), found->second.end(), [&](const DoneTask& done) {
+    return done.inputs == inputs && std::all_of(done.files.begin(), done.files.end(), is_kept);
+  });
 }
 
 TaskRecord::TaskRecord(const FarmJob& job, const std::string& piece) : job_(job) {

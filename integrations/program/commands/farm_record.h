@@ -48,7 +48,8 @@ class DoneTasks {
   bool is_done(const FarmJob& job, const FarmTask& task, const TaskInputs& inputs) const;
 
  private:
-  std::map<std::string, DoneTask> done_;
+  // Each time that a task was done. Records are read in no order, so the files tell which time was the last.
+  std::map<std::string, std::vector<DoneTask>> done_;
 };
 
 /// The file of this run.
