@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "author/base/dna_making.h"
 #include "author/document/control_poses.h"

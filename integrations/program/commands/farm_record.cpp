@@ -46,7 +46,12 @@ std::string record_folder(const FarmJob& job) {
 std::vector<DoneFile> describe_files(const std::vector<std::string>& paths) {
   std::vector<DoneFile> files;
   for (const std::string& path : paths) {
-    files.push_back({path, fs::file_size(path), file_fingerprint(path)});
+    std::error_code reason;
+    const uint64_t bytes = fs::file_size(path, reason);
+    if (reason) {
+      fail(kFile, "cannot read what was written", path, reason.message(), "see who removes it");
+    }
+    files.push_back({path, bytes, file_fingerprint(path)});
   }
   return files;
 }
