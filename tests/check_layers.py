@@ -37,7 +37,8 @@ GRAPH = {
                              "runtime/deform"],
     "runtime/load/report": ["runtime/base", "runtime/load/dna", "runtime/load/compile"],
     # libmien-author makes DNA files: generated ones, and from a mesh to a rig. What its stages hand to
-    # each other; bones; weights; motion; the file.
+    # each other; bones; weights; motion; the file; reports as text.
+    "author/text": [],
     "author/base": ["runtime/base", "runtime/load/dna/format"],
     "author/generate/head": ["runtime/base", "runtime/load/dna/format", "author/base"],
     "author/generate/synthetic": ["runtime/base", "runtime/load/dna/format", "author/base"],
@@ -51,7 +52,7 @@ GRAPH = {
                         "runtime/load/dna/convert", "runtime/load/dna", "author/base", "author/mesh",
                         "author/fit"],
     "author/rigging": ["runtime/base", "author/base", "author/mesh", "author/place", "author/weights", "author/fit",
-                       "author/rig_dna"],
+                       "author/rig_dna", "author/text"],
     # The C interface: the headers; what both libraries read their arguments with; each of them. capi looks
     # up the instruction set that a caller asks for: its simd.
     "capi/include": ["capi/include/mien", "capi/include/mien_author"],
@@ -68,12 +69,13 @@ GRAPH = {
 }
 PUBLIC_HEADERS = ("capi/include/mien.h", "capi/include/mien_author.h", "capi/include/mien_solve.h")
 
-# The rooms of the program: the same, and no room sees the libraries but through their headers.
+# The rooms of the program: the same, and no room sees the libraries but through their headers. author/text is headers
+# that need the standard library only.
 PROGRAM = "integrations/program"
 PROGRAM_GRAPH = {
     "math": [],
     "render": ["math"],                           # meshes -> images: knows nothing of rigs
-    "io": ["mien.h", "math"],                     # files, frames, JSON, output
+    "io": ["mien.h", "math", "author/text"],      # files, frames, JSON, output
     "gltf": ["mien.h", "math", "io"],             # rigs -> GLB, OBJ
     "model": [],                                  # a rig in double precision, from the formulas alone
     "accept": ["mien.h", "math", "io", "model"],  # the checks of `mien accept`
@@ -153,7 +155,7 @@ def check_program_include(path, resolved):
     if own not in PROGRAM_GRAPH:
         return "a room that this check does not know"
     if other is None:
-        other = resolved[len("capi/include/"):] if resolved in PUBLIC_HEADERS else resolved
+        other = resolved[len("capi/include/"):] if resolved in PUBLIC_HEADERS else layer_of(resolved) or resolved
     if other == own or other in PROGRAM_GRAPH[own]:
         return None
     return f"{own or 'main'} knows nothing of {other}: see PROGRAM_GRAPH"

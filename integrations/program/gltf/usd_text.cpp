@@ -57,7 +57,7 @@ void UsdText::token(const std::string& text) { text_ += usd_string(text); }
 std::string usd_string(const std::string& text) {
   std::string result = "\"";
   for (size_t i = 0; i < text.size();) {
-    const size_t length = cli::utf8_length(std::string_view(text).substr(i));
+    const size_t length = utf8_length(std::string_view(text).substr(i));
     const auto byte = static_cast<unsigned char>(text[i]);
     if (length == 0) {
       result += "\xEF\xBF\xBD";

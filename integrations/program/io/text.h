@@ -8,10 +8,9 @@
 #include <string_view>
 #include <vector>
 
-namespace mien::cli {
+#include "author/text/utf8.h"
 
-/// Length in bytes of the UTF-8 sequence at the start of `text` (not empty); 0 if it is invalid.
-size_t utf8_length(std::string_view text);
+namespace mien::cli {
 
 /// Escapes control characters and bytes that are not UTF-8, so that the text stays on one line.
 std::string one_line(std::string_view text);

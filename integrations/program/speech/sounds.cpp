@@ -37,7 +37,7 @@ std::u32string decode(const std::string& text) {
   std::u32string letters;
   std::string_view rest = text;
   while (!rest.empty()) {
-    const size_t length = cli::utf8_length(rest);
+    const size_t length = utf8_length(rest);
     if (length == 0) {
       rest.remove_prefix(1);
       continue;
