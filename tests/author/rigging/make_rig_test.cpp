@@ -76,7 +76,7 @@ TEST(MakeRig, FittedWeightsAreInOnePieceAndSmooth) {
 TEST(MakeRig, WithoutShapesPlacesAndWeighsOnly) {
   const Made made(procedural_mesh(5, false));
   ASSERT_EQ(made.status, Status::kOk) << made.why();
-  EXPECT_NE(made.report.find("\"fit\":null"), std::string::npos);
+  EXPECT_NE(made.report.find("\"fit\": null"), std::string::npos);
   EXPECT_GT(made.bytes.size(), 1000u);
 }
 
