@@ -10,6 +10,7 @@
 
 #include "tests/support/bytes.h"
 #include "tests/support/golden.h"
+#include "tests/support/long_run.h"
 #include "tests/support/rig_handles.h"
 #include "tests/support/tiny_rig.h"
 
@@ -23,7 +24,7 @@ struct Source {
 
 inline std::vector<Source> generated_sources() {
   std::vector<Source> sources;
-  for (uint32_t preset = MIEN_PRESET_TINY; preset <= MIEN_PRESET_LARGE; ++preset) {
+  for (uint32_t preset = MIEN_PRESET_TINY; preset <= largest_preset(); ++preset) {
     sources.push_back(
         {"preset " + std::to_string(preset), write_dna(generate_dna(preset, 5).get())});
   }

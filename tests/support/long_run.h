@@ -3,6 +3,8 @@
 // long -L long).
 #pragma once
 
+#include <mien_author.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -30,6 +32,11 @@ inline size_t byte_stride() {
   const char* wanted = std::getenv("MIEN_BYTE_STRIDE");
   const unsigned long long stride = wanted ? std::strtoull(wanted, nullptr, 10) : 1;
   return stride != 0 ? static_cast<size_t>(stride) : 1;
+}
+
+/// The last of the presets, from tiny on, that such a test generates: with a stride the large one is left out.
+inline uint32_t largest_preset() {
+  return byte_stride() == 1 ? MIEN_PRESET_LARGE : MIEN_PRESET_MEDIUM;
 }
 
 }  // namespace mien

@@ -14,6 +14,8 @@ import unittest
 DONE, USAGE, INVALID, FILE, INTERNAL = range(5)
 
 mien = os.environ.get("MIEN_BIN", "")
+# What takes long for what it shows: ./dev test --slow runs it.
+long_form = unittest.skipUnless(os.environ.get("MIEN_LONG_TESTS"), "long; MIEN_LONG_TESTS=1 runs it")
 folder = ""
 
 

@@ -13,7 +13,7 @@ import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..", "tests", "support"))
 import program  # noqa: E402
-from program import (DONE, USAGE, INVALID, FILE, ProgramTest, main,  # noqa: E402
+from program import (DONE, USAGE, INVALID, FILE, ProgramTest, long_form, main,  # noqa: E402
                      make, make_folder, path, read, run, write)
 
 
@@ -56,11 +56,14 @@ class EndlessInputs(ProgramTest):
         self.assertEqual(code, INVALID, error)
         self.assertLess(written, 1 << 20)
 
-    def test_json_has_a_largest_size(self):
+    @long_form
+    def test_json_from_a_pipe_has_a_largest_size(self):
         code, error, written = self.pipe(b" " * (1 << 20), "eval", path("small.dna"), "-i", "-")
         self.assertEqual(code, INVALID, error)
         self.assertIn("512 MiB", error)
         self.assertLess(written, 514 << 20)
+
+    def test_json_has_a_largest_size(self):
         with open(path("sparse.json"), "wb") as file:
             file.write(b"{")
             file.truncate(513 << 20)

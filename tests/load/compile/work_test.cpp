@@ -17,6 +17,7 @@
 #include "tests/support/cpu_time.h"
 #include "tests/support/exercise_dna.h"
 #include "tests/support/golden.h"
+#include "tests/support/long_run.h"
 #include "tests/support/many_rigs.h"
 
 namespace mien {
@@ -292,7 +293,7 @@ TEST(Work, OrdinaryRigsTakeATenthAtMost) {
     const Bytes bytes = golden::read_rig(name);
     expect_little(open_dna(bytes).get());
   }
-  for (uint32_t preset = MIEN_PRESET_TINY; preset <= MIEN_PRESET_LARGE; ++preset) {
+  for (uint32_t preset = MIEN_PRESET_TINY; preset <= largest_preset(); ++preset) {
     SCOPED_TRACE(preset);
     expect_little(generate_dna(preset, 3).get());
   }

@@ -10,6 +10,7 @@
 #include "tests/support/bytes.h"
 #include "tests/support/golden.h"
 #include "tests/support/layer_rig.h"
+#include "tests/support/long_run.h"
 #include "tests/support/other_system.h"
 #include "tests/support/random_space_rig.h"
 #include "tests/support/tiny_rig.h"
@@ -457,7 +458,7 @@ void expect_exact_return(const Bytes& bytes, MienCoordinateSystem system) {
 }
 
 TEST(CoordinateConversion, AxesAndSignsReturnExactly) {
-  for (uint32_t preset = MIEN_PRESET_TINY; preset <= MIEN_PRESET_LARGE; ++preset) {
+  for (uint32_t preset = MIEN_PRESET_TINY; preset <= largest_preset(); ++preset) {
     const Bytes bytes = write_dna(generate_dna(preset, 3).get());
     for (const char* name : {"unreal", "unity", "opengl"}) expect_exact_return(bytes, named(name));
   }
