@@ -84,17 +84,19 @@ PROGRAM_GRAPH = {
     "mesh": ["mien.h", "io"],          # meshes and shapes from files, for `mien author`
     "diff": ["mien.h", "io"],          # what differs between two DNA files
     "edit": ["mien.h", "mien_author.h", "io", "mesh"],  # DNA files that are changed
+    "reduce": ["mien.h", "mien_author.h", "io"],        # rigs within a tolerance of others
     "speech": ["mien.h", "io", "gltf"],          # text, sound and phonemes -> takes
     "play": ["mien.h", "io", "gltf", "speech"],  # scenes of `mien play`
     "baseline": [],                    # the sparse matrix that `mien bench` compares with
     "tests": ["mien.h", "mien_author.h", "io", "live"],
     "tests/gltf": ["gltf"],
+    "tests/reduce": ["mien.h", "mien_author.h", "io", "reduce"],
     "tests/render": ["render"],
     "tests/speech": ["mien.h", "mien_author.h", "io", "speech"],
     "view": ["io"],                    # the page of the viewer, served on this machine
     "commands": ["mien.h", "mien_author.h", "mien_solve.h", "accept", "math", "io", "render", "gltf", "scene", "mesh", "play", "live",
-                 "speech", "view", "edit", "diff", "baseline"],
-    "": ["mien.h", "mien_author.h", "io", "commands"],  # main.cpp, without_author.cpp
+                 "speech", "view", "edit", "diff", "reduce", "baseline"],
+    "": ["mien.h", "mien_author.h", "io", "reduce", "commands"],  # main.cpp, without_author.cpp
 }
 
 # Everything else outside sees the public headers and its own files. Tests and benchmarks see

@@ -7,6 +7,7 @@
 
 #include "integrations/program/commands/commands.h"
 #include "integrations/program/commands/solve.h"
+#include "integrations/program/reduce/reduce.h"
 
 namespace {
 
@@ -54,6 +55,19 @@ Command add_solve_command(CLI::App& app, const Session&) {
 void solve_file(const SolveCommand&, const Session&) {
   fail(kUsage, "mien solve", "", "this build of mien cannot solve (MIEN_BUILD_COMPILER=OFF)",
        "use a full build");
+}
+
+Reduced reduce_rig(const MienDna*, const ReduceOptions&) {
+  fail(kUsage, "mien bake --tolerance", "",
+       "this build of mien cannot reduce rigs (MIEN_BUILD_COMPILER=OFF)", "use a full build");
+}
+
+std::string reduction_text(const Reduced&, const std::vector<double>&, const std::string&) {
+  return "";
+}
+
+std::string reduction_json(const Reduced&, const std::vector<double>&, const std::string&) {
+  return "";
 }
 
 Command add_edit_command(CLI::App& app, const Session&) {

@@ -87,6 +87,37 @@ class Bake(ProgramTest):
         self.fails(INVALID, "render", path("bare.rig"), "-o", path("out.png"),
                      says="no geometry")
 
+    def test_tolerance(self):
+        sizes = []
+        for tolerance in ("0.01mm", "0.5mm,0.02cm"):
+            self.ok("bake", path("ml.dna"), "-o", path("reduced.rig"), "--tolerance", tolerance, "--report",
+                    path("report.json"), "--force")
+            report = json.loads(read("report.json"))
+            self.assertEqual(report["unit"], "cm")
+            self.assertGreaterEqual(report["poses"], 1000)
+            for lod in report["lods"]:
+                self.assertLessEqual(lod["rms"], lod["worst"])
+                self.assertLessEqual(lod["worst"], lod["tolerance"])
+            sizes.append(report["after"])
+        self.assertEqual([round(lod["tolerance"], 9) for lod in report["lods"]], [0.05, 0.02, 0.02])
+        self.assertLess(sizes[1]["deltas"], sizes[0]["deltas"])
+        self.assertLess(sizes[1]["skin_weights"], sizes[0]["skin_weights"])
+        self.assertEqual(self.json("info", path("reduced.rig"), "--json")["storage"], "f16")
+        self.evaluated(path("reduced.rig"))
+        first = read("reduced.rig")
+        done = self.ok("bake", path("ml.dna"), "-o", path("again.rig"), "--tolerance", "0.05,0.02")
+        self.assertEqual(read("again.rig"), first)
+        self.assertIn("Distance of positions from the original", done.stderr)
+
+    def test_tolerance_refusals(self):
+        bake = ["bake", path("ml.dna"), "-o", path("none.rig")]
+        for word in ("0", "-1mm", "x", "1 km", "nan", "1e999", "0.1mm,"):
+            self.fails(USAGE, *bake, "--tolerance", word, says="give numbers with um, mm, cm, m")
+        self.fails(USAGE, *bake, "--report", path("report.json"), says="add --tolerance")
+        self.fails(INVALID, *bake, "--tolerance", "1mm", "--no-geometry", says="no geometry")
+        self.fails(INVALID, *bake, "--tolerance", "1e-9", "--storage", "f16", says="16-bit storage alone")
+        self.assertFalse(os.path.exists(path("none.rig")))
+
     def test_what_needs_the_dna_says_so(self):
         for command in (["convert", path("small.rig"), "-o", path("out.dna")],
                         ["bake", path("small.rig"), "-o", path("out.rig")],
