@@ -25,13 +25,13 @@ export class Page {
   errors = [];
   requests = [];
 
-  static async open(chromium, { width = 1280, height = 800, dark = false } = {}) {
+  static async open(chromium, { width = 1280, height = 800, switches = [] } = {}) {
     const page = new Page();
     page.#profile = mkdtempSync(join(tmpdir(), "mien-chromium-"));
     page.#process = spawn(chromium, ["--headless=new", "--no-sandbox", "--remote-debugging-pipe", "--disable-dev-shm-usage",
       "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist",
       "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync",
-      "--js-flags=--expose-gc", `--user-data-dir=${page.#profile}`, `--window-size=${width},${height}`, "about:blank"],
+      "--js-flags=--expose-gc", ...switches, `--user-data-dir=${page.#profile}`, `--window-size=${width},${height}`, "about:blank"],
     { stdio: ["ignore", "ignore", "ignore", "pipe", "pipe"] });
     page.#process.stdio[4].setEncoding("utf8").on("data", (text) => page.#receive(text));
     page.#process.once("exit", () => {
@@ -43,8 +43,15 @@ export class Page {
     ({ sessionId: page.#session } = await page.send("Target.attachToTarget", { targetId, flatten: true }, null));
     for (const domain of ["Page", "Runtime", "Network", "Log", "DOM"]) await page.send(`${domain}.enable`);
     await page.size(width, height);
-    await page.send("Emulation.setEmulatedMedia", { features: [{ name: "prefers-color-scheme", value: dark ? "dark" : "light" }] });
+    await page.prefer();
     return page;
+  }
+
+  /** What the user prefers. Nothing moves by itself unless a test asks for it. */
+  prefer({ dark = false, motion = false } = {}) {
+    return this.send("Emulation.setEmulatedMedia", { features: [
+      { name: "prefers-color-scheme", value: dark ? "dark" : "light" },
+      { name: "prefers-reduced-motion", value: motion ? "no-preference" : "reduce" }] });
   }
 
   #receive(text) {

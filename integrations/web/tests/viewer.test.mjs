@@ -1,80 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The viewer in a headless Chromium, used as people use it.
 import assert from "node:assert/strict";
-import { existsSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { existsSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { after, afterEach, before, test } from "node:test";
+import { test } from "node:test";
 import { deflateSync } from "node:zlib";
-import { serve } from "../serve.mjs";
-import { findChromium, Page } from "./browser.mjs";
 import { mien, project, sameBits } from "./support.mjs";
-
-const folder = join(project, "build/web/viewer");
-const chromium = findChromium();
-const missing = !existsSync(folder) ? "it was not built" : !chromium ? "there is no Chromium" : null;
-if (missing) console.log(`NOT TESTED: the viewer in a browser; ${missing}`);
-const options = { skip: missing ?? false };
-
-const work = mkdtempSync(join(tmpdir(), "mien-viewer-"));
-const dna = join(work, "head.dna");
-const baked = join(work, "head.rig");
-let server;
-let page;
-
-before(async () => {
-  if (missing) return;
-  mien(["demo-head", "-o", dna, "--quiet"]);
-  mien(["bake", dna, "-o", baked, "--quiet"]);
-  mien(["export", dna, "-o", join(work, "head.glb"), "--quiet"]);
-  server = await serve(folder);
-  page = await Page.open(chromium, { width: 800, height: 400 }); // small: the GPU is software
-  await page.goto(server.url);
-  await page.until("() => document.body.dataset.ready", "loaded");
-});
-
-after(async () => {
-  await page?.close();
-  server?.close();
-  rmSync(work, { recursive: true });
-});
-
-// A test that fails leaves no messages to the next one.
-afterEach(() => { if (page) page.errors.length = 0; });
-
-const text = (id) => page.run((of) => document.getElementById(of).textContent, id);
-const frames = (count = 2) => page.run(async (wanted) => {
-  for (let i = 0; i < wanted; ++i) await new Promise(requestAnimationFrame);
-}, count);
-
-/** Opens files by the button, and waits until the page has dealt with them. */
-async function open(...paths) {
-  await page.run(() => { window.viewerModel = window.viewer.model; });
-  await page.choose("#files", paths);
-  await page.until("() => document.body.hasAttribute('aria-busy') || window.viewer.model !== window.viewerModel || " +
-    "!document.getElementById('error').hidden || document.getElementById('files').value === ''", "begun");
-  await page.until("() => !document.body.hasAttribute('aria-busy') && document.getElementById('files').value === ''", "opened");
-  await frames();
-}
-
-/** As a person does: browsers play no sound before. */
-const press = (id) => page.run((of) => document.getElementById(of).click(), id);
-
-/** Moves a slider as a user does. */
-const slide = (name, value) => page.run((label, to) => {
-  const input = document.querySelector(`#list input[aria-label="${label}"]`);
-  input.value = to;
-  input.dispatchEvent(new Event("input", { bubbles: true }));
-}, name, value);
-
-const choose = (id, value) => page.run((of, to) => {
-  const element = document.getElementById(of);
-  if (element.type === "checkbox") element.checked = to;
-  else element.value = to;
-  element.dispatchEvent(new Event("change"));
-}, id, value);
-
-const numbers = async (what) => Float32Array.from(await page.run(`() => Array.from(${what})`));
+import { baked, choose, dna, folder, frames, missing, numbers, open, options, page, press, server, slide, text, work } from "./viewer_page.mjs";
 
 /** The middle of the canvas, as 64 x 64 pixels. */
 const canvas = () => page.run(async () => {
@@ -427,11 +359,11 @@ test("the sound of a take is its clock; what is no sound says so", options, asyn
   await open(csv, wav); // in any order
   assert.match(await text("file"), /voice\.wav: 2\.0 s of sound/);
   await press("play");
-  if (!await page.run(() => window.viewer.take.isPlaying)) await press("play");
-  await page.until("() => window.viewer.sound.time > 0.3", "heard");
+  if (!await page.run(() => window.viewer.player.isPlaying)) await press("play");
+  await page.until("() => window.viewer.player.sound.time > 0.3", "heard");
   // However long a frame takes: what is shown is the time of the sound, here of one that stands still for three frames.
   const shown = await page.run(async () => {
-    const { audio } = window.viewer.sound;
+    const { audio } = window.viewer.player.sound;
     for (const [name, value] of Object.entries({ currentTime: 0.75, paused: false, ended: false })) {
       Object.defineProperty(audio, name, { configurable: true, value, writable: true });
     }
@@ -442,16 +374,16 @@ test("the sound of a take is its clock; what is no sound says so", options, asyn
   });
   assert.equal(shown, 0.75);
   // The take goes on after its sound, and both begin again.
-  await page.until("() => Number(document.getElementById('time').value) > 2.3 && window.viewer.sound.time === null", "goes on");
-  await page.until("() => window.viewer.sound.time !== null && window.viewer.sound.time < 1.5", "begins again");
+  await page.until("() => Number(document.getElementById('time').value) > 2.3 && window.viewer.player.sound.time === null", "goes on");
+  await page.until("() => window.viewer.player.sound.time !== null && window.viewer.player.sound.time < 1.5", "begins again");
   await page.run(() => {
     const time = document.getElementById("time");
     time.value = "1.25";
     time.dispatchEvent(new Event("input"));
   });
-  assert.deepEqual(await page.run(() => [window.viewer.sound.audio.paused, window.viewer.sound.audio.currentTime]), [true, 1.25]);
+  assert.deepEqual(await page.run(() => [window.viewer.player.sound.audio.paused, window.viewer.player.sound.audio.currentTime]), [true, 1.25]);
   await page.run(() => document.getElementById("mute").click());
-  assert.equal(await page.run(() => window.viewer.sound.audio.muted), true);
+  assert.equal(await page.run(() => window.viewer.player.sound.audio.muted), true);
 
   writeFileSync(wav, "no sound");
   await open(wav);
@@ -570,7 +502,7 @@ if (!missing && !existsSync(axe)) console.log("NOT TESTED: accessibility of the 
 for (const [name, width, height, dark] of [["light", 1280, 800, false], ["dark", 1280, 800, true], ["phone", 390, 800, false]]) {
   test(`axe-core finds nothing: ${name}`, { skip: missing ?? (existsSync(axe) ? false : "there is no axe-core") }, async () => {
     await page.size(width, height, width < 500);
-    await page.send("Emulation.setEmulatedMedia", { features: [{ name: "prefers-color-scheme", value: dark ? "dark" : "light" }] });
+    await page.prefer({ dark });
     // With a long list of what a control moves.
     await page.run(() => document.querySelector('#list input[aria-label="jawOpen"]').closest("li").querySelector("button").click());
     // Through the protocol, past the policy of the page.

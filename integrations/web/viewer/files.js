@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Performances and poses as text: CSV of the Live Link Face app, JSON of this page and of `mien eval`.
+// Performances and poses as text: CSV of the Live Link Face app, JSON of this page, `mien eval` and `mien play`.
 
 /** {names, values, rate} of a CSV file: a heading of names, then a row per frame. */
 export function readCsv(text) {
@@ -35,16 +35,25 @@ function rateOf(heading, lines) {
   return [24, 25, 30, 50, 60].find((rate) => most < rate) ?? 60;
 }
 
-/** A pose {raw: {name: value}} or frames of them; {names, values, rate} for frames, {pose} for one pose. */
-export function readJson(text) {
-  const value = JSON.parse(text);
-  const frames = Array.isArray(value?.frames) ? value.frames.map((frame) => frame.raw ?? frame)
-    : [value?.raw ?? value];
+/** Values by name: of an object, or of a list in the order of `names`. */
+function named(values, names, what) {
+  if (Array.isArray(values) && Array.isArray(names)) {
+    if (values.length !== names.length) throw new Error(`${what}: ${values.length} values for ${names.length} names`);
+    return Object.fromEntries(values.map((value, i) => [names[i], value]));
+  }
+  if (!values || typeof values !== "object" || Array.isArray(values)) throw new Error(`${what} is no object of controls by name`);
+  return values;
+}
+
+/** A pose {raw: {name: value}}, frames of them, or frames of `mien play`, with lists of values; {names, values, rate} for
+ * frames, {pose} for one pose. */
+export function readFrames(value) {
+  const frames = !Array.isArray(value?.frames) ? [value?.raw ?? value] : value.frames.map((frame, i) => {
+    const variables = frame?.variables ? named(frame.variables, value.variables, `frame ${i}, variables`) : {};
+    return { ...named(frame?.raw ?? frame, value.controls, `frame ${i}`), ...variables };
+  });
   for (const [i, frame] of frames.entries()) {
-    if (!frame || typeof frame !== "object" || Array.isArray(frame)) {
-      throw new Error(`frame ${i} is no object of controls by name`);
-    }
-    for (const [name, number] of Object.entries(frame)) {
+    for (const [name, number] of Object.entries(named(frame, null, `frame ${i}`))) {
       if (typeof number !== "number" || !Number.isFinite(number)) throw new Error(`frame ${i}, ${name}: no number`);
     }
   }

@@ -53,6 +53,7 @@ export class Materials {
       texture.flipY = false; // the image is
       texture.wrapS = texture.wrapT = RepeatWrapping;
       texture.colorSpace = kind === "base_color" ? SRGBColorSpace : LinearSRGBColorSpace;
+      texture.anisotropy = 8; // pores seen from the side would shimmer
       texture.needsUpdate = true;
       made[slot] = texture;
       this.#made.push(texture);

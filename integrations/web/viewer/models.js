@@ -22,7 +22,7 @@ export class RigModel {
     const { materials, ...shown } = options;
     this.materials = materials;
     this.object = new FaceObject(rig, { ...shown, material: (kind, name) => materials?.of(name) });
-    this.face = this.object.face;
+    this.face = this.object.face; // with the pose of the controls
     this.times = { evaluation: 0, deformation: 0 };
     this.kinds = [["raw", "Raw controls"]];
     this.hasGui = rig.count(Kind.GUI_CONTROL) !== 0;
@@ -70,6 +70,20 @@ export class RigModel {
     return missing;
   }
 
+  /** Sets some controls, by names that mean them on this rig, and leaves the others. Of several names for a control the
+   * largest value counts. */
+  drive(pose) {
+    const raw = this.face.rawControls;
+    const found = new Map();
+    for (const [name, value] of Object.entries(pose)) {
+      for (const { control, weight } of this.rig.match(name)?.shares ?? []) {
+        found.set(control, Math.max(found.get(control) ?? -Infinity, weight * value));
+      }
+    }
+    for (const [control, value] of found) raw[control] = value;
+    if (this.hasGui) this.face.mapRawToGui();
+  }
+
   /** Whether a name means something on this rig. */
   has(name) {
     return this.rig.match(name) !== undefined;
@@ -81,10 +95,13 @@ export class RigModel {
     return Object.fromEntries(this.names("raw").map((name, i) => [name, raw[i]]).filter((_, i) => raw[i] !== initial[i]));
   }
 
-  update() {
+  /** Shows the pose of the controls, or that of another instance of the rig. */
+  update(shown = this.face) {
+    if (shown !== this.face) this.face.evaluate(this.object.lod); // whose results are asked for, too
     const start = performance.now();
-    this.face.evaluate(this.object.lod);
+    shown.evaluate(this.object.lod);
     const evaluated = performance.now();
+    this.object.face = shown;
     this.object.pose();
     const posed = performance.now();
     // Means over some frames: clocks of browsers are coarse.
@@ -134,6 +151,7 @@ export class RigModel {
 
   dispose() {
     this.arkit?.dispose();
+    this.object.face = this.face;
     this.object.dispose();
     this.rig.dispose();
   }
@@ -147,7 +165,8 @@ export class GlbModel {
     return new GlbModel(mien, await new GLTFLoader().parseAsync(buffer, ""));
   }
 
-  constructor(mien, { scene }) {
+  constructor(mien, { scene, animations }) {
+    this.animations = animations;
     this.mien = mien;
     this.object = scene;
     this.times = null;
@@ -205,8 +224,24 @@ export class GlbModel {
     }).map(([name]) => name);
   }
 
+  /** Sets some targets, and leaves the others. */
+  drive(pose) {
+    for (const [name, value] of Object.entries(pose)) {
+      const index = this.#indexOf(name);
+      if (index >= 0) this.current[index] = value;
+    }
+  }
+
   pose() {
     return Object.fromEntries(this.list.map((name, i) => [name, this.current[i]]).filter(([, value]) => value !== 0));
+  }
+
+  /** Takes over the weights that the targets have now. */
+  readTargets() {
+    this.list.forEach((name, i) => {
+      const [mesh, target] = this.targets.get(name)[0];
+      this.current[i] = mesh.morphTargetInfluences[target];
+    });
   }
 
   update() {

@@ -8,7 +8,7 @@ const RATE = 60;
 const MOST_FRAMES = 600 * RATE;
 
 /** Takes the pose of a model at 60 frames a second of the clock. */
-export class Recording {
+class Recording {
   #start = 0;
   frames = [];
 
@@ -25,6 +25,52 @@ export class Recording {
   /** What `mien eval` and this page take. */
   json() {
     return `${JSON.stringify({ rate: RATE, frames: this.frames })}\n`;
+  }
+}
+
+/** Gives the user a file. */
+export function download(name, content, type = "application/json") {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(new Blob([content], { type }));
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+}
+
+/** The button that records, and downloads the recording when it is pressed again. */
+export class Recorder {
+  #button;
+  #recording = null;
+
+  constructor(button, requested) {
+    this.#button = button;
+    button.addEventListener("click", () => {
+      if (this.isOn) this.#end();
+      else this.#set(new Recording());
+      requested();
+    });
+  }
+
+  get isOn() { return this.#recording !== null; }
+
+  /** Takes the pose of a frame, if it is on. */
+  take(time, model) {
+    if (this.isOn && !this.#recording.take(time, model.pose())) this.#end();
+  }
+
+  drop() { this.#set(null); }
+
+  #set(recording) {
+    this.#recording = recording;
+    this.#button.textContent = recording ? "Stop and download" : "Record";
+    this.#button.setAttribute("aria-pressed", String(recording !== null));
+  }
+
+  #end() {
+    const { frames } = this.#recording;
+    const text = this.#recording.json();
+    this.drop();
+    if (frames.length) download("take.json", text);
   }
 }
 

@@ -1,41 +1,38 @@
 // SPDX-License-Identifier: MIT
-// What is seen: camera, lights, the face, its skeleton and heat map. Drawn when something has changed.
+// What is seen: camera, lights, the face, what it is compared with, and its skeleton. Drawn when something has changed.
 import {
-  ACESFilmicToneMapping, AmbientLight, Box3, BufferAttribute, BufferGeometry, DirectionalLight, HemisphereLight,
-  LineBasicMaterial, LineSegments, MathUtils, PerspectiveCamera, Scene, Spherical, SRGBColorSpace, Vector3, WebGLRenderer,
+  ACESFilmicToneMapping, BufferAttribute, BufferGeometry, Euler, Group, LineBasicMaterial, LineSegments, MathUtils,
+  Matrix4, PerspectiveCamera, Scene, Spherical, SRGBColorSpace, Vector3, WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { Lights } from "./lights.js";
+import { regionsOf } from "./regions.js";
 
 export class Stage {
+  #how = "now";
+
   constructor(canvas) {
     this.canvas = canvas;
     this.renderer = new WebGLRenderer({ canvas, alpha: true, antialias: true });
     this.renderer.outputColorSpace = SRGBColorSpace;
     this.renderer.toneMapping = ACESFilmicToneMapping;
     this.scene = new Scene();
+    this.pivot = new Group(); // turns the object as a head turns
+    this.pivot.matrixAutoUpdate = false;
+    this.scene.add(this.pivot);
     this.camera = new PerspectiveCamera(26, 1, 0.005, 50);
     this.camera.position.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.addEventListener("change", () => this.request());
     this.drawn = 0;
+    this.neck = new Vector3();
+    this.base = new Matrix4(); // where the object stands
+    this.regions = {};
     this.beforeDraw = () => false; // returns true to be called again in the next frame
-    this.#light();
+    this.lights = new Lights(this.scene);
     new ResizeObserver(() => this.#resize()).observe(canvas.parentElement);
     this.#resize();
     canvas.addEventListener("keydown", (event) => this.#key(event));
-  }
-
-  #light() {
-    const lamp = (color, strength, x, y, z) => {
-      const light = new DirectionalLight(color, strength);
-      light.position.set(x, y, z);
-      this.scene.add(light);
-    };
-    lamp(0xfff0e0, 2.6, -0.5, 0.6, 0.8);
-    lamp(0xbfd0e8, 0.6, 0.9, 0.1, 0.6);
-    lamp(0xdfeaff, 1.8, 0.8, 0.4, -0.7);
-    lamp(0xe8ecf4, 0.8, -0.8, 0.3, -0.8);
-    this.scene.add(new HemisphereLight(0xd8e0ea, 0x8c7466, 0.9), new AmbientLight(0xffffff, 0.15));
   }
 
   #resize() {
@@ -65,35 +62,65 @@ export class Stage {
 
   /** Puts an object in view, seen from the front. */
   show(object) {
-    if (this.object) this.scene.remove(this.object);
+    if (this.object) this.pivot.remove(this.object);
     this.object = object;
     this.hideSkeleton();
+    this.moveHead(null);
     if (!object) return;
-    this.scene.add(object);
     object.updateMatrixWorld(true);
-    const box = new Box3();
-    object.traverse((node) => {
-      if (!node.isMesh || !node.visible) return;
-      node.geometry.computeBoundingBox();
-      box.union(node.geometry.boundingBox.clone().applyMatrix4(node.matrixWorld));
-    });
-    if (box.isEmpty()) return;
-    const size = box.getSize(new Vector3());
-    const center = box.getCenter(new Vector3());
-    // Of a body the upper part, where the face is.
-    if (size.y > 1) {
-      center.y = box.max.y - 0.14;
-      size.y = 0.34;
-      size.x = Math.min(size.x, 0.34);
-    }
-    const distance = Math.max(size.y, size.x / Math.min(1, this.camera.aspect)) * 0.5 / Math.tan(MathUtils.degToRad(13));
+    const found = regionsOf(object);
+    this.pivot.add(object);
+    this.regions = found?.regions ?? {};
+    if (!found) return;
+    this.isBody = found.isBody;
+    this.neck.copy(found.neck);
+    this.lookAt("Head");
+  }
+
+  /** Puts the camera before a part of the object that is shown, one of `regions`, with room for so many beside each other. */
+  lookAt(name, count = 1) {
+    const { center, width, height, depth, yaw, pitch = 0 } = this.regions[name];
+    const half = Math.tan(MathUtils.degToRad(this.camera.fov / 2));
+    const distance = Math.max(height, count * width / (count > 1 ? this.camera.aspect : Math.min(1, this.camera.aspect))) * 0.5 / half;
     this.controls.target.copy(center);
-    this.camera.position.copy(center).add(new Vector3(0.12, 0.04, 1).normalize().multiplyScalar(distance * 1.15 + size.z * 0.4));
+    const place = new Spherical(distance * 1.15 + depth * 0.4, MathUtils.degToRad(90 - pitch), MathUtils.degToRad(yaw));
+    this.camera.position.setFromSpherical(place).add(center);
     this.camera.near = distance / 100;
-    this.camera.far = distance * 20;
+    this.camera.far = 20 * Math.max(distance, 1);
     this.camera.updateProjectionMatrix();
     this.controls.update();
     this.request();
+  }
+
+  /** Shows another object, before the object or beside it; null: none. `how` is "side", "before" or "now". */
+  compare(other, how) {
+    if (this.other) this.scene.remove(this.other);
+    const wasSide = this.other && this.#how === "side";
+    this.other = other;
+    this.#how = how;
+    this.pivot.visible = how !== "before";
+    const apart = how === "side" ? 0.55 * (this.regions.Head?.width ?? 0) : 0;
+    this.base.makeTranslation(apart, 0, 0);
+    if (other && how !== "now") {
+      other.position.x = -apart;
+      this.scene.add(other);
+    }
+    if (this.regions.Head && (how === "side" || wasSide)) this.lookAt("Head", how === "side" ? 2 : 1);
+    this.request();
+  }
+
+  /** Turns the head about its neck: radians to the left and up, and a rise in millimeters; null: back to its place. A
+   * body stays where it is. */
+  moveHead(motion) {
+    const { matrix } = this.pivot;
+    matrix.identity();
+    this.pivot.matrixWorldNeedsUpdate = true;
+    if (motion && !this.isBody) {
+      matrix.makeRotationFromEuler(new Euler(-motion.up, motion.left, 0, "YXZ"));
+      const moved = this.neck.clone().applyMatrix4(matrix);
+      matrix.setPosition(this.neck.clone().sub(moved).add(new Vector3(0, motion.rise / 1000, 0)));
+    }
+    matrix.premultiply(this.base);
   }
 
   /** Lines from each joint to its parent; `matrices` are model matrices of 16 floats. */
@@ -106,7 +133,7 @@ export class Stage {
       this.bones.matrix.copy(matrix);
       this.bones.frustumCulled = false;
       this.bones.renderOrder = 1;
-      this.scene.add(this.bones);
+      this.pivot.add(this.bones);
     }
     const { position } = this.bones.geometry.attributes;
     parents.forEach((parent, joint) => {
@@ -120,7 +147,7 @@ export class Stage {
 
   hideSkeleton() {
     if (!this.bones) return;
-    this.scene.remove(this.bones);
+    this.pivot.remove(this.bones);
     this.bones.geometry.dispose();
     this.bones.material.dispose();
     this.bones = null;
@@ -137,70 +164,4 @@ export class Stage {
       if (again) this.request();
     });
   }
-}
-
-/** Colors the vertices of meshes by their distance from the neutral pose: still ones gray, the farthest red. */
-export class HeatMap {
-  #meshes = new Map();
-
-  apply(face) {
-    let most = 0;
-    const distances = new Map();
-    face.traverse((mesh) => {
-      if (!mesh.isMesh || !mesh.visible) return;
-      if (!this.#meshes.has(mesh)) this.#begin(mesh, face);
-      const { neutral } = this.#meshes.get(mesh);
-      const { array } = mesh.geometry.attributes.position;
-      const found = new Float32Array(array.length / 3);
-      for (let i = 0; i < found.length; ++i) {
-        const at = 3 * i;
-        found[i] = Math.hypot(array[at] - neutral[at], array[at + 1] - neutral[at + 1], array[at + 2] - neutral[at + 2]);
-        if (found[i] > most) most = found[i];
-      }
-      distances.set(mesh, found);
-    });
-    const scale = most > 0 ? 1 / most : 0;
-    for (const [mesh, found] of distances) {
-      const color = mesh.geometry.attributes.color;
-      found.forEach((distance, i) => {
-        const t = distance * scale;
-        color.setXYZ(i, 0.35 + 0.5 * t, 0.35 * (1 - t) + 0.35 * t * (1 - t), 0.37 * (1 - t) ** 2);
-      });
-      color.needsUpdate = true;
-    }
-    return most;
-  }
-
-  #begin(mesh, face) {
-    const { material, geometry } = mesh;
-    const state = {
-      color: geometry.attributes.color, base: material.color.getHex(), vertexColors: material.vertexColors,
-      neutral: neutralOf(mesh, face),
-    };
-    geometry.setAttribute("color", new BufferAttribute(new Float32Array(geometry.attributes.position.array.length), 3));
-    material.color.set(0xffffff);
-    material.vertexColors = true;
-    material.needsUpdate = true;
-    this.#meshes.set(mesh, state);
-  }
-
-  end() {
-    for (const [mesh, state] of this.#meshes) {
-      if (state.color) mesh.geometry.setAttribute("color", state.color);
-      else mesh.geometry.deleteAttribute("color");
-      mesh.material.color.set(state.base);
-      mesh.material.vertexColors = state.vertexColors;
-      mesh.material.needsUpdate = true;
-    }
-    this.#meshes.clear();
-  }
-}
-
-function neutralOf(mesh, face) {
-  const { positions, vertexPositionIndices } = face.rig.deformer.mesh(mesh.userData.index);
-  const neutral = new Float32Array(3 * vertexPositionIndices.length);
-  vertexPositionIndices.forEach((position, i) => {
-    for (let k = 0; k < 3; ++k) neutral[3 * i + k] = positions[3 * position + k];
-  });
-  return neutral;
 }

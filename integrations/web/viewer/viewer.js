@@ -1,21 +1,35 @@
 // SPDX-License-Identifier: MIT
 // The page: opens files, and connects its controls with what is shown.
-import { Isa, Mien, Preset, TICKS_PER_SECOND } from "mien";
-import { readCsv, readJson } from "./files.js";
+import { Isa, Mien, Preset } from "mien";
+import { Attention } from "./attention.js";
+import { Comparison } from "./compare.js";
+import { readCsv, readFrames } from "./files.js";
+import { HeatMap } from "./heat.js";
+import { LIGHTS } from "./lights.js";
+import { Live } from "./live.js";
 import { Materials } from "./materials.js";
+import { Microphone } from "./microphone.js";
 import { GlbModel, RigModel } from "./models.js";
 import { Panel } from "./panel.js";
+import { AnimationTake, ClipTake, Player } from "./playing.js";
 import { PRESETS } from "./presets.js";
-import { exportGlb, Recording } from "./record.js";
+import { download, exportGlb, Recorder } from "./record.js";
+import { isScene, mixClip, sceneClip } from "./scene.js";
 import { Sound, SOUNDS } from "./sound.js";
-import { HeatMap, Stage } from "./stage.js";
+import { Stage } from "./stage.js";
+
+const TAKES = /\.(csv|clip|mix)$/i;
 
 const $ = (id) => document.getElementById(id);
 const stage = new Stage($("canvas"));
 const heat = new HeatMap();
+const attention = new Attention(stage);
+const player = new Player({ sampled: sample, said: say, requested: () => stage.request() });
+const comparison = new Comparison(stage, { shown: () => ({ ...opened, model }), changed: setColors });
+const recorder = new Recorder($("record"), () => stage.request());
 const panel = new Panel({
   changed(kind, index, value) {
-    stop();
+    player.leave();
     model.set(kind, index, value);
     pose();
   },
@@ -25,10 +39,10 @@ const panel = new Panel({
 let mien = null;
 let model = null;
 let opened = null; // name and bytes of the model
-let take = null; // what plays: clip, player, binding
-let sound = null; // what is heard while it plays
-let recording = null;
+let microphone = null;
+let live = null;
 let dirty = false;
+let wasAlive = false; // in the last frame
 
 // ---- messages ---------------------------------------------------------------------------------------
 
@@ -75,80 +89,86 @@ async function openModel(name, bytes, materials) {
     isa: Number($("isa").value) || Isa.SSE2, skinning: $("skinning").value, showFilms: $("films").checked, materials,
   };
   const isGlb = bytes.length >= 4 && String.fromCharCode(...bytes.subarray(0, 4)) === "glTF";
-  if (!isGlb) await loadModule();
+  await loadModule();
   const made = isGlb ? await GlbModel.open(mien, bytes) : await RigModel.open(mien, bytes, options);
-  dropTake();
+  player.drop();
   heat.end();
+  attention.show(made);
   model?.dispose();
   model = made;
-  if (opened?.materials !== materials) opened?.materials?.dispose();
+  if (opened?.materials !== materials && !comparison.uses(opened?.materials)) opened?.materials?.dispose();
   opened = { name, bytes, materials };
   $("welcome").hidden = true;
   stage.show(model.object);
+  showRegions();
+  comparison.refresh();
   fillView(isGlb);
   panel.show(model);
   showPresets();
-  for (const id of ["pose", "view", "sliders"]) $(id).hidden = false;
+  for (const id of ["pose", "camera", "pair", "view", "sliders"]) $(id).hidden = false;
   $("inspect").hidden = $("save-glb").hidden = isGlb;
-  dropRecording();
-  $("play").hidden = $("time-row").hidden = true;
-  dropSound();
+  recorder.drop();
   $("facts").textContent = model.facts;
   say(name);
+  const [animation] = model.animations ?? [];
+  if (animation) {
+    player.open(new AnimationTake(model, animation));
+    say(`${name}: an animation of ${animation.duration.toFixed(1)} s`);
+  }
   pose();
 }
 
-async function openTake({ names, values, rate }) {
+function needRig() {
   if (!(model instanceof RigModel)) throw new Error("open a rig first, then what it plays");
+}
+
+function openTake({ names, values, rate }) {
   openClip(mien.buildClip({ names, values, rateNumerator: rate, rateDenominator: 1 }));
 }
 
 function openClip(clip) {
-  const binding = clip.bind(model.rig, { matrix: mien.arkitMatrix() });
-  if (binding.info.controls.length === 0) {
-    for (const object of [binding, clip]) object.dispose();
-    throw new Error("none of its channels is a control of this rig");
-  }
-  dropTake();
-  dropSound();
-  take = { clip, binding, player: clip.player({ looping: 2 }), isPlaying: false, last: 0 };
-  $("play").hidden = $("time-row").hidden = false;
-  $("time").max = String(clip.duration);
-  say(`${opened.name}: ${binding.info.controls.length} controls played, ${clip.duration.toFixed(1)} s`);
-  play();
+  const take = new ClipTake(clip, model, mien.arkitMatrix());
+  player.open(take);
+  say(`${opened.name}: ${take.controlCount} controls played, ${take.duration.toFixed(1)} s`);
 }
 
 async function openSound(name, bytes) {
-  if (!take) throw new Error("open a rig and a take first, then its sound");
-  const made = await Sound.open(name, bytes);
-  stop();
-  dropSound();
-  sound = made;
-  sound.isMuted = $("mute").checked;
-  $("mute-row").hidden = false;
+  if (!player.take) throw new Error("open a rig and a take first, then its sound");
+  const sound = await Sound.open(name, bytes);
   say(`${opened.name}, ${name}: ${sound.duration.toFixed(1)} s of sound`);
-  take.player.seek(0);
-  play();
+  player.openSound(sound);
 }
 
-async function openBytes(name, bytes, materials) {
+async function openJson(text, find) {
+  const value = JSON.parse(text);
+  if (isScene(value)) {
+    needRig();
+    openClip(await sceneClip(value, model.rig, mien, find));
+    return;
+  }
+  const read = readFrames(value);
+  if (!read.pose) {
+    needRig();
+    openTake(read);
+    return;
+  }
+  if (!model) throw new Error("open a rig first, then a pose");
+  player.leave();
+  const missing = model.setPose(read.pose);
+  pose();
+  if (missing.length) throw new Error(`this rig has no ${missing.slice(0, 5).join(", ")}${missing.length > 5 ? " …" : ""}`);
+}
+
+/** Opens the bytes of a file. `find` gives the bytes of another one, by its name, or null. */
+async function openBytes(name, bytes, materials, find = async () => null) {
   clearError();
   if (SOUNDS.test(name)) return openSound(name, bytes);
   const ending = name.slice(name.lastIndexOf(".") + 1).toLowerCase();
-  if (ending === "csv") return openTake(readCsv(new TextDecoder().decode(bytes)));
-  if (ending === "json") {
-    const read = readJson(new TextDecoder().decode(bytes));
-    if (!read.pose) return openTake(read);
-    if (!model) throw new Error("open a rig first, then a pose");
-    stop();
-    const missing = model.setPose(read.pose);
-    pose();
-    if (missing.length) throw new Error(`this rig has no ${missing.slice(0, 5).join(", ")}${missing.length > 5 ? " …" : ""}`);
-    return undefined;
-  }
-  if (ending === "clip") {
-    if (!(model instanceof RigModel)) throw new Error("open a rig first, then what it plays");
-    return openClip(await mien.openClip(bytes));
+  if (ending === "json") return openJson(new TextDecoder().decode(bytes), find);
+  if (TAKES.test(name)) {
+    needRig();
+    if (ending === "csv") return openTake(readCsv(new TextDecoder().decode(bytes)));
+    return openClip(ending === "mix" ? await mixClip(bytes, model.rig, mien) : await mien.openClip(bytes));
   }
   say(`Opening ${name} …`);
   const before = opened?.name ?? "No file is open.";
@@ -186,18 +206,22 @@ async function openFiles(files) {
     const name = path.slice(path.lastIndexOf("/") + 1);
     return images.find((image) => image.name === name) ?? null;
   });
-  // Rigs before what they play, and takes before their sound.
-  const order = (file) => (SOUNDS.test(file.name) ? 2 : /\.(csv|json|clip)$/i.test(file.name) ? 1 : 0);
+  // Rigs before what they play, clips before scenes of them, and takes before their sound.
+  const order = ({ name }) => (SOUNDS.test(name) ? 3 : /\.json$/i.test(name) ? 2 : TAKES.test(name) ? 1 : 0);
+  const find = async (name) => {
+    const file = list.find((one) => one.name === name);
+    return file ? new Uint8Array(await file.arrayBuffer()) : null;
+  };
   const others = list.filter((file) => file !== ofMaterials && !(ofMaterials && images.includes(file)));
   if (materials && others.length === 0 && opened) {
     // For the rig that is open.
     const before = opened.materials;
     opened.materials = materials;
     await reopen();
-    before?.dispose();
+    if (!comparison.uses(before)) before?.dispose();
   }
   for (const file of others.sort((a, b) => order(a) - order(b))) {
-    await attempt(`${file.name} could not be opened`, async () => openBytes(file.name, new Uint8Array(await file.arrayBuffer()), materials));
+    await attempt(`${file.name} could not be opened`, async () => openBytes(file.name, new Uint8Array(await file.arrayBuffer()), materials, find));
   }
   sayAboutMaterials(materials, sayFailure);
 }
@@ -225,46 +249,67 @@ function pose() {
 
 stage.beforeDraw = (time) => {
   if (!model) return false;
-  if (take?.isPlaying) advance(time);
+  if (player.isPlaying) player.advance(time);
+  if (microphone) drive(microphone.pose(time));
   if ($("auto-lod").checked && model.rig) {
     const lod = model.object.lodOf(stage.camera);
     if (lod !== model.object.lod) setLod(lod);
   }
-  if (dirty) {
-    dirty = false;
-    model.update();
+  const alive = attention.step(time, model.face, player.isPlaying || colorsDistances());
+  stage.moveHead(sum(attention.motion, player.motion));
+  if (dirty || alive || wasAlive) {
+    model.update(alive ?? undefined);
     if (model.rig) afterUpdate();
     panel.refresh();
   }
-  if (recording && !recording.take(time, model.pose())) endRecording();
-  return take?.isPlaying || recording !== null;
+  dirty = false;
+  wasAlive = alive !== null;
+  recorder.take(time, model);
+  return player.isPlaying || recorder.isOn || wasAlive || microphone !== null;
 };
 
-/** Poses from now on, until the button is pressed again. */
-function record() {
-  recording = new Recording();
-  $("record").textContent = "Stop and download";
-  $("record").setAttribute("aria-pressed", "true");
+/** Two motions of the head, each of which may be null. */
+function sum(a, b) {
+  return a && b ? { left: a.left + b.left, up: a.up + b.up, rise: a.rise + b.rise } : a ?? b;
+}
+
+/** The take is at another time. */
+function sample() {
+  player.apply(model);
+  dirty = true;
+}
+
+/** What a voice or a stream moves, over the pose that is set. */
+function drive(values) {
+  model.drive(values);
+  dirty = true;
+}
+
+function listen() {
+  return attempt("The microphone cannot be used", async () => {
+    clearError();
+    microphone = await Microphone.open();
+    player.leave();
+    $("listen").textContent = "Stop listening";
+    $("listen").setAttribute("aria-pressed", "true");
+    stage.request();
+  });
+}
+
+function stopListening() {
+  microphone.dispose();
+  microphone = null;
+  $("listen").textContent = "Microphone";
+  $("listen").setAttribute("aria-pressed", "false");
+  drive(Microphone.silent);
   stage.request();
 }
 
-function endRecording() {
-  const { frames } = recording;
-  const text = recording.json();
-  dropRecording();
-  if (frames.length) download("take.json", text);
-}
-
-function dropRecording() {
-  recording = null;
-  $("record").textContent = "Record";
-  $("record").setAttribute("aria-pressed", "false");
-}
-
 function afterUpdate() {
-  if ($("heat").checked && $("skinning").value === "mien") {
-    const most = heat.apply(model.object) * (model.rig.info.translationUnit === 0 ? 10 : 1000);
-    $("heat-legend").textContent = `Gray: still. Red: moved by ${most.toFixed(1)} mm.`;
+  if (colorsDistances()) {
+    const most = heat.apply(model.object, $("heat").checked ? undefined : comparison.reference(model.object)) * 1000;
+    $("heat-legend").textContent = $("heat").checked ? `Gray: still. Red: moved by ${most.toFixed(1)} mm.`
+      : `Gray: as in ${comparison.name}. Red: ${most.toFixed(1)} mm from it.`;
   }
   if ($("bones").checked) {
     stage.showSkeleton(model.rig.jointParents, model.object.deformed.jointMatrices, model.object.matrix);
@@ -290,7 +335,7 @@ function showPresets() {
     button.type = "button";
     button.textContent = name;
     button.addEventListener("click", () => {
-      stop();
+      player.leave();
       model.setPose(found);
       pose();
     });
@@ -298,66 +343,6 @@ function showPresets() {
   }).filter(Boolean);
   $("preset-buttons").replaceChildren(...buttons);
   $("presets").hidden = buttons.length === 0;
-}
-
-function download(name, content, type = "application/json") {
-  const link = document.createElement("a");
-  link.href = URL.createObjectURL(new Blob([content], { type }));
-  link.download = name;
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
-}
-
-// ---- playing ----------------------------------------------------------------------------------------
-
-function play() {
-  take.isPlaying = true;
-  take.last = 0;
-  $("play").textContent = "Pause";
-  // Browsers play no sound before a button of the page is pressed. The face moves all the same.
-  sound?.play(take.player.info.tick / TICKS_PER_SECOND).catch(() => say(`${sound.name}: press Pause, then Play, to hear it`));
-  stage.request();
-}
-
-function stop() {
-  if (!take?.isPlaying) return;
-  take.isPlaying = false;
-  sound?.pause();
-  $("play").textContent = "Play";
-}
-
-function dropSound() {
-  sound?.dispose();
-  sound = null;
-  $("mute-row").hidden = true;
-}
-
-function dropTake() {
-  stop();
-  if (!take) return;
-  for (const object of [take.player, take.binding, take.clip]) object.dispose();
-  take = null;
-}
-
-function advance(time) {
-  const seconds = take.last ? Math.min(0.25, (time - take.last) / 1000) : 0;
-  take.last = time;
-  const before = take.player.info.tick;
-  const heard = sound?.time ?? null;
-  if (heard !== null && heard < take.clip.duration) {
-    take.player.seek(Math.round(heard * TICKS_PER_SECOND));
-  } else {
-    take.player.advance(Math.round(seconds * TICKS_PER_SECOND));
-    // From the beginning again, with its sound.
-    if (take.player.info.tick < before) sound?.play(0).catch(() => {});
-  }
-  sample();
-}
-
-function sample() {
-  take.binding.apply(take.player.sample(), model.face);
-  $("time").value = String(take.player.info.tick / TICKS_PER_SECOND);
-  dirty = true;
 }
 
 // ---- view -------------------------------------------------------------------------------------------
@@ -402,7 +387,7 @@ function reopen() {
     const kept = model.pose();
     const view = [stage.camera.position.clone(), stage.controls.target.clone()];
     const { lod } = model.object;
-    dropTake();
+    player.drop();
     await openModel(opened.name, opened.bytes, opened.materials);
     model.setPose(kept);
     setLod(lod);
@@ -410,6 +395,28 @@ function reopen() {
     stage.controls.target.copy(view[1]);
     stage.controls.update();
   });
+}
+
+/** Whether vertices are colored by their distances: from the neutral pose, or from what was kept. */
+function colorsDistances() {
+  return $("skinning").value === "mien" && model.rig && ($("heat").checked || comparison.isDifference);
+}
+
+/** After another choice of colors. */
+function setColors() {
+  heat.end();
+  $("heat-legend").hidden = !colorsDistances();
+  pose();
+}
+
+function showRegions() {
+  $("regions").replaceChildren(...Object.keys(stage.regions).map((name) => {
+    const button = document.createElement("button");
+    button.type = "button";
+    button.textContent = name;
+    button.addEventListener("click", () => stage.lookAt(name));
+    return button;
+  }));
 }
 
 function inspect(kind, index) {
@@ -447,7 +454,7 @@ $("files").addEventListener("change", async () => {
 });
 $("head").addEventListener("click", openHead);
 $("neutral").addEventListener("click", () => {
-  stop();
+  player.leave();
   model.setPose({});
   pose();
 });
@@ -457,18 +464,6 @@ $("save").addEventListener("click", () => {
 $("save-glb").addEventListener("click", () => attempt("The head could not be exported", async () => {
   download("head.glb", await exportGlb(model), "model/gltf-binary");
 }));
-$("record").addEventListener("click", () => (recording ? endRecording() : record()));
-$("play").addEventListener("click", () => (take.isPlaying ? stop() : play()));
-$("time").addEventListener("input", () => {
-  stop();
-  take.player.seek(Math.round(Number($("time").value) * TICKS_PER_SECOND));
-  sound?.seek(Number($("time").value));
-  sample();
-  pose();
-});
-$("mute").addEventListener("change", () => {
-  if (sound) sound.isMuted = $("mute").checked;
-});
 $("lod").addEventListener("change", () => {
   $("auto-lod").checked = false;
   setLod(Number($("lod").value));
@@ -483,10 +478,12 @@ $("bones").addEventListener("change", () => {
   if (!$("bones").checked) stage.hideSkeleton();
   pose();
 });
-$("heat").addEventListener("change", () => {
-  if (!$("heat").checked) heat.end();
-  $("heat-legend").hidden = !$("heat").checked;
-  pose();
+$("heat").addEventListener("change", setColors);
+$("listen").addEventListener("click", () => (microphone ? stopListening() : listen()));
+$("light").replaceChildren(...LIGHTS.map((name) => option(name, name)));
+$("light").addEventListener("change", () => {
+  stage.lights.choose($("light").value);
+  stage.request();
 });
 
 let over = 0;
@@ -510,8 +507,10 @@ window.viewer = {
   get mien() { return mien; },
   get model() { return model; },
   get stage() { return stage; },
-  get take() { return take; },
-  get sound() { return sound; },
+  get player() { return player; },
+  get attention() { return attention; },
+  get microphone() { return microphone; },
+  get live() { return live; },
   openBytes, openHead, pose,
 };
 
@@ -537,5 +536,18 @@ if (wanted) {
     await openBytes(name, new Uint8Array(await answer.arrayBuffer()), materials);
     sayAboutMaterials(materials, sayFailure);
   });
+}
+// &live=ADDRESS follows what `mien view --live` receives.
+if (query.get("live")) {
+  let isFirst = true;
+  live = new Live(query.get("live"), { said: say, use(values) {
+    if (!model) return;
+    if (isFirst) say(`${opened.name}: live`);
+    isFirst = false;
+    player.leave();
+    drive(values);
+    stage.request();
+  } });
+  live.run();
 }
 document.body.dataset.ready = "true";

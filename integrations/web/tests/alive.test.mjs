@@ -1,0 +1,364 @@
+// SPDX-License-Identifier: MIT
+// The viewer when it moves by itself, plays, compares and listens. Time is counted in steps that the tests make, or
+// waited for; nothing depends on how fast frames come.
+import assert from "node:assert/strict";
+import { readFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { test } from "node:test";
+import { mien, sameBits } from "./support.mjs";
+import { baked, choose, dna, frames, numbers, open, options, page, press, slide, switches, text, work } from "./viewer_page.mjs";
+
+// A microphone that beeps once a second, and is allowed.
+switches.push("--use-fake-device-for-media-stream", "--use-fake-ui-for-media-stream");
+
+test("a GLB opens as the first file", options, async () => {
+  await open(join(work, "head.glb"));
+  assert.match(await text("facts"), /\d+ morph targets/);
+  assert.deepEqual(page.errors, []);
+});
+
+/** Lets idle life run for some seconds, however long that takes: the largest value of each control that is given, and
+ * of the others how many there were. */
+const live = (seconds, names) => page.run((count, wanted) => {
+  const { attention, model } = window.viewer;
+  const found = wanted.map(() => ({ most: 0, values: new Set() }));
+  for (let i = 0; i < count; ++i) {
+    attention.idle.step(1 / 60, model.face);
+    wanted.forEach((name, k) => {
+      const value = attention.idle.face.controls[name];
+      found[k].most = Math.max(found[k].most, value);
+      found[k].values.add(value);
+    });
+  }
+  return found.map(({ most, values }) => ({ most, count: values.size }));
+}, seconds * 60, names);
+
+test("idle life blinks and looks around; the sliders and their numbers stay", options, async () => {
+  await open(baked);
+  const checked = (id) => page.run((of) => document.getElementById(of).checked, id);
+  assert.deepEqual([await checked("idle"), await checked("follow")], [false, false], "reduced motion is preferred");
+  await slide("mouthSmileLeft", 0.75);
+  await frames();
+  const drawn = () => page.run(() => window.viewer.stage.drawn);
+  const before = await drawn();
+  await frames(5);
+  assert.equal(await drawn(), before, "nothing moves");
+  const joints = await numbers("window.viewer.model.face.joints");
+  await page.prefer({ motion: true });
+  await page.until("() => window.viewer.attention.idle", "alive");
+  assert.deepEqual([await checked("idle"), await checked("follow")], [true, true]);
+  const [lid, look, smile] = await live(20, ["eyeBlinkLeft", "eyeLookInLeft", "mouthSmileLeft"]);
+  assert.ok(lid.most > 0.95, `the lids close by ${lid.most}`);
+  assert.ok(look.count > 100 && look.most > 0.01 && look.most < 0.3, JSON.stringify(look));
+  assert.deepEqual(smile, { most: 0.75, count: 1 });
+  assert.ok(sameBits(await numbers("window.viewer.model.face.joints"), joints));
+  assert.deepEqual(await page.run(() => Object.keys(window.viewer.model.pose()).length), 1);
+  // A control that is set stays as it is set, and the others go on.
+  await slide("eyeBlinkLeft", 0.25);
+  const [held, eyes] = await live(20, ["eyeBlinkLeft", "eyeLookInLeft"]);
+  assert.deepEqual([held, eyes.count > 100], [{ most: 0.25, count: 1 }, true]);
+  await page.prefer();
+  await page.until("() => !document.getElementById('idle').checked", "still again");
+  await frames();
+  assert.equal(await page.run(() => window.viewer.model.object.face === window.viewer.model.face), true);
+  assert.deepEqual(page.errors, []);
+});
+
+test("the eyes look at the cursor, and not while a take plays", options, async () => {
+  await open(baked);
+  await choose("follow", true);
+  await page.until("() => window.viewer.attention.idle", "looks");
+  const lookFrom = (part) => page.run((across) => {
+    const { attention, model, stage } = window.viewer;
+    const { left, top, width, height } = stage.canvas.getBoundingClientRect();
+    stage.canvas.dispatchEvent(new PointerEvent("pointermove", { clientX: left + across * width, clientY: top + height / 2 }));
+    for (let i = 0, time = performance.now(); i < 90; ++i) attention.step(time += 1000 / 60, model.face, false);
+    const { eyeLookOutLeft, eyeLookInLeft, eyeBlinkLeft } = attention.idle.face.controls;
+    return { side: eyeLookOutLeft - eyeLookInLeft, eyeBlinkLeft, turn: attention.idle.motion.left };
+  }, part);
+  const [right, left] = [await lookFrom(0.02), await lookFrom(0.98)];
+  assert.ok(right.side < -0.1 && left.side > 0.1, `${right.side} ${left.side}`);
+  assert.ok(left.turn > right.turn, "the head turns with them");
+  const csv = join(work, "still.csv");
+  writeFileSync(csv, "Timecode,BlendShapeCount,EyeBlinkLeft\n00:00:00:00.000,1,0.5\n00:00:00:01.000,1,0.5\n");
+  await open(csv);
+  await frames();
+  assert.deepEqual(await page.run(() => [window.viewer.player.isPlaying, window.viewer.model.object.face === window.viewer.model.face]),
+    [true, true]);
+  await choose("follow", false);
+  await open(baked);
+  assert.deepEqual(page.errors, []);
+});
+
+test("scenes play as the program plays them, and so do its frames", options, async () => {
+  writeFileSync(join(work, "talk.json"), JSON.stringify({ rate: 60, frames: [0, 0.8, 0.2, 0.6].map((jawOpen) => ({ raw: { jawOpen } })) }));
+  mien(["clip", "build", join(work, "talk.json"), "-o", join(work, "talk.clip"), "--quiet"]);
+  const scene = join(work, "scene.json");
+  writeFileSync(scene, JSON.stringify({
+    rate: 60, seconds: 2, seed: 7,
+    layers: [
+      { name: "talk", group: "speech", source: { clip: "talk.clip", loop: true, speed: 0.5 } },
+      { name: "joy", group: "emotion", mode: "screen", weight: 0, mask: { controls: ["mouth*", "cheek*"] },
+        source: { poses: { joy: { mouthSmileLeft: 0.8, mouthSmileRight: 0.8, browInnerUp: 1 } }, weights: { joy: 1 } } },
+      { name: "eyes", group: "life", source: { generator: "gaze", jitter: 0.2 } },
+      { name: "breath", group: "life", mode: "add", source: { generator: "breath" } },
+      { name: "blink", group: "life", mode: "max", source: { generator: "blink", period: 1 } },
+    ],
+    guards: ["lips"], antagonists: true, limits: true, reactions: [{ name: "glare", preset: "glare" }],
+    events: [
+      { time: 0.3, layer: "joy", weight: 1, fade: 0.2 }, { time: 0.5, variable: "gaze.x", value: 0.3 },
+      { time: 0.7, layer: "talk", stop: true, fade: 0.1 }, { time: 1, trigger: "glare", strength: 1, hold: 0.3 },
+      { time: 1.5, layer: "talk", play: { clip: "talk.clip" }, transition: "crossfade" },
+    ],
+  }));
+  mien(["play", scene, dna, "-o", join(work, "played.json"), "--quiet"]);
+  const native = JSON.parse(readFileSync(join(work, "played.json")));
+  const [raw, shut] = [native.frames.flatMap((frame) => frame.raw), native.controls.indexOf("eyeBlinkLeft")];
+  assert.ok(native.frames.some((frame) => frame.raw[shut] > 0.9), "the light closes the eyes");
+  const played = () => page.run(() => {
+    const { clip } = window.viewer.player.take;
+    const { channelCount } = clip.info;
+    return [clip.channels.map(({ name }) => name), Array.from(clip.read()), channelCount];
+  });
+  await open(dna);
+  await open(scene);
+  assert.match(await text("error"), /the clip talk\.clip is missing: drop it together/);
+  await open(scene, join(work, "talk.clip"));
+  assert.match(await text("file"), /52 controls played, 2\.0 s/);
+  for (const file of [null, join(work, "played.json")]) {
+    if (file) await open(file);
+    const [names, values, width] = await played();
+    const columns = native.controls.map((name) => names.indexOf(name));
+    const found = native.frames.flatMap((_, frame) => columns.map((column) => values[frame * width + column]));
+    assert.ok(sameBits(Float32Array.from(found), Float32Array.from(raw)), file ?? scene);
+  }
+  // Scrubbed to the light, the head turns away from it.
+  await page.run(() => window.viewer.player.seek(1.3));
+  await frames();
+  assert.notEqual(await page.run(() => window.viewer.stage.pivot.matrix.elements[8]), 0);
+  for (const [wrong, says] of [[{ layers: [{ name: "x", source: { poses: { p: { nobody: 1 } } } }] }, /no control "nobody"/],
+    [{ layers: [{ name: "x", source: { speech: { text: "Hi" } } }] }, /it has speech/],
+    [{ layers: [{ name: "x", group: "crowd", source: { generator: "blink" } }] }, /"crowd" is none of base/]]) {
+    writeFileSync(scene, JSON.stringify(wrong));
+    await open(scene);
+    assert.match(await text("error"), says);
+  }
+  await page.run(() => document.getElementById("neutral").click());
+  page.errors.length = 0;
+});
+
+test("what a mix file does by itself plays", options, async () => {
+  await open(baked);
+  const bytes = await page.run(async () => {
+    const { BlendMode, Generator, MixLayer, ticks } = await import("mien");
+    const mix = window.viewer.model.rig.mix({ layers: [
+      MixLayer.generator(Generator.BLINK, { eyeBlinkLeft: 1 }, { period: ticks(1), mode: BlendMode.MAX })] });
+    return Array.from(mix.write());
+  });
+  const file = join(work, "life.mix");
+  writeFileSync(file, Uint8Array.from(bytes));
+  await open(file);
+  assert.match(await text("file"), /controls played, 10\.0 s/);
+  const most = await page.run(() => {
+    const { clip } = window.viewer.player.take;
+    const [values, width, blink] = [clip.read(), clip.info.channelCount, clip.findChannel("eyeBlinkLeft")];
+    return values.reduce((largest, value, i) => (i % width === blink ? Math.max(largest, value) : largest), 0);
+  });
+  assert.equal(most, 1);
+  writeFileSync(file, "no mix");
+  await open(file);
+  assert.match(await text("error"), /life\.mix could not be opened/);
+  await page.run(() => document.getElementById("neutral").click());
+  page.errors.length = 0;
+});
+
+test("the animation of a GLB plays and can be scrubbed", options, async () => {
+  const glb = join(work, "moving.glb");
+  mien(["export", dna, "-o", glb, "--lod", "6", "--bake", "arkit", "--animation", "-", "--fps", "10", "--quiet"],
+    JSON.stringify({ frames: [0, 0.5, 1].map((jawOpen) => ({ raw: { jawOpen } })) }));
+  await open(glb);
+  assert.match(await text("file"), /moving\.glb: an animation of 0\.2 s/);
+  assert.equal(await page.run(() => window.viewer.player.isPlaying), true);
+  const jawAt = (time) => page.run((seconds) => {
+    const { model, player } = window.viewer;
+    player.seek(seconds);
+    const index = model.list.indexOf("jawOpen");
+    const [mesh, target] = model.targets.get("jawOpen")[0];
+    return [model.values()[index], mesh.morphTargetInfluences[target], player.isPlaying];
+  }, time);
+  for (const [time, value] of [[0, 0], [0.05, 0.25], [0.1, 0.5], [0.2, 1]]) {
+    const [slider, target, isPlaying] = await jawAt(time);
+    assert.ok(Math.abs(slider - value) < 1e-3, `${slider} at ${time} s`);
+    assert.deepEqual([Math.fround(target), isPlaying], [slider, false]);
+  }
+  // At its end it begins again.
+  assert.deepEqual(await page.run(() => {
+    const { take } = window.viewer.player;
+    return [take.advance(0.05), Math.round(take.time * 100)];
+  }), [true, 5]);
+  await slide("jawOpen", 0.4);
+  await frames();
+  assert.equal((await jawAtRest())[0], Math.fround(0.4));
+  assert.deepEqual(page.errors, []);
+});
+
+const jawAtRest = () => page.run(() => [window.viewer.model.targets.get("jawOpen")[0]].map(([mesh, target]) => Math.fround(mesh.morphTargetInfluences[target])));
+
+/** Presses the button with a text. */
+const pressText = (wanted) => page.run((of) => [...document.querySelectorAll("button")].find((button) => button.textContent === of).click(), wanted);
+
+test("the camera goes to regions, and lights change what is seen", options, async () => {
+  await open(dna);
+  const camera = () => page.run(() => {
+    const { camera: { position }, controls: { target } } = window.viewer.stage;
+    return { position: position.toArray(), target: target.toArray(), distance: position.distanceTo(target) };
+  });
+  assert.deepEqual(await page.run(() => [...document.querySelectorAll("#regions button")].map((button) => button.textContent)),
+    ["Head", "Face", "Eyes", "Mouth", "Left", "Right"]);
+  const seen = {};
+  for (const name of ["Head", "Face", "Eyes", "Mouth", "Left", "Right"]) {
+    await pressText(name);
+    seen[name] = await camera();
+  }
+  assert.ok(seen.Head.distance > seen.Face.distance && seen.Face.distance > seen.Eyes.distance && seen.Eyes.distance > seen.Mouth.distance);
+  assert.ok(seen.Eyes.target[1] > seen.Face.target[1] && seen.Face.target[1] > seen.Mouth.target[1]);
+  assert.ok(seen.Left.position[0] > 0.3 && seen.Right.position[0] < -0.3);
+  await pressText("Face");
+  // The brightness of the left and the right half of the face.
+  const halves = () => page.run(() => {
+    const { renderer, scene, camera: of, canvas } = window.viewer.stage;
+    renderer.render(scene, of);
+    const context = new OffscreenCanvas(32, 32).getContext("2d");
+    context.drawImage(canvas, 0, 0, 32, 32);
+    const { data } = context.getImageData(0, 0, 32, 32);
+    const sums = [0, 0];
+    for (let i = 0; i < 1024; ++i) if (data[4 * i + 3] > 250) sums[i % 32 < 16 ? 0 : 1] += data[4 * i + 1];
+    return sums[0] / sums[1];
+  });
+  const studio = await halves();
+  await choose("light", "Side");
+  const side = await halves();
+  assert.ok(side > 1.3 * studio, `${side} ${studio}`);
+  const count = () => page.run(() => window.viewer.stage.scene.children.filter((child) => child.isLight).length);
+  assert.equal(await count(), 4);
+  await choose("light", "Studio");
+  assert.equal(await count(), 6);
+  assert.deepEqual(page.errors, []);
+});
+
+test("what was kept is seen beside, instead of and as the difference from what is shown", options, async () => {
+  await open(dna);
+  await press("keep");
+  const shown = () => page.run(() => {
+    const { stage } = window.viewer;
+    return { now: stage.pivot.visible, before: stage.other !== null && stage.scene.children.includes(stage.other), apart: stage.pivot.matrix.elements[12] };
+  });
+  await frames();
+  const { apart, ...both } = await shown();
+  assert.deepEqual([both, apart > 0.1], [{ now: true, before: true }, true]);
+  // The same pose does not differ, and no rounding is shown as if it did.
+  await choose("compare", "difference");
+  await frames();
+  assert.match(await text("heat-legend"), /as in head\.dna\. Red: 0\.0 mm/);
+  const colors = () => page.run(() => {
+    const { array } = window.viewer.model.object.children.find((mesh) => mesh.visible).geometry.attributes.color;
+    return new Set(array.filter((_, i) => i % 3 === 0)).size;
+  });
+  assert.equal(await colors(), 1, "all gray");
+  await slide("jawOpen", 1);
+  await frames();
+  assert.match(await text("heat-legend"), /Red: [1-9]\d\.\d mm/);
+  assert.ok(await colors() > 100);
+  await choose("compare", "before");
+  await frames();
+  assert.deepEqual(await shown(), { now: false, before: true, apart: 0 });
+  // Another file, here the same head from its baked file.
+  await choose("compare", "difference");
+  await open(baked);
+  assert.match(await text("heat-legend"), /as in head\.dna\. Red: 0\.0 mm/);
+  // A GLB is kept as its targets move it.
+  await open(join(work, "head.glb"));
+  await press("keep");
+  await frames();
+  assert.ok((await shown()).before);
+  await choose("compare", "now");
+  assert.deepEqual(page.errors, []);
+});
+
+test("the heat map of the neutral pose is gray", options, async () => {
+  await open(dna);
+  await choose("heat", true);
+  await frames();
+  assert.match(await text("heat-legend"), /moved by 0\.0 mm/);
+  assert.equal(await page.run(() => new Set(window.viewer.model.object.children.filter((mesh) => mesh.visible)
+    .flatMap((mesh) => Array.from(mesh.geometry.attributes.color.array.filter((_, i) => i % 3 === 0)))).size), 1);
+  await choose("heat", false);
+});
+
+test("a louder voice opens the mouth more, and silence closes it", options, async () => {
+  const run = (steps) => page.run(async (list) => {
+    const { MouthDrive } = await import("./microphone.js");
+    const drive = new MouthDrive();
+    return list.map(([energy, seconds]) => {
+      for (let i = 0; i < seconds * 60; ++i) drive.step(energy, 1 / 60);
+      return drive.open;
+    });
+  }, steps);
+  const [room, loud, softer, after] = await run([[0.001, 3], [0.2, 0.5], [0.03, 0.5], [0.001, 1]]);
+  assert.equal(room, 0);
+  assert.ok(loud > 0.95 && softer > 0.2 && softer < 0.8 * loud && after < 0.01, `${loud} ${softer} ${after}`);
+  // A louder room is still no voice, once it is known.
+  const [still] = (await run([[0.02, 30]])).slice(-1);
+  assert.equal(still < 0.05, true, String(still));
+});
+
+test("the microphone drives the jaw until it is stopped, and a refusal is said", options, async () => {
+  await open(baked);
+  await slide("mouthSmileLeft", 0.5);
+  await press("listen");
+  const jaw = "() => window.viewer.model.face.controls.jawOpen";
+  await page.until(`() => (${jaw})() > 0.2`, "opened");
+  await page.until(`() => (${jaw})() < 0.1`, "closed between two beeps");
+  assert.equal(await page.run(() => window.viewer.model.face.controls.mouthSmileLeft), 0.5);
+  const track = await page.run(() => {
+    window.heardTrack = window.viewer.microphone.stream.getTracks()[0];
+    return window.heardTrack.readyState;
+  });
+  await press("listen");
+  assert.deepEqual([track, await page.run(() => window.heardTrack.readyState), await page.run(() => window.viewer.microphone)], ["live", "ended", null]);
+  assert.equal(await page.run(() => window.viewer.model.face.controls.jawOpen), 0);
+  await page.run(() => {
+    navigator.mediaDevices.getUserMedia = () => Promise.reject(new DOMException("no", "NotAllowedError"));
+  });
+  await press("listen");
+  await page.until("() => !document.getElementById('error').hidden", "refused");
+  assert.match(await text("error"), /The microphone cannot be used: its use was not allowed/);
+  assert.equal(await text("listen"), "Microphone");
+});
+
+test("all of the page is reached on the screen of a phone", options, async () => {
+  await page.size(390, 844, true);
+  await open(baked);
+  const sizes = await page.run(() => ({
+    wide: document.documentElement.scrollWidth, canvas: document.getElementById("stage").clientHeight,
+    small: [...document.querySelectorAll("button, select, #list input")].filter((one) => one.offsetParent && one.getBoundingClientRect().height < 24)
+      .map((one) => one.id || one.textContent),
+    outside: [...document.querySelectorAll("#panel *")].filter((one) => one.offsetParent && one.getBoundingClientRect().right > innerWidth + 0.5)
+      .map((one) => one.id || one.tagName),
+  }));
+  assert.ok(sizes.wide <= 390 && sizes.canvas >= 300, JSON.stringify(sizes));
+  assert.deepEqual([sizes.small, sizes.outside], [[], []]);
+  // The face fills the width that there is, and no more.
+  const face = await page.run(() => {
+    const { object, camera } = window.viewer.stage;
+    const xs = [];
+    const mesh = object.children.find((one) => one.visible);
+    const { position } = mesh.geometry.attributes;
+    for (let i = 0; i < position.count; i += 50) xs.push(camera.position.clone().fromBufferAttribute(position, i).applyMatrix4(mesh.matrixWorld).project(camera).x);
+    return [Math.min(...xs), Math.max(...xs)];
+  });
+  assert.ok(face[0] > -1 && face[1] < 1 && face[1] - face[0] > 0.8, String(face));
+  if (process.env.MIEN_SHOTS) writeFileSync(join(process.env.MIEN_SHOTS, "phone_open.png"), await page.screenshot());
+  await page.size(800, 400);
+  assert.deepEqual(page.errors, []);
+});

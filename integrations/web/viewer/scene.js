@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: MIT
+// Scenes of `mien play` and mix files, on a rig of the page: all their frames become a clip, which plays and scrubs
+// like any other. `mien help play` describes scenes; this page has no speech and no live layers.
+import { BlendMode, Generator, Guard, Kind, LayerGroup, Looping, MixLayer, ticks, Transition } from "mien";
+
+const EYES = ["gaze.x", "gaze.y", "gaze.z"];
+const BLINKS = { eyeBlinkLeft: 1, eyeBlinkRight: 1 };
+const BREATH = { noseNostrilDilateL: 0.3, noseNostrilDilateR: 0.3 };
+const SQUINT = { eyeSquintLeft: 0.8, eyeSquintRight: 0.8, browDownLeft: 0.7, browDownRight: 0.7 };
+const PUPILS = { eyePupilNarrowL: 1, eyePupilNarrowR: 1 };
+const VARIABLE = /^(pupil$|breath$|head\.|gaze\.|user\.)/;
+const MOST_FRAMES = 36000;
+
+/** Whether a JSON value is a scene, and no pose or frames. */
+export const isScene = (value) => Array.isArray(value?.layers);
+
+function word(of, text, where) {
+  const found = Object.entries(of).find(([name]) => name.toLowerCase() === text);
+  if (!found) throw new Error(`${where}: "${text}" is none of ${Object.keys(of).join(", ").toLowerCase()}`);
+  return found[1];
+}
+
+function required(value, where, kind = "object") {
+  if (typeof value !== kind || value === null) throw new Error(`${where}: expected ${kind === "object" ? "an object" : `a ${kind}`}`);
+  return value;
+}
+
+/** Names of a scene as curves of a rig: its raw controls, or variables. */
+class Names {
+  variables = [];
+
+  constructor(rig) {
+    this.rig = rig;
+  }
+
+  variable(name) {
+    if (!this.variables.includes(name)) this.variables.push(name);
+    return name;
+  }
+
+  /** {control or variable: value}; what the rig has no control for throws, or is left out if `isOptional`. */
+  values(given, where, isOptional = false) {
+    const found = {};
+    for (const [name, value] of Object.entries(required(given, where))) {
+      const shares = this.rig.match(name)?.shares;
+      if (shares) {
+        for (const { control, weight } of shares) {
+          const curve = this.rig.name(Kind.RAW_CONTROL, control);
+          found[curve] = (found[curve] ?? 0) + weight * required(value, `${where}, ${name}`, "number");
+        }
+      } else if (VARIABLE.test(name)) {
+        found[this.variable(name)] = required(value, `${where}, ${name}`, "number");
+      } else if (!isOptional) {
+        throw new Error(`${where}: this rig has no control "${name}"`);
+      }
+    }
+    return found;
+  }
+
+  /** A mask by patterns such as mouth*. */
+  mask({ controls, invert = false }) {
+    const patterns = controls.map((pattern) => new RegExp(`(^|\\.)${pattern.split("*").map((part) =>
+      part.replace(/[.+?^${}()|[\]\\]/g, "\\$&")).join(".*")}$`, "i"));
+    return Object.fromEntries(this.rig.names(Kind.RAW_CONTROL).map((name) =>
+      [name, patterns.some((pattern) => pattern.test(name)) !== invert ? 1 : 0]));
+  }
+}
+
+/** What a gaze of a scene gives in meters from the middle of the eyes, in millimeters of the model. */
+function place(values, mode, middle) {
+  if (!middle) return values;
+  return Object.fromEntries(Object.entries(values).map(([name, value]) => {
+    const axis = EYES.indexOf(name);
+    return [name, axis < 0 ? value : 1000 * value + (mode === BlendMode.OVERRIDE ? middle[axis] : 0)];
+  }));
+}
+
+class Scene {
+  clips = new Map(); // clip and binding, by path
+
+  constructor(value, rig, mien) {
+    Object.assign(this, { value, rig, mien, names: new Names(rig), layerNames: value.layers.map(({ name }) => name) });
+  }
+
+  async openClips(find) {
+    const layers = this.value.layers.map(({ source }) => source);
+    const events = (this.value.events ?? []).map(({ play }) => play);
+    for (const source of [...layers, ...events]) {
+      if (source?.speech) throw new Error("it has speech: `mien play` says it, and -o take.clip gives a clip for this page");
+      if (source?.live) throw new Error("it has a live layer: `mien play --live` plays it");
+      const path = source?.clip;
+      if (path === undefined || this.clips.has(path)) continue;
+      const file = await find(path.slice(path.lastIndexOf("/") + 1));
+      if (!file) throw new Error(`the clip ${path} is missing: drop it together with the scene`);
+      const clip = await this.mien.openClip(file);
+      this.clips.set(path, { clip, binding: clip.bind(this.rig, { matrix: this.mien.arkitMatrix() }) });
+    }
+  }
+
+  #findEyes() {
+    const source = this.value.layers.map((layer) => layer.source).find((of) => of?.generator === "gaze");
+    if (!source) return;
+    const [leftEye, rightEye] = source.eyes ?? [];
+    this.gaze = this.rig.deformer.gaze(source.eyes ? { leftEye, rightEye } : {});
+    const { leftEye: left, rightEye: right } = this.gaze.info;
+    this.middle = ["left", "up", "front"].map((axis) => (left[axis] + right[axis]) / 2);
+    EYES.forEach((name) => this.names.variable(name));
+  }
+
+  #generator(source, mode, where) {
+    const { names } = this;
+    const generator = word(Generator, source.generator, where);
+    if (generator === Generator.GAZE) {
+      const jitter = source.jitter ?? 0;
+      return MixLayer.gaze(EYES, { jitter: [jitter, jitter], head: { [names.variable("head.left")]: 1, [names.variable("head.up")]: 1 } });
+    }
+    const isBlink = generator === Generator.BLINK;
+    let amounts = source.controls ? names.values(source.controls, `${where}, controls`) : names.values(isBlink ? BLINKS : BREATH, where, true);
+    if (!isBlink && Object.keys(amounts).length === 0) amounts = { [names.variable("breath")]: 1 };
+    return MixLayer.generator(generator, place(amounts, mode, this.middle), { period: ticks(source.period ?? 4) });
+  }
+
+  #layer({ name, group = "base", mode = "override", weight = 1, mask, source, after_guards: afterGuards = false }) {
+    const where = `layer ${required(name, "a layer without name", "string")}`;
+    const [blend, of] = [word(BlendMode, mode, where), required(source, where)];
+    let made;
+    if (of.clip !== undefined) made = MixLayer.clip();
+    else if (of.generator !== undefined) made = this.#generator(of, blend, where);
+    else if (of.poses) {
+      made = MixLayer.poses(Object.entries(of.poses).map(([pose, values]) =>
+        place(this.names.values(values, `${where}, ${pose}`), blend, this.middle)));
+    } else throw new Error(`${where}: it has no source`);
+    const isGaze = made.generator === Generator.GAZE && of.generator;
+    return { ...made, group: word(LayerGroup, group, where), mode: isGaze ? made.mode : blend, weight, afterGuards,
+      mask: mask && this.names.mask(mask) };
+  }
+
+  /** The response to light in the eyes. */
+  #glare() {
+    const { names } = this;
+    const pupils = names.values(PUPILS, "glare", true);
+    return this.mien.glare([
+      names.values(BLINKS, "glare", true), names.values(SQUINT, "glare", true),
+      { [names.variable("gaze.y")]: this.middle ? -400 : -0.4 },
+      Object.keys(pupils).length ? pupils : { [names.variable("pupil")]: -1 }, { [names.variable("head.turn")]: 0.3 },
+    ]);
+  }
+
+  makeMixer() {
+    const { value, rig } = this;
+    this.#findEyes();
+    const layers = value.layers.map((layer) => this.#layer(layer));
+    const reactions = (value.reactions ?? []).map(() => this.#glare());
+    for (const { variable } of value.events ?? []) if (variable) this.names.variable(variable);
+    const guards = (value.guards ?? []).reduce((all, name) => all | word(Guard, name, "guards"), 0);
+    const rotation = rig.names(Kind.RAW_CONTROL).map((name) => name.includes(".q"));
+    const limit = (least, most) => Float32Array.from([...rotation.map(least), ...this.names.variables.map(() => most)]);
+    const clips = [...this.clips.values()].map(({ clip }) => clip.info);
+    this.mix = rig.mix({
+      layers, reactions, guards, gaze: this.gaze, variables: this.names.variables, reverse: true,
+      antagonists: value.antagonists ? rig.antagonists() : [],
+      ...(value.limits ? { lower: limit((of) => (of ? -1 : 0), -1e6), upper: limit(() => 1, 1e6) } : {}),
+      maxChannels: Math.max(0, ...clips.map(({ channelCount }) => channelCount)),
+      maxChangingChannels: Math.max(0, ...clips.map(({ changingChannelCount }) => changingChannelCount)),
+    });
+    this.mixer = this.mix.mixer({ seed: value.seed ?? 0 });
+    EYES.forEach((name, axis) => this.middle && this.mixer.setVariable(name, this.middle[axis] + (axis === 2 ? 1000 : 0)));
+    value.layers.forEach(({ source }, number) => {
+      if (source.clip !== undefined) this.#play(number, source, { transition: Transition.CUT });
+      if (source.weights) this.#weigh(number, source.weights, 0);
+    });
+  }
+
+  #play(number, { clip: path, loop, speed = 1, start = 0 }, desc) {
+    const { clip, binding } = this.clips.get(path);
+    this.mixer.play(number, clip, binding, {
+      startTick: ticks(start), speedNumerator: Math.round(speed * 1e6), speedDenominator: 1e6,
+      ...(loop === undefined ? {} : { looping: loop ? Looping.WRAP : Looping.CLAMP }), ...desc,
+    });
+  }
+
+  #weigh(number, weights, fade) {
+    const poses = Object.keys(this.value.layers[number].source.poses ?? {});
+    for (const [name, weight] of Object.entries(weights)) {
+      if (!poses.includes(name)) throw new Error(`${this.layerNames[number]} has no pose "${name}"`);
+      this.mixer.setPoseWeight(number, poses.indexOf(name), weight, fade);
+    }
+  }
+
+  #apply(event) {
+    const { mixer, value } = this;
+    const find = (list, name) => {
+      const found = list.indexOf(name);
+      if (found < 0) throw new Error(`the scene has no "${name}"`);
+      return found;
+    };
+    const fade = ticks(event.fade ?? 0);
+    const reactions = (value.reactions ?? []).map(({ name }) => name);
+    if (event.trigger !== undefined) {
+      mixer.trigger(find(reactions, event.trigger), event.strength ?? 1, ticks(event.hold ?? 0));
+    } else if (event.level !== undefined) {
+      mixer.setLevel(find(reactions, event.level), event.value);
+    } else if (event.variable !== undefined) {
+      mixer.setVariable(event.variable, place({ [event.variable]: event.value }, BlendMode.OVERRIDE, this.middle)[event.variable]);
+    } else {
+      const number = find(this.layerNames, event.layer);
+      if (event.play) {
+        this.#play(number, event.play, { transition: word(Transition, event.transition ?? "inertial", "an event"),
+          transitionTicks: ticks(event.duration ?? 0.25) });
+      } else if (event.stop) mixer.stop(number, fade);
+      else if (event.weights) this.#weigh(number, event.weights, fade);
+      else mixer.setWeight(number, required(event.weight, `an event of ${event.layer}`, "number"), fade);
+    }
+  }
+
+  /** Rows of raw controls and variables, one after the other. */
+  frames(rate, seconds) {
+    const { mixer, rig } = this;
+    const events = [...(this.value.events ?? [])].sort((a, b) => a.time - b.time);
+    const initial = rig.initialRawControls.slice();
+    const count = Math.min(MOST_FRAMES, Math.floor(seconds * rate + 1e-6) + 1);
+    const width = initial.length + this.names.variables.length;
+    const values = new Float32Array(count * width);
+    let now = 0;
+    const stepTo = (tick) => {
+      mixer.step(tick - now);
+      now = tick;
+    };
+    for (let frame = 0; frame < count; ++frame) {
+      const tick = ticks(frame / rate);
+      while (events.length && ticks(events[0].time) <= tick) {
+        const event = events.shift();
+        if (ticks(event.time) > now) stepTo(ticks(event.time));
+        this.#apply(event);
+      }
+      stepTo(tick);
+      const row = mixer.row.slice(0, width);
+      // The w of rotations that nothing moves.
+      initial.forEach((value, i) => { row[i] ||= value; });
+      values.set(row, frame * width);
+    }
+    return values;
+  }
+
+  dispose() {
+    for (const { clip, binding } of this.clips.values()) for (const object of [binding, clip]) object.dispose();
+    for (const object of [this.mixer, this.mix, this.gaze]) object?.dispose();
+  }
+}
+
+/** The frames of a scene, as a clip. `find` gives the bytes of a clip by its name, or null. */
+export async function sceneClip(value, rig, mien, find) {
+  const scene = new Scene(value, rig, mien);
+  try {
+    const rate = Math.max(1, Math.round(value.rate ?? 60));
+    await scene.openClips(find);
+    scene.makeMixer();
+    return mien.buildClip({
+      names: [...rig.names(Kind.RAW_CONTROL), ...scene.names.variables], values: scene.frames(rate, value.seconds || 10),
+      rateNumerator: rate, rateDenominator: 1,
+    });
+  } finally {
+    scene.dispose();
+  }
+}
+
+/** Ten seconds of what a mix file does by itself, with the weights that it begins with, as a clip. */
+export async function mixClip(bytes, rig, mien) {
+  const mix = await mien.openMix(bytes, rig);
+  const mixer = mix.mixer();
+  try {
+    const width = rig.count(Kind.RAW_CONTROL);
+    const values = new Float32Array(601 * width);
+    for (let frame = 0; frame <= 600; ++frame) {
+      mixer.step(frame ? ticks(1 / 60) : 0);
+      values.set(mixer.row.subarray(0, width), frame * width);
+    }
+    return mien.buildClip({ names: rig.names(Kind.RAW_CONTROL), values, rateNumerator: 60, rateDenominator: 1 });
+  } finally {
+    for (const object of [mixer, mix]) object.dispose();
+  }
+}
