@@ -37,6 +37,14 @@ live::Address checked_address(const std::string& option, const std::string& text
 
 }  // namespace
 
+std::unique_ptr<live::LiveInput> open_live(const RealTimeOptions& options, const MienRig* rig,
+                                           const NamesFile& names, const Session& session) {
+  const auto delay =
+      static_cast<int64_t>(parse_delay(options.delay) * static_cast<double>(MIEN_TICKS_PER_SECOND));
+  return std::make_unique<live::LiveInput>(checked_address("--live", options.live, false), delay,
+                                           options.device, rig, names, session);
+}
+
 void RealTime::check(const RealTimeOptions& options) {
   if (!options.live.empty()) checked_address("--live", options.live, false);
   if (!options.send.empty()) checked_address("--send", options.send, true);
@@ -64,10 +72,7 @@ RealTime::RealTime(const RealTimeOptions& options, const MienRig* rig, const Nam
                                                 std::move(sent));
   }
   if (!options.live.empty()) {
-    const auto delay =
-        static_cast<int64_t>(stream_.delay * static_cast<double>(MIEN_TICKS_PER_SECOND));
-    input_ = std::make_unique<live::LiveInput>(checked_address("--live", options.live, false),
-                                               delay, options.device, rig, names, session);
+    input_ = open_live(options, rig, names, session);
     stream_.curves = input_->curves();
   }
   interrupted = 0;

@@ -18,6 +18,10 @@ struct RealTimeOptions {
   bool given() const { return !live.empty() || !send.empty(); }
 };
 
+/// The live source of checked options. Listens from now on. The rig and the session outlive it.
+std::unique_ptr<live::LiveInput> open_live(const RealTimeOptions& options, const MienRig* rig,
+                                           const NamesFile& names, const Session& session);
+
 class RealTime {
  public:
   /// Wrong usage before anything is opened.

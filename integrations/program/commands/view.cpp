@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: MIT
 // mien view: the viewer of integrations/web, served on this machine with a file in it.
+#include <atomic>
+#include <charconv>
 #include <cstdio>
 #include <filesystem>
 #include <map>
+#include <nlohmann/json.hpp>
+#include <thread>
 
 #include "integrations/program/commands/options.h"
+#include "integrations/program/commands/real_time.h"
 #include "integrations/program/io/baked_file.h"
 #include "integrations/program/io/input.h"
 #include "integrations/program/io/materials.h"
+#include "integrations/program/io/rig_file.h"
 #include "integrations/program/io/text.h"
 #include "integrations/program/view/page.h"
 
@@ -16,30 +22,100 @@ namespace mien::cli {
 namespace {
 
 struct ViewOptions {
-  std::string file, port, page;
+  std::string file, port, page, names;
+  RealTimeOptions real_time;
   bool no_open = false;
 };
 
-/// So that a damaged file is refused here, where its place is told, and not in the page.
-void check_rig(const std::string& bytes, const std::string& shown) {
+constexpr int64_t kLiveRate = 60;  // rows per second at most
+
+/// Opens the file, so that a damaged one is refused here, where its place is told, and not in the page. Its
+/// rig for live data, if `is_live`; null for a GLB.
+Rig checked_rig(const std::string& bytes, const std::string& shown, bool is_live) {
   auto error = sized<MienError>();
+  MienRig* rig = nullptr;
   if (is_baked_bytes(bytes)) {
-    MienBaked* baked = nullptr;
+    MienBaked* opened = nullptr;
     const MienStatus status =
-        mien_baked_open_memory(bytes.data(), bytes.size(), nullptr, &baked, &error);
+        mien_baked_open_memory(bytes.data(), bytes.size(), nullptr, &opened, &error);
     check(status, &error, "cannot view", shown);
-    mien_baked_close(baked);
+    const Baked baked(opened);
+    if (is_live) {
+      check(mien_rig_from_baked(opened, nullptr, &rig, &error), &error, "cannot view", shown);
+    }
   } else if (bytes.compare(0, 3, "DNA") == 0) {
-    MienDna* dna = nullptr;
+    MienDna* opened = nullptr;
     const MienStatus status =
-        mien_dna_open_memory(bytes.data(), bytes.size(), nullptr, &dna, &error);
+        mien_dna_open_memory(bytes.data(), bytes.size(), nullptr, &opened, &error);
     check(status, &error, "cannot view", shown);
-    mien_dna_close(dna);
+    const Dna dna(opened);
+    if (is_live) {
+      check(mien_rig_create(opened, nullptr, &rig, &error), &error, "cannot view", shown);
+    }
   } else if (bytes.compare(0, 4, "glTF") != 0) {
     fail(kInvalid, "cannot view", shown, "it is not a DNA file, baked file or GLB",
          "check what was given; poses and takes are dropped on the page");
   }
+  return Rig(rig);
 }
+
+/// A live source, whose rows the page gets with the names of raw controls.
+class LiveView {
+ public:
+  LiveView(const ViewOptions& options, Rig rig, const Session& session)
+      : rig_(std::move(rig)), session_(session),
+        input_(open_live(options.real_time, rig_.get(), NamesFile(options.names), session)),
+        rows_(heading()) {}
+  ~LiveView() {
+    is_over_ = true;
+    if (receiver_.joinable()) receiver_.join();
+    note(session_, input_->summary());
+  }
+  LiveView(const LiveView&) = delete;
+  LiveView& operator=(const LiveView&) = delete;
+
+  view::LiveRows& rows() { return rows_; }
+  void start() {
+    receiver_ = std::thread([this] { receive(); });
+  }
+
+ private:
+  std::string heading() const {
+    std::vector<std::string> names;
+    for (const uint16_t curve : input_->curves()) {
+      names.push_back(rig_name(rig_.get(), MIEN_KIND_RAW_CONTROL, curve));
+    }
+    const nlohmann::json line = {{"names", names}};
+    return line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  }
+
+  void receive() {
+    input_->start();
+    for (int64_t frame = 1; !is_over_; ++frame) {
+      const int64_t tick = frame * MIEN_TICKS_PER_SECOND / kLiveRate;
+      input_->receive_until(tick);
+      bool is_new = false;
+      int64_t time = 0;
+      std::vector<float> row;
+      while (input_->take(tick, time, row)) is_new = true;
+      if (!is_new) continue;
+      std::string line = "[";
+      for (const float value : row) {
+        char digits[32];
+        line.append(digits, std::to_chars(digits, digits + sizeof(digits), value).ptr) += ',';
+      }
+      line.back() = ']';
+      rows_.publish(line + "\n");
+    }
+  }
+
+  Rig rig_;
+  const Session& session_;
+  std::unique_ptr<live::LiveInput> input_;
+  view::LiveRows rows_;
+  std::atomic<bool> is_over_{false};
+  std::thread receiver_;
+};
 
 /// Everything but letters, digits and - . _ ~ as %XX.
 std::string url_encoded(const std::string& text) {
@@ -100,26 +176,43 @@ void run(const ViewOptions& options, const Session& session) {
     port = parse_number("--port", options.port, 65535);
     if (port == 0) fail_usage("--port 0", "no port has this number", "leave it out for a free one");
   }
+  RealTime::check(options.real_time);
+  const bool is_live = !options.real_time.live.empty();
+  if (is_live && options.file.empty()) {
+    fail_usage("--live", "there is no rig that live data move", "name a DNA file or a baked rig");
+  }
+  if (!options.names.empty() && !is_live) {
+    fail_usage("--names", "nothing comes in", "add --live livelink://:11111");
+  }
   std::string address = "/";
+  std::unique_ptr<LiveView> live;
   view::Files files = view::load_page(options.page);
   if (!options.file.empty()) {
     std::string bytes = read_viewable(options.file);
-    check_rig(bytes, shown_name(options.file));
+    Rig rig = checked_rig(bytes, shown_name(options.file), is_live);
+    if (is_live && !rig) {
+      fail_usage("--live", "a GLB has no rig that live data move",
+                 "name a DNA file or a baked rig");
+    }
+    if (is_live) live = std::make_unique<LiveView>(options, std::move(rig), session);
     const std::string name = name_of(options.file, bytes);
     const std::string of_materials = served_materials(options.file, name, files, session);
     files["/rig/" + name] = {"application/octet-stream", std::move(bytes)};
     // The page decodes its query, the server the path that is in it.
     address += "?file=rig/" + url_encoded(url_encoded(name)) + of_materials;
+    if (live) address += "&live=live";
   }
-  view::serve(files, static_cast<uint16_t>(port), [&](uint16_t found) {
-    const std::string url = "http://127.0.0.1:" + std::to_string(found) + address;
-    std::printf("%s\n", url.c_str());
-    std::fflush(stdout);
-    if (!options.no_open && !view::open_browser(url)) {
-      note(session, "no browser could be started: open this address in one");
-    }
-    note(session, "Ctrl+C ends it");
-  });
+  view::serve(files, live ? &live->rows() : nullptr, static_cast<uint16_t>(port),
+              [&](uint16_t found) {
+                if (live) live->start();
+                const std::string url = "http://127.0.0.1:" + std::to_string(found) + address;
+                std::printf("%s\n", url.c_str());
+                std::fflush(stdout);
+                if (!options.no_open && !view::open_browser(url)) {
+                  note(session, "no browser could be started: open this address in one");
+                }
+                note(session, "Ctrl+C ends it");
+              });
 }
 
 }  // namespace
@@ -136,6 +229,19 @@ Command add_view_command(CLI::App& app, const Session& session) {
   view->add_option("--page", options->page,
                    "Folder of the viewer (default: the one installed or built with the program)")
       ->type_name("FOLDER");
+  view->add_option("--live", options->real_time.live,
+                   "Show what arrives on a port: livelink://:11111 for the Live Link\nFace app, "
+                   "vmc://:39539 for VMC; from other machines too, unless\na host is named")
+      ->type_name("FROM");
+  view->add_option("--delay", options->real_time.delay,
+                   "Delay of live data in seconds, as for 'mien play' (default: 0.05)")
+      ->type_name("S");
+  view->add_option("--device", options->real_time.device,
+                   "Take packets of Live Link Face only from this device")
+      ->type_name("NAME");
+  view->add_option("--names", options->names,
+                   "With --live: JSON with meanings of names on this rig, as for\n'mien play'")
+      ->type_name("FILE");
   view->footer(
       "Serves the viewer on this machine until it is interrupted, and opens the browser. The "
       "file,\n"
@@ -146,6 +252,7 @@ Command add_view_command(CLI::App& app, const Session& session) {
       "Examples:\n"
       "  mien view head.dna\n"
       "  mien view head.rig --port 8000 --no-open\n"
+      "  mien view head.dna --live livelink://:11111\n"
       "  mien gen --preset medium -o - | mien view -");
   return {view, [options, &session] { run(*options, session); }};
 }

@@ -5,10 +5,12 @@
     cli_view_test.py path/to/mien [unittest options]      (or MIEN_BIN=path/to/mien)
 """
 import http.client
+import json
 import os
 import signal
 import socket
 import stat
+import struct
 import subprocess
 import sys
 import time
@@ -234,6 +236,57 @@ class View(ProgramTest):
                               ("cut.rig", read("tiny.rig")[:200])):
             self.fails(INVALID, "view", "--page", path("page"), write(name, content), "--no-open", says=name)
         self.fails(FILE, "view", "--page", path("page"), path("missing.dna"), says="missing.dna")
+
+    def listening_port(self):
+        while True:
+            line = self.running.stderr.readline().decode()
+            self.assertTrue(line, "it has ended")
+            if "listening on" in line:
+                return int(line.rsplit(":", 1)[1])
+
+    def test_live_data_are_sent_to_the_page(self):
+        """A packet of Live Link Face becomes a line for each page that asks; answers end when the program ends."""
+        make("gen", "-o", path("live.dna"), "--preset", "medium")
+        make("bake", path("live.dna"), "-o", path("live.rig"), "--force")
+        for rig in ("live.dna", "live.rig"):
+            url = self.start(path(rig), "--live", "livelink://127.0.0.1:0", "--delay", "0")
+            self.assertEqual(parse_qs(urlsplit(url).query)["live"], ["live"])
+            port = self.listening_port()
+            asked = [http.client.HTTPConnection("127.0.0.1", self.port, timeout=20) for _ in range(2)]
+            for connection in asked:
+                connection.request("GET", "/live")
+            answers = [connection.getresponse() for connection in asked]
+            names = [json.loads(answer.readline())["names"] for answer in answers]
+            self.assertEqual(names[0], names[1])
+            jaw = names[0].index("CTRL_expressions.jawOpen")
+            phone = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+            self.addCleanup(phone.close)
+            values = [0.0] * 61
+            values[17] = 0.625
+            for answer in answers:
+                for frame in range(1, 1200):  # until one has come through
+                    phone.sendto(b"".join((b"\6", struct.pack(">i", 5), b"phone", struct.pack(">i", 4), b"face", struct.pack(
+                        ">ifiiB61f", int(time.monotonic() * 60), 0.0, 60, 1, 61, *values))), ("127.0.0.1", port))
+                    row = json.loads(answer.readline())
+                    if row[jaw] == 0.625:
+                        break
+                self.assertEqual((row[jaw], len(row)), (0.625, len(names[0])))
+            self.running.send_signal(signal.SIGINT)
+            for answer in answers:
+                answer.read()  # to its end
+            self.assertEqual(self.running.wait(timeout=20), 0)
+            self.assertIn(b"received", self.running.stderr.read())
+
+    def test_live_data_need_a_rig_and_a_source(self):
+        page = ("view", "--page", path("page"), "--no-open")
+        self.fails(USAGE, *page, "--live", "livelink://:0", says="there is no rig")
+        self.fails(USAGE, *page, path("tiny.dna"), "--delay", "0.1", says="--live")
+        self.fails(USAGE, *page, path("tiny.dna"), "--names", path("page/viewer.js"), says="--live")
+        self.fails(USAGE, *page, path("tiny.dna"), "--live", "tcp://:1", says="--live")
+        write("some.glb", b"glTF\2\0\0\0\14\0\0\0")
+        self.fails(USAGE, *page, path("some.glb"), "--live", "livelink://127.0.0.1:0", says="GLB")
+        self.start(path("tiny.dna"))
+        self.assertEqual(self.ask("/live")[0], 404)
 
     def test_a_missing_page_is_told_with_what_to_do(self):
         self.fails(FILE, "view", "--page", path("bin-nowhere"), says="dev web build")

@@ -24,6 +24,8 @@ constexpr const char* kHost = "127.0.0.1";
 // are threads can make others wait, and for no longer than that.
 constexpr std::chrono::seconds kDeadline(20);
 constexpr size_t kThreads = 32;
+// An answer with live rows ends before the deadline; the page asks again at once.
+constexpr std::chrono::seconds kLiveAnswer(10);
 
 /// What ends the program. Blocked, so that threads inherit it and one place waits for them.
 sigset_t ending_signals() {
@@ -43,7 +45,22 @@ void refuse(httplib::Response& response, int status, const char* why) {
   response.set_content(why, "text/plain");
 }
 
-void answer(const Files& files, int port, const httplib::Request& request,
+void answer_live(LiveRows& live, httplib::Response& response) {
+  response.status = 200;
+  const auto end = std::chrono::steady_clock::now() + kLiveAnswer;
+  response.set_chunked_content_provider(
+      "application/x-ndjson",
+      [&live, end, seen = uint64_t{0}](size_t offset, httplib::DataSink& sink) mutable {
+        std::string line = live.heading();
+        if (offset != 0 && live.wait_until(end, seen, line) != LiveRows::Wait::kRow) {
+          sink.done();
+          return true;
+        }
+        return sink.write(line.data(), line.size());
+      });
+}
+
+void answer(const Files& files, LiveRows* live, int port, const httplib::Request& request,
             httplib::Response& response) {
   if (!is_own_host(request.get_header_value("Host"), port)) {
     return refuse(response, 403, "this is another host\n");
@@ -52,6 +69,7 @@ void answer(const Files& files, int port, const httplib::Request& request,
     response.set_header("Allow", "GET");
     return refuse(response, 405, "GET only\n");
   }
+  if (live && request.path == "/live") return answer_live(*live, response);
   const auto found = files.find(request.path == "/" ? "/index.html" : request.path);
   if (found == files.end()) return refuse(response, 404, "there is no such file\n");
   const std::string& bytes = found->second.bytes;
@@ -73,7 +91,8 @@ void ignore_broken_pipes() { std::signal(SIGPIPE, SIG_IGN); }
 
 void require_server() {}
 
-void serve(const Files& files, uint16_t wanted_port, const std::function<void(uint16_t)>& started) {
+void serve(const Files& files, LiveRows* live, uint16_t wanted_port,
+           const std::function<void(uint16_t)>& started) {
   DeadlineServer server(kDeadline);
   server.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
   server.set_payload_max_length(4096);
@@ -102,8 +121,8 @@ void serve(const Files& files, uint16_t wanted_port, const std::function<void(ui
               "it is taken or not allowed", "choose another one with --port");
   }
   server.set_pre_routing_handler(
-      [&files, port](const httplib::Request& request, httplib::Response& response) {
-        answer(files, port, request, response);
+      [&files, live, port](const httplib::Request& request, httplib::Response& response) {
+        answer(files, live, port, request, response);
         return httplib::Server::HandlerResponse::Handled;
       });
 
@@ -116,6 +135,7 @@ void serve(const Files& files, uint16_t wanted_port, const std::function<void(ui
   started(static_cast<uint16_t>(port));
   int number = 0;
   sigwait(&ending, &number);
+  if (live) live->end();
   server.stop();
   listener.join();
 }

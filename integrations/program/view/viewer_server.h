@@ -7,6 +7,8 @@
 #include <map>
 #include <string>
 
+#include "integrations/program/view/live_rows.h"
+
 namespace mien::view {
 
 struct Served {
@@ -23,7 +25,10 @@ void require_server();
 /// Serves until the program is interrupted. Listens on 127.0.0.1 alone, at `port`, or at a free one if it
 /// is 0; `started` gets the port. Answers GET only, and only if it is asked for under this address: a page
 /// of elsewhere whose name has come to point here does not get the files. Fails if the port is taken.
-void serve(const Files& files, uint16_t port, const std::function<void(uint16_t port)>& started);
+/// "/live" answers with the heading of `live` and a line for each row that comes within the next seconds; null:
+/// there are none. Its waiting is ended when the program is interrupted.
+void serve(const Files& files, LiveRows* live, uint16_t port,
+           const std::function<void(uint16_t port)>& started);
 
 /// Asks the desktop to show an address; false if there is none.
 bool open_browser(const std::string& url);

@@ -10,7 +10,7 @@ void require_server() {
             "build it where cpp-httplib is installed (Debian: libcpp-httplib-dev)");
 }
 
-void serve(const Files&, uint16_t, const std::function<void(uint16_t)>&) {}
+void serve(const Files&, LiveRows*, uint16_t, const std::function<void(uint16_t)>&) {}
 bool open_browser(const std::string&) { return false; }
 
 }  // namespace mien::view

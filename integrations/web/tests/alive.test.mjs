@@ -2,10 +2,13 @@
 // The viewer when it moves by itself, plays, compares and listens. Time is counted in steps that the tests make, or
 // waited for; nothing depends on how fast frames come.
 import assert from "node:assert/strict";
+import { spawn } from "node:child_process";
+import { createSocket } from "node:dgram";
+import { once } from "node:events";
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { mien, sameBits } from "./support.mjs";
+import { mien, program, sameBits } from "./support.mjs";
 import { baked, choose, dna, frames, numbers, open, options, page, press, slide, switches, text, work } from "./viewer_page.mjs";
 
 // A microphone that beeps once a second, and is allowed.
@@ -361,4 +364,45 @@ test("all of the page is reached on the screen of a phone", options, async () =>
   if (process.env.MIEN_SHOTS) writeFileSync(join(process.env.MIEN_SHOTS, "phone_open.png"), await page.screenshot());
   await page.size(800, 400);
   assert.deepEqual(page.errors, []);
+});
+
+/** A packet of the Live Link Face app with one of its 61 values. */
+function packet(frame, number, value) {
+  const bytes = Buffer.alloc(1 + 4 + 5 + 4 + 4 + 16 + 1 + 4 * 61);
+  let at = bytes.writeUInt8(6);
+  for (const text of ["phone", "face"]) {
+    at = bytes.writeInt32BE(text.length, at);
+    at += bytes.write(text, at);
+  }
+  at = bytes.writeInt32BE(frame, at) + 4; // and no part of a frame
+  at = bytes.writeInt32BE(1, bytes.writeInt32BE(60, at));
+  at = bytes.writeUInt8(61, at);
+  bytes.writeFloatBE(value, at + 4 * number);
+  return bytes;
+}
+
+test("`mien view --live` shows what a phone sends", options, async () => {
+  const server = spawn(program, ["view", dna, "--no-open", "--live", "livelink://127.0.0.1:0"]);
+  const socket = createSocket("udp4");
+  let timer;
+  try {
+    let said = "";
+    server.stderr.on("data", (bytes) => { said += bytes; });
+    const [address] = await once(server.stdout, "data");
+    await page.goto(String(address).trim());
+    await page.until("() => window.viewer?.model && !document.body.hasAttribute('aria-busy')", "opened");
+    const port = Number(/listening on livelink:\/\/127\.0\.0\.1:(\d+)/.exec(said)[1]);
+    let frame = 0;
+    timer = setInterval(() => socket.send(packet(++frame, 17, 0.625), port, "127.0.0.1"), 16); // 17: jawOpen
+    await page.until("() => window.viewer.model.face.controls.jawOpen === 0.625 && window.viewer.live.rows > 2", "moved");
+    assert.match(await text("file"), /head\.dna: live/);
+    assert.deepEqual(page.errors, []);
+  } finally {
+    clearInterval(timer);
+    socket.close();
+    server.kill("SIGINT");
+    await once(server, "exit");
+  }
+  // The page says when the program has ended.
+  await page.until("() => /Live data have ended/.test(document.getElementById('file').textContent)", "ended");
 });
