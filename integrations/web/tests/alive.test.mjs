@@ -141,7 +141,7 @@ test("scenes play as the program plays them, and so do its frames", options, asy
   assert.notEqual(await page.run(() => window.viewer.stage.pivot.matrix.elements[8]), 0);
   for (const [wrong, says] of [[{ layers: [{ name: "x", source: { poses: { p: { nobody: 1 } } } }] }, /no control "nobody"/],
     [{ layers: [{ name: "x", source: { speech: { text: "Hi" } } }] }, /it has speech/],
-    [{ layers: [{ name: "x", group: "crowd", source: { generator: "blink" } }] }, /"crowd" is none of base/]]) {
+    [{ layers: [{ name: "x", group: "choir", source: { generator: "blink" } }] }, /"choir" is none of base/]]) {
     writeFileSync(scene, JSON.stringify(wrong));
     await open(scene);
     assert.match(await text("error"), says);
