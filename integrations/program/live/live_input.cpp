@@ -51,7 +51,8 @@ LiveInput::LiveInput(const Address& address, int64_t delay, const std::string& d
         std::make_unique<VmcDecoder>(channels_.size() + kMostOtherNames,
                                      [this](std::string_view name) { return find_channel(name); });
   }
-  bind(names);
+  // For VMC the names of the file are not among the channels.
+  bind(address.protocol == Protocol::kVmc ? cli::NamesFile() : names);
   address_.port = socket_.port();
   cli::note(session, "listening on " + to_text(address_));
   start();

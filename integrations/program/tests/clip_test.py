@@ -333,6 +333,13 @@ class Choices(ClipTest):
                       "grin is 0.25 jawOpen + 0.5 mouthStretchLeft; mouth_smile_L is mouthSmileLeft", done.stderr)
         self.assertIn("1 of 3 channels drive nothing on the rig", done.stderr)
         self.assertIn("the first is hat", done.stderr)
+        # The file also wins over the control of a channel's own name.
+        own = write("own.json", '{"jawOpen": {"mouthPucker": 0.5}}')
+        for values in ("0,0.5\n0.0166666667,1,0.5", "1,0\n0.0166666667,1,1"):
+            done = self.ok("clip", "build", write("own.csv", "time,jawOpen,mouthSmileLeft\n0," + values + "\n"),
+                           "--rig", rig, "--names", own, "-o", path("own.clip"))
+            self.assertIn("jawOpen is 0.5 mouthPucker", done.stderr)
+            self.assertNotIn("drive nothing", done.stderr)
         # What no channel drives is not said to be matched.
         done = self.ok("clip", "build", write("twice.csv", "time,mouth_smile_L,MouthSmileLeft\n0,0,0\n"), "--rig", rig,
                        "-o", path("twice.clip"))
