@@ -586,6 +586,38 @@ class AuthorTest(ProgramTest):
                 index = self.names("gui.dna", "raw").index(f"CTRL_expressions.mouth{name}L")
                 self.assertAlmostEqual(controls[index], wanted, places=6)
 
+    def test_animation_of_a_metahuman_head_plays_on_the_rig(self):
+        """Takes of all its raw or GUI controls: each control does what the shape of its meaning does."""
+        write("other.json", b'{"smile": "mouthSmile_L"}')
+        options = ["--joints", "12", "--lods", "1", "--force", "-q", "-o"]
+        self.ok("author", path("head.glb"), *options, path("meta.dna"), "--preset", "metahuman", "--names",
+                path("other.json"))
+        self.ok("author", path("head.glb"), *options, path("plain.dna"))
+        self.ok("gen", "--preset", "metahuman-head", "-o", path("metahuman.dna"), "--force")
+        moved = {"CTRL_expressions.jawOpen": "jawOpen", "CTRL_expressions.mouthCornerPullL": "smile"}
+        driven = {"raw": list(moved), "gui": ["CTRL_C_jaw_open.ty", "CTRL_L_mouth_cornerPull.ty"]}
+        for kind, channels in driven.items():
+            names = self.names("metahuman.dna", kind)
+            for channel in channels:
+                self.assertIn(channel, names)
+            rows = [",".join(["time"] + names)]
+            for frame, channel in enumerate(channels):
+                rows.append(",".join([repr(frame / 60)] + ["1" if name == channel else "0" for name in names]))
+            write("meta.csv", "\n".join(rows) + "\n")
+            self.ok("clip", "build", path("meta.csv"), "-o", path("meta.clip"), "--force")
+            write("meta_scene.json", json.dumps({"rate": 60, "layers": [{"name": "take", "source": {"clip": "meta.clip"}}]}))
+            played = json.loads(self.ok("play", path("meta_scene.json"), path("meta.dna"), "--seconds", "0.02", "-q").stdout)
+            for frame, control in enumerate(moved):
+                raw = dict(zip(played["controls"], played["frames"][frame]["raw"]))
+                self.assertEqual(raw, {name: float(name == control) for name in moved}, msg=kind)
+
+        def posed(rig, control):
+            self.ok("export", path(rig), "-o", path("posed.obj"), "--force", "-q", "--set", control + "=1")
+            return [line for line in read("posed.obj").splitlines() if line.startswith(b"v ")]
+
+        for control, shape in moved.items():
+            self.assertEqual(posed("meta.dna", control), posed("plain.dna", shape))
+
     def test_the_report_has_every_figure_of_the_joint_groups_and_weights(self):
         report = self.author(path("head.glb"), "--joints", "40", "--lods", "2")
         groups = report["joint_groups"]
