@@ -6,6 +6,7 @@
 
 #include "author/base/dna_making.h"
 #include "author/mesh/mirror_places.h"
+#include "author/mesh/silhouette.h"
 #include "author/mesh/topology.h"
 
 namespace mien::author {
@@ -16,12 +17,15 @@ namespace {
 // edges are removed first where the surface is flat.
 constexpr double kAlong = 1e-3;
 constexpr double kBorder = 10, kSeam = 1;  // weights of moving off a border or a seam
+// Weight of moving off an outline, and the views that have one: front and side.
+constexpr double kOutline = 30;
+constexpr Vec3 kViews[] = {{0, 0, 1}, {1, 0, 0}};
 constexpr double kLeastTurn = 0.2;    // cosine between normals in this LOD and the previous one
 constexpr double kLeastShape = 0.05;  // 1: equilateral, 0: a line
 // Cosine between a triangle and the mean of the normals that its corners had at first: LODs turn no further.
 constexpr double kLeastFacing = 0.2;
 // How much more an error counts where an expression stretches the surface to twice its length, as on lips and lids.
-constexpr double kFeature = 8;
+constexpr double kFeature = 12;
 constexpr double kStraight = 0.995;   // cosine between edges of a border
 constexpr uint32_t kLeastLoop = 10;   // places of a border of the skin
 constexpr double kSameLength = 1e-3;  // diagonals of a quad that differ by less are equal
@@ -58,7 +62,7 @@ bool EdgeCollapse::make(const AuthorMesh& mesh, Span<const Shape> poses, Arena& 
   const Box box = bounding_box(mesh.positions);
   center_ = (box.low + box.high) * 0.5;
   make_quadrics();
-  return true;
+  return guard_outlines(scratch);
 }
 
 /// Joins vertices at one position where the borders of two charts run along each other.
@@ -347,15 +351,9 @@ void EdgeCollapse::make_quadrics() {
       }
     }
     for (uint32_t c = 3 * t; c < 3 * t + 3; ++c) {
-      // The corner across the edge, if there is one, tells what kind of edge it is.
-      const uint32_t a = places_[c], b = places_[next_corner(c)];
-      uint32_t across = kNone;
-      for (uint32_t other = first_[a]; other != kNone && valence_[a] <= kMaxRing;
-           other = next_[other]) {
-        if (other != c && places_[third_corner(other)] == b) across = other;
-      }
+      const uint32_t across = across_of(c);
       if (across == kNone) {
-        if (border_[a] && border_[b]) add_border(c, kBorder);
+        if (border_[places_[c]] && border_[places_[next_corner(c)]]) add_border(c, kBorder);
       } else if (charts_[across] != charts_[c] ||
                  charts_[third_corner(across)] != charts_[next_corner(c)]) {
         add_border(c, kSeam);
@@ -363,6 +361,43 @@ void EdgeCollapse::make_quadrics() {
     }
   }
   for (Vec3& normal : normals_) normal = normalized(normal);
+}
+
+/// The corner at the same place in the triangle across the edge to the next corner, or kNone.
+uint32_t EdgeCollapse::across_of(uint32_t corner) const {
+  const uint32_t a = places_[corner], b = places_[next_corner(corner)];
+  uint32_t across = kNone;
+  for (uint32_t other = first_[a]; other != kNone && valence_[a] <= kMaxRing;
+       other = next_[other]) {
+    if (other != corner && places_[third_corner(other)] == b) across = other;
+  }
+  return across;
+}
+
+/// Moving an edge of an outline across it costs, too: the plane through the edge and along the view is one more of
+/// the planes of its ends.
+bool EdgeCollapse::guard_outlines(Arena& scratch) {
+  const size_t poses = poses_.count + 1;
+  for (const Vec3 view : kViews) {
+    Silhouette silhouette;
+    if (places_.empty()) return true;
+    if (!silhouette.make(mesh_->positions, places_, view, scratch)) return false;
+    const auto is_facing = [&](uint32_t corner) {
+      return dot(normal_of(corner / 3, kNone, kNone, 0), view) > 0;
+    };
+    for (uint32_t c = 0; c < places_.count; ++c) {
+      if (!is_facing(c)) continue;
+      const uint32_t across = across_of(c), a = places_[c], b = places_[next_corner(c)];
+      if (across == kNone || is_facing(across)) continue;
+      const Vec3* p = mesh_->positions.data;
+      const Vec3 along = p[b] - p[a], n = normalized(cross(along, view));
+      if (is_zero(n) || !silhouette.is_outline(p[a], p[b], p[places_[third_corner(c)]])) continue;
+      for (const uint32_t place : {a, b}) {
+        quadrics_[place * poses].add_plane(n, at(place, 0), kOutline * dot(along, along));
+      }
+    }
+  }
+  return true;
 }
 
 /// Moving off the edge within the triangle costs, too.

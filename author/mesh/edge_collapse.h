@@ -9,7 +9,8 @@
 //
 // On a symmetric mesh, each collapse is followed by its mirror image, quads are split alike on both
 // sides, and places on the plane stay on it. Collapses that leave the surface unchanged need no mirror
-// image. Borders of the skin, such as lips and lids, keep kLeastLoop places where they bend.
+// image. Borders of the skin, such as lips and lids, keep kLeastLoop places where they bend. Edges of the outline that
+// the mesh has from the front and from the side cost more than others (silhouette.h).
 #pragma once
 
 #include "author/mesh/author_mesh.h"
@@ -73,6 +74,8 @@ class EdgeCollapse {
   bool is_one_fan(uint32_t place);
   double stretch_of(uint32_t triangle) const;
   void make_quadrics();
+  bool guard_outlines(Arena& scratch);
+  uint32_t across_of(uint32_t corner) const;
   void add_border(uint32_t corner, double weight);
 
   uint32_t next_corner(uint32_t c) const { return c % 3 == 2 ? c - 2 : c + 1; }

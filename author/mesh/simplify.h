@@ -18,10 +18,11 @@ struct SimplifyOptions {
 /// The mesh at each LOD. LOD 0 is `mesh`; further ones have triangles only, and the vertices of each are
 /// among those of the one before. Borders and texture seams collapse only along themselves, no triangle
 /// flips, an edge of two triangles stays one, and every component keeps its share, but at least eight
-/// triangles. Borders of the skin, such as lips and lids, keep ten vertices where they bend, and symmetric
-/// meshes stay symmetric. Teeth, lashes and other small components that are not round are removed as a
-/// whole if fewer than twelve triangles would be left. A LOD has more triangles than asked for if no more
-/// can be removed. False if memory ran out.
+/// triangles. Borders of the skin, such as lips and lids, keep ten vertices where they bend, moving the
+/// outline that the mesh has from the front or the side costs more, and symmetric meshes stay symmetric.
+/// Teeth, lashes and other small components that are not round are removed as a whole if fewer than twelve
+/// triangles would be left. A LOD has more triangles than asked for if no more can be removed. False if
+/// memory ran out.
 bool make_lod_meshes(const AuthorMesh& mesh, const SimplifyOptions& options, Arena& arena,
                      const Allocator& allocator, Span<LodMesh>& out);
 

@@ -127,7 +127,7 @@ namespace {
 /// shoulders. What is at the end of the mesh stays on the chest.
 void measure_neck(const Placing& placing, NeckCut& cut) {
   constexpr int kSlices = 32;
-  constexpr double kShoulders = 1.5, kLowest = 0.25;
+  constexpr double kShoulders = 1.5, kLowest = 0.25, kLength = 1.5;
   const double low = placing.box.low.y, height = cut.y - low;
   cut.base = low + kLowest * std::max(height, 0.0);
   if (!(height > 0)) return;
@@ -147,8 +147,8 @@ void measure_neck(const Placing& placing, NeckCut& cut) {
   if (narrowest < 0) return;
   cut.half_width = widths[narrowest];
   const double shoulders = cut.y - height * slice / kSlices;
-  // A neck at least as long as half of its width, where the mesh has room for it.
-  const double highest = std::max(cut.y - cut.half_width, low);
+  // A neck at least three quarters as long as wide, where the mesh has room for it.
+  const double highest = std::max(cut.y - kLength * cut.half_width, low);
   cut.base = std::max(cut.base, std::min(shoulders, highest));
 }
 

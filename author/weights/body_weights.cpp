@@ -40,16 +40,30 @@ double height_in_neck(const Placement& placement, Vec3 p) {
              : height;
 }
 
-void share_body(const BodyChain& chain, double height, double (&shares)[BodyChain::kCapacity]) {
-  // De Casteljau's steps: each adds a bone on top.
-  shares[0] = 1;
-  for (uint32_t n = 1; n < chain.count; ++n) {
-    shares[n] = shares[n - 1] * height;
-    for (uint32_t k = n - 1; k > 0; --k) {
-      shares[k] = shares[k] * (1 - height) + shares[k - 1] * height;
-    }
-    shares[0] *= 1 - height;
+double front_of_neck(const Placement& placement, Vec3 p) {
+  const NeckCut& cut = placement.neck_cut;
+  if (!cut.exists || !(cut.half_width > 0)) return 0;
+  return smooth_step(0, 1, (p.z - cut.z) / cut.half_width + 1);
+}
+
+void share_body(const BodyChain& chain, double height, double front,
+                double (&shares)[BodyChain::kCapacity]) {
+  const uint32_t top = chain.count - 1;
+  if (top == 0) {
+    shares[0] = 1;
+    return;
   }
+  const double between = height * (1 - height);
+  const uint32_t necks = top - 1;
+  shares[0] = 1 - height - (necks > 0 ? between : 0);
+  for (uint32_t n = 1; n < top; ++n) shares[n] = (2 - front) * between / necks;
+  shares[top] = height - (necks > 0 ? (1 - front) * between : 0);
+}
+
+double head_share(const Placement& placement, const BodyChain& chain, Vec3 p) {
+  double shares[BodyChain::kCapacity];
+  share_body(chain, height_in_neck(placement, p), front_of_neck(placement, p), shares);
+  return shares[chain.count - 1];
 }
 
 bool balance_head(const AuthorMesh& mesh, Arena& arena, Placement& placement) {
@@ -63,7 +77,7 @@ bool balance_head(const AuthorMesh& mesh, Arena& arena, Placement& placement) {
     return false;
   }
   for (uint32_t v = 0; v < mesh.positions.count; ++v) {
-    shares[v] = head_share(chain, height_in_neck(placement, mesh.positions[v]));
+    shares[v] = head_share(placement, chain, mesh.positions[v]);
   }
   // How fast the volume between skin and joint changes with a nod about this joint.
   const auto growth = [&](Vec3 joint) {

@@ -21,16 +21,18 @@ BodyChain body_chain(const Placement& placement);
 /// from its axis: shoulders do not count as neck, however high they are.
 double height_in_neck(const Placement& placement, Vec3 p);
 
-/// Shares of the chain's bones at a height in the neck, which sum to 1: Bernstein polynomials, so
-/// each bone bends the whole neck, and its weight and slope are 0 at the base.
-void share_body(const BodyChain& chain, double height, double (&shares)[BodyChain::kCapacity]);
+/// 0 from the middle of the neck backward, 1 at the throat.
+double front_of_neck(const Placement& placement, Vec3 p);
+
+/// Shares of the chain's bones at a height in the neck, which sum to 1. Weights and slopes of all but the chest are 0
+/// at the base, and each joint bends the whole neck. The share of the head grows with the square of the height, which
+/// keeps the volume of a neck that turns; in front with the height itself, so that the skin below the chin does not
+/// fold when the head nods.
+void share_body(const BodyChain& chain, double height, double front,
+                double (&shares)[BodyChain::kCapacity]);
 
 /// The share of the head at the place.
-inline double head_share(const BodyChain& chain, double height) {
-  double shares[BodyChain::kCapacity];
-  share_body(chain, height, shares);
-  return shares[chain.count - 1];
-}
+double head_share(const Placement& placement, const BodyChain& chain, Vec3 p);
 
 /// Moves the joint of the head to the front or the back, and joints of the neck with it, so that the neck neither
 /// grows nor shrinks when the head begins to nod. `placement` gets a new list of bones in `arena`. False if memory

@@ -230,7 +230,8 @@ bool carry_components(const AuthorMesh& mesh, const Placement& placement, uint32
       }
       if (is_on_body) {
         double shares[BodyChain::kCapacity];
-        share_body(body, height_in_neck(placement, mesh.positions[v]), shares);
+        share_body(body, height_in_neck(placement, mesh.positions[v]),
+                   front_of_neck(placement, mesh.positions[v]), shares);
         for (uint32_t i = 0; i < body.count; ++i) list.add(body.bones[i], rigid * shares[i]);
       } else {
         list.add(part.bone, rigid);

@@ -242,7 +242,8 @@ bool weigh_skin(Weighing& w) {
     const double t = facial.count ? clamp01(from_mask[v] / (2 * w.spacing)) : 1;
     const double outside = t * t * (3 - 2 * t);
     double shares[BodyChain::kCapacity];
-    share_body(w.body, height_in_neck(w.placement, mesh.positions[v]), shares);
+    share_body(w.body, height_in_neck(w.placement, mesh.positions[v]),
+               front_of_neck(w.placement, mesh.positions[v]), shares);
     const double of_head = shares[w.body.count - 1];
     for (uint32_t i = 0; i < facial.count; ++i) {
       list.add(facial.joints[i], facial.values[i] * (1 - outside) * of_head);

@@ -8,47 +8,15 @@
 #include <set>
 
 #include "author/mesh/surface_tree.h"
-#include "tests/support/mesh_source.h"
+#include "tests/support/simplified_mesh.h"
 
 namespace mien::author {
 namespace {
-
-struct Lods {
-  Arena arena{default_allocator()};
-  ReadMesh read;
-  Span<LodMesh> lods;
-
-  explicit Lods(TestMesh mesh, double share = 0.5, uint32_t count = 5,
-                const std::vector<double>& uvs = {}, const std::vector<uint32_t>& corner_uvs = {}) {
-    MeshSource source = mesh.source();
-    source.uvs = {uvs.data(), uvs.size()};
-    source.corner_uvs = {corner_uvs.data(), corner_uvs.size()};
-    Error error;
-    EXPECT_EQ(read_mesh(source, arena, default_allocator(), read, error), Status::kOk)
-        << error.message;
-    SimplifyOptions options;
-    options.share = share;
-    options.lods = count;
-    EXPECT_TRUE(make_lod_meshes(read.mesh, options, arena, default_allocator(), lods));
-  }
-  const AuthorMesh& at(size_t lod) const { return lods[lod].mesh; }
-  size_t triangles(size_t lod) const { return at(lod).triangles.count / 3; }
-};
 
 Vec3 normal_of(const AuthorMesh& mesh, size_t triangle) {
   const uint32_t* c = &mesh.triangles[3 * triangle];
   const Vec3 a = mesh.positions[c[0]];
   return cross(mesh.positions[c[1]] - a, mesh.positions[c[2]] - a);
-}
-
-/// How many triangles run along each edge, in its direction.
-std::map<std::pair<uint32_t, uint32_t>, int> edges_of(const AuthorMesh& mesh) {
-  std::map<std::pair<uint32_t, uint32_t>, int> edges;
-  for (size_t c = 0; c < mesh.triangles.count; ++c) {
-    const size_t next = c % 3 == 2 ? c - 2 : c + 1;
-    ++edges[{mesh.welded[mesh.triangles[c]], mesh.welded[mesh.triangles[next]]}];
-  }
-  return edges;
 }
 
 /// A box without a lid, from 0 to 1, of `n` times `n` quads on each of its five sides. Sides share the
@@ -344,20 +312,6 @@ TEST(Simplify, LipsAndLidsWithoutABorderStay) {
   }
 }
 
-/// The share of the vertices of a LOD that have no mirror image in it across x = 0.
-double without_mirror(const AuthorMesh& mesh) {
-  size_t alone = 0;
-  for (uint32_t v = 0; v < mesh.positions.count; ++v) {
-    const Vec3 p = mesh.positions[v];
-    bool found = false;
-    for (uint32_t w = 0; w < mesh.positions.count && !found; ++w) {
-      found = length(mesh.positions[w] - Vec3{-p.x, p.y, p.z}) < 1e-6;
-    }
-    alone += !found;
-  }
-  return static_cast<double>(alone) / static_cast<double>(mesh.positions.count);
-}
-
 TEST(Simplify, ASymmetricMeshStaysSymmetric) {
   TestMesh mesh;
   add_sphere(mesh, 0, 0, 0, 1, 40, 60);
@@ -436,91 +390,6 @@ TEST(Simplify, TeethGoWholeAndEyesStay) {
     }
   }
   EXPECT_EQ(gone_at, 5u) << "250 / 32 are less than twelve";
-}
-
-/// Which cells of a grid over the face's box triangles cover, seen along x (axis 0) or z (axis 2).
-std::vector<bool> covered(const AuthorMesh& mesh, const AuthorMesh& whole, int axis) {
-  constexpr int kCells = 160;
-  Vec3 low = whole.positions[0], high = low;
-  for (const Vec3 p : whole.positions) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  const Vec3 size = high - low;
-  const double cell = std::max({size.x, size.y, size.z}) / kCells;
-  std::vector<bool> cells(kCells * kCells);
-  const auto flat = [&](Vec3 p) {
-    p = (p - low) * (1 / cell);
-    return Vec3{axis == 0 ? p.z : p.x, p.y, 0};
-  };
-  for (size_t t = 0; t < mesh.triangles.count; t += 3) {
-    if (!mesh.is_skin[mesh.triangles[t]]) continue;
-    Vec3 p[3];
-    for (size_t k = 0; k < 3; ++k) p[k] = flat(mesh.positions[mesh.triangles[t + k]]);
-    const auto from = [](double v) { return std::max(0, static_cast<int>(v)); };
-    const auto to = [](double v) { return std::min(kCells - 1, static_cast<int>(v)); };
-    for (int y = from(std::min({p[0].y, p[1].y, p[2].y}));
-         y <= to(std::max({p[0].y, p[1].y, p[2].y})); ++y) {
-      for (int x = from(std::min({p[0].x, p[1].x, p[2].x}));
-           x <= to(std::max({p[0].x, p[1].x, p[2].x})); ++x) {
-        const Vec3 at = {x + 0.5, y + 0.5, 0};
-        double sides[3];
-        for (size_t k = 0; k < 3; ++k) sides[k] = cross(p[(k + 1) % 3] - p[k], at - p[k]).z;
-        const bool inside = (sides[0] >= 0 && sides[1] >= 0 && sides[2] >= 0) ||
-                            (sides[0] <= 0 && sides[1] <= 0 && sides[2] <= 0);
-        if (inside) cells[static_cast<size_t>(y * kCells + x)] = true;
-      }
-    }
-  }
-  return cells;
-}
-
-/// How far the silhouette of a LOD is from that of the whole mesh in the mean, as a share of its height: the area
-/// between both over the length of the outline.
-double silhouette_error(const AuthorMesh& mesh, const AuthorMesh& whole, int axis) {
-  const std::vector<bool> a = covered(mesh, whole, axis), b = covered(whole, whole, axis);
-  const size_t width = static_cast<size_t>(std::sqrt(static_cast<double>(a.size())));
-  size_t between = 0, outline = 0, first = b.size(), last = 0;
-  for (size_t i = 0; i < a.size(); ++i) {
-    between += a[i] != b[i];
-    outline += i % width > 0 && b[i] != b[i - 1];
-    outline += i >= width && b[i] != b[i - width];
-    if (b[i]) {
-      first = std::min(first, i / width);
-      last = i / width;
-    }
-  }
-  return static_cast<double>(between) / static_cast<double>(outline) /
-         static_cast<double>(last - first + 1);
-}
-
-/// Places on the borders of the skin.
-size_t border_places(const AuthorMesh& mesh) {
-  const auto edges = edges_of(mesh);
-  std::set<uint32_t> places;
-  for (const auto& [edge, count] : edges) {
-    if (edges.count({edge.second, edge.first}) == 0 && mesh.is_skin[edge.first])
-      places.insert(edge.first);
-  }
-  return places.size();
-}
-
-TEST(Simplify, AHeadKeepsItsSilhouetteItsBordersAndItsSymmetry) {
-  constexpr double kSilhouettes[] = {0, 0.001, 0.001, 0.002, 0.004, 0.009, 0.016, 0.03};
-  const Lods made(procedural_mesh(2, true), 0.5, 8);
-  printf(
-      "LOD, triangles, silhouette from the front and the side in %%, places on borders, without "
-      "mirror image\n");
-  for (size_t lod = 1; lod < 8; ++lod) {
-    const double front = silhouette_error(made.at(lod), made.at(0), 2);
-    const double side = silhouette_error(made.at(lod), made.at(0), 0);
-    const double alone = without_mirror(made.at(lod));
-    printf("%zu, %zu, %.2f, %.2f, %zu of %zu, %.3f\n", lod, made.triangles(lod), 100 * front,
-           100 * side, border_places(made.at(lod)), border_places(made.at(0)), alone);
-    EXPECT_LT(std::max(front, side), kSilhouettes[lod]) << lod;
-    EXPECT_LT(alone, 0.03) << lod;
-    EXPECT_GE(border_places(made.at(lod)), std::min<size_t>(10, border_places(made.at(0)))) << lod;
-  }
 }
 
 TEST(Simplify, TakesWhatIsNoSurface) {

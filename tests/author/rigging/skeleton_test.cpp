@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 
 #include "author/mesh/mirror_places.h"
@@ -44,7 +45,11 @@ struct SkeletonRig {
 class Skeleton : public ::testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
-    made_ = std::make_unique<SkeletonRig>(GetParam());
+    // Made once, because that takes a second; tests only read it.
+    static std::map<std::string, std::unique_ptr<SkeletonRig>> made;
+    std::unique_ptr<SkeletonRig>& of_head = made[GetParam()];
+    if (!of_head) of_head = std::make_unique<SkeletonRig>(GetParam());
+    made_ = of_head.get();
     if (!made_->there)
       GTEST_SKIP() << "NOT TESTED: skeletons of real heads; there is no $MIEN_SHARED/data/meshes";
   }
@@ -52,7 +57,7 @@ class Skeleton : public ::testing::TestWithParam<const char*> {
   const AuthorMesh& mesh() const { return made_->rigging.read.mesh; }
   const NeckCut& cut() const { return made_->rigging.placement.neck_cut; }
 
-  std::unique_ptr<SkeletonRig> made_;
+  const SkeletonRig* made_ = nullptr;
 };
 
 TEST_P(Skeleton, TheHeadTurnsOnANeckAndTheBustStays) {
@@ -109,9 +114,7 @@ TEST_P(Skeleton, TheHeadTurnsOnANeckAndTheBustStays) {
            folded, bent);
     EXPECT_GT(bent, 20u);
     EXPECT_LT(std::abs(change), 0.05 * neck);
-    // A nod of the head's joint alone presses the skin below the chin together.
-    const bool is_nod = degrees.x != 0;
-    EXPECT_LE(folded, is_nod ? bent / 400 : 0);
+    EXPECT_EQ(folded, 0u);
   }
 }
 

@@ -109,7 +109,7 @@ TEST(SkinWeights, FadeToTheHeadBehindTheFaceAndToTheNeckBelowIt) {
 
 TEST(SkinWeights, OfWhatShapesMoveBelowTheThroatTheChinGetsTheShareOfTheHead) {
   TestMesh mesh = procedural_mesh(3, true);
-  const Weighed before(mesh, 100, 8);
+  const Weighed before(mesh, 100, 12);
   const AuthorMesh& still = before.read.mesh;
   const Placement& placement = before.placement;
   ASSERT_TRUE(placement.neck_cut.exists);
@@ -128,10 +128,11 @@ TEST(SkinWeights, OfWhatShapesMoveBelowTheThroatTheChinGetsTheShareOfTheHead) {
     for (std::vector<double>& shape : mesh.displacements) shape[3 * v + 1] = 0;
     mesh.displacements[0][3 * v + 1] = -1;
   }
-  const Weighed after(mesh, 100, 8);
+  // With room for all of the body beside facial joints.
+  const Weighed after(mesh, 100, 12);
   EXPECT_NEAR(after.weight(chest, 1), 1, 1e-6);
   const BodyChain chain = body_chain(placement);
-  const double share = head_share(chain, height_in_neck(placement, still.positions[neck]));
+  const double share = head_share(placement, chain, still.positions[neck]);
   double body = 0;
   for (uint32_t i = 0; i + 1 < chain.count; ++i) body += after.weight(neck, chain.bones[i]);
   EXPECT_EQ(after.weight(neck, chain.bones[chain.count - 1]), 0);
@@ -148,18 +149,25 @@ TEST(SkinWeights, OfTheBodySumToOneAndRiseFromChestToHead) {
   placement.bones = {bones, 5};
   const BodyChain chain = body_chain(placement);
   ASSERT_EQ(chain.count, 4u);
-  double before = -1;
-  for (double height = 0; height <= 1; height += 0.125) {
-    double shares[BodyChain::kCapacity], sum = 0;
-    share_body(chain, height, shares);
-    for (uint32_t i = 0; i < chain.count; ++i) {
-      EXPECT_GE(shares[i], 0);
-      sum += shares[i];
+  for (const double front : {0.0, 0.5, 1.0}) {
+    double before[] = {-1, -1, -1};
+    for (double height = 0; height <= 1; height += 0.125) {
+      double shares[BodyChain::kCapacity], sum = 0;
+      share_body(chain, height, front, shares);
+      for (uint32_t i = 0; i < chain.count; ++i) {
+        EXPECT_GE(shares[i], 0);
+        sum += shares[i];
+      }
+      EXPECT_NEAR(sum, 1, 1e-12);
+      EXPECT_NEAR(shares[3], height * (height + front * (1 - height)), 1e-12);
+      EXPECT_EQ(shares[1], shares[2]);
+      // What a joint moves together with those above it.
+      const double moved[] = {1 - shares[0], shares[2] + shares[3], shares[3]};
+      for (uint32_t i = 0; i < 3; ++i) {
+        EXPECT_GT(moved[i], before[i]);
+        before[i] = moved[i];
+      }
     }
-    EXPECT_NEAR(sum, 1, 1e-12);
-    EXPECT_NEAR(shares[3], height * height * height, 1e-12);
-    EXPECT_GT(shares[3], before);
-    before = shares[3];
   }
   // Without a cut all is head; a place far to the side is a shoulder.
   EXPECT_EQ(height_in_neck(placement, {0, -100, 0}), 1);
@@ -170,6 +178,10 @@ TEST(SkinWeights, OfTheBodySumToOneAndRiseFromChestToHead) {
   EXPECT_EQ(height_in_neck(placement, {0, 1, 0}), 1);
   EXPECT_NEAR(height_in_neck(placement, {0, -5, 0}), 0.5, 1e-12);
   EXPECT_EQ(height_in_neck(placement, {14, -5, 0}), 0);
+  placement.neck_cut.z = 3;
+  EXPECT_EQ(front_of_neck(placement, {0, 0, 3}), 1);
+  EXPECT_NEAR(front_of_neck(placement, {0, 0, 0.5}), 0.5, 1e-12);
+  EXPECT_EQ(front_of_neck(placement, {0, 0, -2}), 0);
 }
 
 /// Two sheets that touch nowhere but at one edge far away: the air between them is a hair wide.

@@ -207,6 +207,26 @@ double front_at(const Points& points, const std::vector<Triangle>& triangles, do
   return best;
 }
 
+/// Triangles that a line along z through one of these points may meet: a few of all.
+std::vector<Triangle> near_lines(const Points& points, const std::vector<Triangle>& triangles,
+                                 const Points& through) {
+  double low[2] = {1e9, 1e9}, high[2] = {-1e9, -1e9};
+  for (const Vec3& p : through) {
+    low[0] = std::min(low[0], p.x);
+    low[1] = std::min(low[1], p.y);
+    high[0] = std::max(high[0], p.x);
+    high[1] = std::max(high[1], p.y);
+  }
+  std::vector<Triangle> near;
+  for (const Triangle& t : triangles) {
+    const Vec3 a = points[t[0]], b = points[t[1]], c = points[t[2]];
+    if (std::min({a.x, b.x, c.x}) > high[0] || std::max({a.x, b.x, c.x}) < low[0]) continue;
+    if (std::min({a.y, b.y, c.y}) > high[1] || std::max({a.y, b.y, c.y}) < low[1]) continue;
+    near.push_back(t);
+  }
+  return near;
+}
+
 // The file --------------------------------------------------------------------------------------
 
 TEST(ProceduralHead, IsAValidFileWithoutFindings) {
@@ -513,11 +533,12 @@ TEST(ProceduralHead, LidsCloseOnTheEyeball) {
       EXPECT_LT(widest(lids, edges), lod < head::kShapeLods ? 1e-4 : 0.03) << lod;
       // Seen from the front nothing of the eyeball shows.
       const Points eye = head.pose(Part::kEyeLeft, lod);
+      const auto over_eye = near_lines(lids, head.triangles_of(Part::kHead, lod), eye);
       for (double x = -0.8; x <= 0.8; x += 0.1) {
         for (double y = -0.8; y <= 0.8; y += 0.1) {
           const double at_x = kEye.x + x * head::kEyeRadius, at_y = kEye.y + y * head::kEyeRadius;
           const double ball = front_at(eye, head.triangles_of(Part::kEyeLeft, lod), at_x, at_y);
-          const double lid = front_at(lids, head.triangles_of(Part::kHead, lod), at_x, at_y);
+          const double lid = front_at(lids, over_eye, at_x, at_y);
           EXPECT_GT(lid, ball) << "LOD " << lod << " at " << at_x << " " << at_y;
         }
       }
@@ -647,14 +668,14 @@ TEST(ProceduralHead, OtherPersonsCloseEyesAndLipsToo) {
     for (const Triangle& t : head.triangles_of(Part::kHead, 0)) {
       if (skin[t[0]].z > 0) front.push_back(t);
     }
-    for (const Vec3& p : head.pose(Part::kEyeLeft, 0)) {
+    const Points eye = head.pose(Part::kEyeLeft, 0), teeth = head.pose(Part::kTeeth, 0);
+    const auto over_eye = near_lines(skin, front, eye), over_teeth = near_lines(skin, front, teeth);
+    for (const Vec3& p : eye) {
       if (p.z > kEye.z) {
-        EXPECT_GT(front_at(skin, front, p.x, p.y), p.z) << seed;
+        EXPECT_GT(front_at(skin, over_eye, p.x, p.y), p.z) << seed;
       }
     }
-    for (const Vec3& p : head.pose(Part::kTeeth, 0)) {
-      EXPECT_GT(front_at(skin, front, p.x, p.y), p.z) << seed;
-    }
+    for (const Vec3& p : teeth) EXPECT_GT(front_at(skin, over_teeth, p.x, p.y), p.z) << seed;
   }
 }
 
@@ -687,8 +708,10 @@ TEST(ProceduralHead, TongueComesOut) {
   for (uint32_t lod = 0; lod < kLodCount; ++lod) {
     const Points skin = head.pose(Part::kHead, lod, {{"tongueOut", 1}});
     double out = 0;
-    for (const Vec3& p : head.pose(Part::kTongue, lod)) {
-      const double front = front_at(skin, head.triangles_of(Part::kHead, lod), p.x, p.y);
+    const Points tongue = head.pose(Part::kTongue, lod);
+    const auto over_tongue = near_lines(skin, head.triangles_of(Part::kHead, lod), tongue);
+    for (const Vec3& p : tongue) {
+      const double front = front_at(skin, over_tongue, p.x, p.y);
       out = std::max(out, p.z - front);
     }
     EXPECT_GT(out, 0.8) << lod;
