@@ -74,7 +74,7 @@ void add_lashes(const Form& form, uint32_t lod, HalfMesh& out) {
     for (uint32_t k = 0; k < columns; ++k) {
       const double s = mix(-0.96, 0.99, static_cast<double>(k) / (columns - 1));
       const double full = full_at(s);
-      const double radius[] = {kLidRadius - 0.05, kLidRadius + (0.05 + long_hairs) * full,
+      const double radius[] = {kLidRadius - 0.05, kLidRadius + (0.035 + long_hairs) * full,
                                kLidRadius - 0.03};
       const double lift[] = {-0.015, (0.02 + 0.3 * long_hairs) * full, 0.03};
       out.vertices.add(place(s, radius[row], lift[row], row / 4.0));
@@ -90,15 +90,15 @@ void add_lashes(const Form& form, uint32_t lod, HalfMesh& out) {
   const uint32_t end = first + columns - 1;
   out.triangle(end, end + 2 * columns, end + columns);
   if (lod > 2) return;
-  const uint32_t hairs = at_lod(44, 12, lod);
+  const uint32_t hairs = at_lod(54, 12, lod);
   for (uint32_t i = 0; i < hairs; ++i) {
-    const double s = mix(-0.90, 0.985, (i + 0.35 * scatter(i)) / (hairs - 1.0));
-    const double full = full_at(s) * (0.88 + 0.16 * scatter(i + 100));
+    const double s = mix(-0.88, 0.985, (i + 0.5 + 0.5 * scatter(i)) / hairs);
+    const double full = full_at(s) * (0.84 + 0.26 * scatter(i + 100));
     Hair hair;
     hair.root = place(s, kLidRadius - 0.02, 0.005, 0.6);
     hair.middle = place(s, kLidRadius + 0.24 * full, 0.03 + 0.01 * full, 0.8);
     hair.tip = place(s, kLidRadius + 0.42 * full, 0.16 * full, 1);
-    hair.wide = {0.022, 0, 0};
+    hair.wide = {0.013, 0, 0};
     const double out_by = full * (0.16 * s + 0.05 * scatter(i + 200));  // they fan out
     const auto lean = [](Vertex& v, double by) {
       v.closed.x += by;
@@ -117,7 +117,8 @@ void add_brow(const Form& form, uint32_t lod, HalfMesh& out) {
     double x, y, half;
   };
   const auto arch_at = [&form](double t) {
-    const double y = 2.36 + 0.66 * exact_sine(kPi * clamp01(t * 0.72 + 0.05)) - 0.10 * t;
+    const double y = 2.36 + form.person().brow_height +
+                     0.66 * exact_sine(kPi * clamp01(t * 0.72 + 0.05)) - 0.10 * t;
     const double half = 0.34 * form.person().brow * exact_pow(clamp01((1 - t) * 1.9), 0.75) *
                         mix(0.72, 1, smooth_step(0, 0.3, t));
     return Arch{mix(1.22, 5.25, t), y, half + 0.03};
@@ -143,7 +144,7 @@ void add_brow(const Form& form, uint32_t lod, HalfMesh& out) {
       // The border fades into the skin; less without hairs, because there are few rows.
       const double square = across * across;
       const double fade = std::max(strands ? square * square : square, 1 - clamp01(3 * t));
-      const double thin = strands ? mix(0.28 - 0.06 * lod, 1, fade)
+      const double thin = strands ? mix(0.42 - 0.06 * lod, 1, fade)
                                   : mix(0.24, rows > 3 ? 0.80 : 0.60, fade * fade);
       const Color color = mix(hair_color, skin, thin);
       out.vertices.add(place(at.x, at.y + across * at.half * (strands ? 0.8 : 1), raise, color, t,
@@ -152,25 +153,26 @@ void add_brow(const Form& form, uint32_t lod, HalfMesh& out) {
   }
   join_rows(out, first, rows, columns);
   if (!strands) return;
-  const uint32_t hairs = lod == 0 ? 190 : lod == 1 ? 100 : 56;
+  const uint32_t hairs = lod == 0 ? 250 : lod == 1 ? 120 : 60;
   for (uint32_t i = 0; i < hairs; ++i) {
     // Hairs lean outwards; the inner ones stand up, and those near the tail lie flat.
     const double t = clamp01((i + 0.5) / hairs + 0.02 * scatter(i + 300));
     const double across = 0.80 * scatter(i);
     const Arch at = arch_at(t);
-    const double size = (0.36 + 0.08 * scatter(i + 500)) * mix(0.85, 1, smooth_step(0, 0.2, t)) *
+    const double size = (0.34 + 0.09 * scatter(i + 500)) * mix(0.85, 1, smooth_step(0, 0.2, t)) *
                         mix(1, 0.7, smooth_step(0.7, 1, t));
-    const double lean = mix(0.95, -0.22, smooth_step(-0.05, 0.5, t)) - 0.45 * across;
+    const double lean =
+        mix(0.95, -0.20, smooth_step(-0.05, 0.5, t)) - 0.50 * across + 0.16 * scatter(i + 600);
     const auto [s, c] = exact_sine_cosine(lean);
     const double x = at.x - 0.3 * size * c, y = at.y + across * at.half - 0.3 * size * s;
     const Color color =
-        mix(hair_color, mix(skin, {60, 40, 30}, 0.4), 0.22 + 0.16 * scatter(i + 700));
+        mix(hair_color, mix(skin, {60, 40, 30}, 0.4), 0.34 + 0.18 * scatter(i + 700));
     Hair hair;
     hair.root = place(x, y, 0.0, color, t, 0.5 + 0.4 * across);
     hair.middle =
         place(x + 0.5 * size * c, y + 0.5 * size * s, 0.055, color, t, 0.55 + 0.4 * across);
     hair.tip = place(x + size * c, y + size * (s - 0.15), 0.02, color, t, 0.6 + 0.4 * across);
-    const double wide = lod == 0 ? 0.016 : lod == 1 ? 0.022 : 0.03;
+    const double wide = lod == 0 ? 0.015 : lod == 1 ? 0.018 : 0.028;
     hair.fine = true;
     hair.wide = {s * wide, -c * wide, 0};
     add_hair(hair, out);

@@ -47,9 +47,9 @@ void SkinMaker::make_ear() {
   // Share of the outline's radius, height above the plane of the ear, and minimum height above the head where
   // the ear grows out of it: from the back, over the rim, into the bowl.
   static constexpr double kFine[][3] = {
-      {0.90, -0.34, 0.04}, {1.00, -0.16, 0.08},  {1.03, 0.04, 0.13},   {0.99, 0.20, 0.17},
-      {0.93, 0.24, 0.17},  {0.86, 0.08, 0.10},   {0.79, -0.10, 0.02},  {0.70, -0.05, 0.0},
-      {0.60, 0.05, -0.02}, {0.50, -0.02, -0.12}, {0.38, -0.20, -0.24}, {0.22, -0.32, -0.36}};
+      {0.90, -0.34, 0.04}, {1.00, -0.16, 0.08}, {1.04, 0.05, 0.13},   {1.00, 0.25, 0.19},
+      {0.94, 0.29, 0.19},  {0.87, 0.13, 0.11},  {0.80, -0.06, 0.03},  {0.70, 0.02, 0.02},
+      {0.61, 0.17, 0.02},  {0.52, 0.03, -0.08}, {0.40, -0.24, -0.22}, {0.22, -0.38, -0.38}};
   static constexpr double kPlain[][3] = {
       {1.02, 0.02, 0.12}, {0.92, 0.17, 0.15}, {0.60, -0.05, 0.0}, {0.35, -0.28, -0.30}};
   static constexpr double kPlainest[][3] = {{1.0, 0.1, 0.12}, {0.5, -0.1, -0.05}};
@@ -64,31 +64,43 @@ void SkinMaker::make_ear() {
   if (out_.failed()) return;
 
   const Color skin = form_.person().skin, red = redder(skin, 0.45);
-  const Color rosy = mix(skin, red, 0.8), deep = redder(mix(skin, {0, 0, 0}, 0.35), 0.5);
-  const double middle_u = 0.5 + 0.5 * 0.53, middle_v = out_.vertices[ring_[0]].v;
+  const Color rosy = mix(skin, red, 0.45), deep = redder(mix(skin, {0, 0, 0}, 0.35), 0.5);
+  double middle_u = 0, middle_v = 0;
+  for (uint32_t k = 0; k < ring_size_; ++k) {
+    middle_u += out_.vertices[ring_[k]].u / ring_size_;
+    middle_v += out_.vertices[ring_[k]].v / ring_size_;
+  }
   uint32_t root[kMaxRing], next[kMaxRing];
   std::copy(ring_, ring_ + ring_size_, root);
   const auto place = [&](uint32_t k, const double(&step)[3], uint32_t r) {
     const auto [s, c] = turn(k);
     const double low = smooth_step(0.2, -1, s);
-    const double p = c * (c > 0 ? mix(1.65, 1.05, low) : mix(0.95, 0.80, low));
-    const double q = s * (s > 0 ? 2.4 : 2.1);
+    // The bowl is in front of the middle, and low.
+    const double inner = 1 - smooth_step(0.25, 0.85, step[0]);
+    const double p = c * (c > 0 ? mix(1.65, 1.05, low) : mix(0.95, 0.80, low)) - 0.30 * inner;
+    const double q = s * (s > 0 ? 2.4 : 2.1) - 0.35 * inner;
     // The rim fades towards the lobe and where the ear grows out of the head.
     const double rim = mix(1, 0.25, std::max(smooth_step(-0.3, -0.9, s), smooth_step(-0.4, -1, c)));
     double height = step[1] * (step[1] > 0 ? rim : 1);
     if (step[0] < 0.6) height *= mix(1, 0.35, low);
+    if (step[0] < 0.75) {
+      // The antihelix stands behind the bowl only, and parts into two legs above; below the bowl is the antitragus.
+      if (step[1] > 0) height *= smooth_step(-0.55, 0.25, c) * smooth_step(-0.95, -0.35, s);
+      height -= 0.13 * bump(c, step[0], 0.12, 0.66, 0.20, 0.12) * smooth_step(0.4, 0.8, s);
+      height += 0.15 * bump(c, step[0], -0.30, 0.64, 0.35, 0.10) * smooth_step(-0.5, -0.85, s);
+    }
     const double size = ear_.size;
     const Vertex& from = out_.vertices[root[k]];
     Vec3 at = ear_.origin + ear_.back * (p * step[0] * size) + ear_.up * (q * step[0] * size) +
               ear_.outward * (height * size);
     // In front the rim ends in the cheek, with a flap before the bowl.
     const double in_front = smooth_step(-0.1, -0.75, c) * smooth_step(0.75, 0.35, s);
-    const double flap = 0.13 * in_front * bump(s, step[0], -0.15, 0.80, 0.35, 0.16);
+    const double flap = 0.27 * in_front * bump(s, step[0], -0.12, 0.74, 0.30, 0.13);
     const double least = step[2] * (step[2] > 0 ? mix(1, 0.2, in_front) : 1) + flap;
     at.x = std::max(at.x, from.closed.x + least * size);
     const double left = 1 - (r + 1.0) / (rings + 1);
     const double shade = smooth_step(-0.05, -0.4, step[1]) * (r > rings / 2);
-    return plain(at, mix(mix(from.color, rosy, std::min(1.0, 0.4 * (r + 1))), deep, 0.7 * shade),
+    return plain(at, mix(mix(from.color, rosy, std::min(1.0, 0.4 * (r + 1))), deep, 0.55 * shade),
                  mix(middle_u, from.u, left), mix(middle_v, from.v, left), Carrier::kSkin);
   };
   for (uint32_t r = 0; r < rings; ++r) {

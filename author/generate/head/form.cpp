@@ -22,17 +22,22 @@ double bump(double x, double y, double cx, double cy, double sx, double sy) {
 
 namespace {
 
-// y, half width, front, back, exponent
+// y, half width, front, back, exponent.
+//
+// Breadths follow the means of young adults that Farkas published ("Anthropometry of the Head and Face", 2nd
+// ed., 1994; women and men of North America), cm: head 14.4 and 15.1 (eu-eu), forehead 11.2 and 11.6 (ft-ft),
+// cheekbones 13.0 and 13.7 (zy-zy), angles of the jaw 9.1 and 9.7 (go-go, on bone). Heights: nose to chin 11.1
+// and 12.1 (n-gn), lower face 6.4 and 7.3 (sn-gn). The eyes are a third larger than life.
 constexpr int kKnotColumns = 5;
 constexpr double kKnots[][kKnotColumns] = {
-    {-22.0, 12.2, 4.5, -7.9, 2.4},  {-21.6, 12.8, 5.1, -8.6, 2.5},   {-20.6, 13.0, 5.0, -9.1, 2.5},
-    {-19.4, 12.7, 4.5, -9.1, 2.45}, {-18.3, 11.6, 3.95, -8.8, 2.35}, {-17.4, 9.9, 3.5, -8.4, 2.25},
-    {-16.6, 7.9, 3.3, -7.9, 2.15},  {-15.8, 6.2, 3.3, -7.4, 2.05},   {-14.4, 5.25, 3.5, -6.8, 2.0},
-    {-12.6, 5.1, 3.9, -6.4, 2.0},   {-11.5, 5.2, 4.95, -6.2, 2.0},   {-10.9, 5.3, 7.0, -6.1, 2.05},
-    {-10.3, 5.8, 8.5, -6.1, 1.9},   {-9.2, 6.2, 8.9, -6.2, 2.0},     {-8.0, 6.42, 9.0, -6.4, 2.1},
-    {-6.0, 6.7, 8.85, -6.9, 2.3},   {-4.0, 7.1, 9.0, -7.8, 2.45},    {-1.5, 7.4, 9.1, -8.9, 2.5},
-    {0.6, 7.65, 9.25, -9.6, 2.3},   {3.0, 7.85, 9.5, -10.0, 2.3},    {5.0, 7.85, 9.12, -10.1, 2.3},
-    {7.5, 7.45, 8.15, -9.7, 2.25},  {9.8, 6.3, 6.6, -8.5, 2.2},      {11.4, 4.6, 4.7, -6.6, 2.15},
+    {-22.0, 9.8, 3.4, -6.6, 2.4},   {-21.6, 10.9, 4.3, -7.7, 2.45}, {-20.6, 11.9, 4.8, -8.6, 2.45},
+    {-19.4, 12.0, 4.5, -8.9, 2.4},  {-18.3, 11.2, 3.95, -8.8, 2.3}, {-17.4, 9.6, 3.5, -8.4, 2.2},
+    {-16.6, 7.6, 3.3, -7.9, 2.1},   {-15.8, 6.0, 3.3, -7.4, 2.05},  {-14.4, 5.0, 3.5, -6.8, 2.0},
+    {-12.6, 4.65, 3.9, -6.4, 2.0},  {-11.5, 4.65, 4.95, -6.2, 2.0}, {-10.9, 4.8, 7.0, -6.1, 2.0},
+    {-10.3, 5.2, 8.5, -6.1, 1.82},  {-9.2, 5.4, 8.9, -6.2, 1.88},   {-8.0, 5.6, 9.0, -6.4, 1.96},
+    {-6.0, 5.95, 8.85, -6.9, 2.08}, {-4.0, 6.5, 9.0, -7.8, 2.2},    {-1.5, 6.95, 9.1, -8.9, 2.25},
+    {0.6, 7.15, 9.25, -9.6, 2.2},   {3.0, 7.45, 9.5, -10.0, 2.16},  {5.0, 7.55, 9.12, -10.1, 2.16},
+    {7.5, 7.25, 8.15, -9.7, 2.16},  {9.8, 6.2, 6.6, -8.5, 2.15},    {11.4, 4.6, 4.7, -6.6, 2.12},
     {12.25, 2.7, 2.2, -4.0, 2.1},   {12.6, 0.6, -0.3, -1.5, 2.0},
 };
 constexpr int kKnotCount = sizeof(kKnots) / sizeof(kKnots[0]);
@@ -94,13 +99,14 @@ Form::Section Form::section(double y, double cosine) const {
   };
   Section s = {at(1), at(2), at(3), at(4)};
   // The nape has no jaw.
-  static constexpr double kNape[][2] = {{-22.0, 12.2}, {-21.6, 12.8}, {-20.6, 13.0}, {-19.4, 12.7},
-                                        {-18.3, 11.6}, {-17.4, 10.1}, {-16.6, 8.5},  {-15.6, 6.6},
-                                        {-13.6, 5.2},  {-10.5, 5.15}, {-7.5, 5.5},   {-4.5, 6.35},
-                                        {-1.5, 7.25},  {0.6, 7.65}};
+  static constexpr double kNape[][2] = {{-22.0, 9.8},  {-21.6, 10.9}, {-20.6, 11.9}, {-19.4, 12.0},
+                                        {-18.3, 11.2}, {-17.4, 9.8},  {-16.6, 8.2},  {-15.6, 6.4},
+                                        {-13.6, 4.95}, {-10.5, 4.9},  {-7.5, 5.3},   {-4.5, 6.1},
+                                        {-1.5, 6.85},  {0.6, 7.15}};
   if (y < 0.6)
     s.half_width = mix(s.half_width, interpolate(y, kNape), smooth_step(0.30, -0.45, cosine));
   const Person& p = person_;
+  s.half_width *= 1 + 0.10 * p.weight * bump(0, y, 0, -6.8, 1, 4.5);
   s.half_width *= mix(1, p.jaw, bump(0, y, 0, -8.2, 1, 3.2));
   s.half_width *= mix(1, p.face, bump(0, y, 0, -2.0, 1, 3.0));
   s.half_width *= mix(1, p.breadth, smooth_step(0, 6, y));
@@ -117,17 +123,18 @@ Form::Section Form::section(double y, double cosine) const {
 
 double Form::mouth_line(double x) const {
   const double s = std::min(std::abs(x) / kMouthHalfWidth, 1.3);
-  // A bow: lower in the middle, higher at the corners.
-  return kMouthY - 0.10 * bump(s, 0, 0, 0, 0.30, 1) + 0.15 * s * s;
+  // The tubercle of the upper lip hangs in the middle; beside it the line rises.
+  return kMouthY - 0.09 * bump(s, 0, 0, 0, 0.26, 1) + 0.05 * bump(s, 0, 0.46, 0, 0.26, 1) +
+         0.03 * s * s * s * s;
 }
 
 double Form::lip_height(double x, int which) const {
   const double s = std::min(std::abs(x) / (1.04 * kMouthHalfWidth), 1.0), end = 1 - s * s;
   const double full = mix(1, person_.lips, 0.5);
   if (which < 0)
-    return full * (0.76 * exact_pow(end, 0.44) - 0.08 * bump(s, 0, 0, 0, 0.30, 1) * end);
-  const double bow = 0.60 + 0.12 * bump(s, 0, 0.26, 0, 0.20, 1) - 0.07 * bump(s, 0, 0, 0, 0.10, 1);
-  return bow * full * exact_pow(end, 0.8);
+    return full * (0.80 * exact_pow(end, 0.62) - 0.05 * bump(s, 0, 0, 0, 0.30, 1) * end);
+  const double bow = 0.57 + 0.11 * bump(s, 0, 0.24, 0, 0.20, 1) - 0.06 * bump(s, 0, 0, 0, 0.11, 1);
+  return bow * full * exact_pow(end, 0.68);
 }
 
 FrontPlace Form::lip_curve(double out, int which) const {
@@ -163,11 +170,11 @@ double Form::nose(double x, double y) const {
   const Person& p = person_;
   // y, height of the ridge, half width, steepness of the sides (less is steeper), bluntness
   static constexpr double kRows[][5] = {
-      {-4.9, 0.00, 0.6, 1.20, 0},    {-4.6, 0.24, 0.88, 1.00, 0},   {-4.35, 0.80, 1.18, 0.76, 0},
-      {-4.12, 1.46, 1.44, 0.62, 0},  {-3.85, 2.00, 1.64, 0.58, 0},  {-3.5, 2.32, 1.74, 0.70, 0.2},
-      {-3.1, 2.40, 1.76, 1.30, 0.8}, {-2.7, 2.30, 1.74, 1.90, 1.1}, {-2.2, 2.00, 1.74, 2.00, 0.8},
-      {-1.5, 1.54, 1.70, 2.00, 0.3}, {-0.6, 1.00, 1.66, 2.00, 0},   {0.4, 0.50, 1.65, 2.10, 0},
-      {1.3, 0.28, 1.70, 2.00, 0},    {2.4, 0.22, 2.2, 1.80, 0},     {4.2, 0.00, 2.4, 1.50, 0}};
+      {-4.9, 0.00, 0.6, 1.20, 0},     {-4.6, 0.24, 0.84, 1.00, 0},   {-4.35, 0.80, 1.12, 0.76, 0},
+      {-4.12, 1.46, 1.38, 0.62, 0},   {-3.85, 2.00, 1.58, 0.62, 0},  {-3.5, 2.32, 1.68, 0.80, 0.2},
+      {-3.1, 2.42, 1.66, 1.50, 0.7},  {-2.7, 2.32, 1.60, 2.00, 0.9}, {-2.2, 2.02, 1.56, 2.00, 0.6},
+      {-1.5, 1.62, 1.48, 1.80, 0.25}, {-0.6, 1.16, 1.40, 1.70, 0},   {0.4, 0.66, 1.36, 1.80, 0},
+      {1.3, 0.34, 1.50, 1.90, 0},     {2.4, 0.22, 2.2, 1.80, 0},     {4.2, 0.00, 2.4, 1.50, 0}};
   constexpr int kCount = sizeof(kRows) / sizeof(kRows[0]);
   const double at_x = std::abs(x) / p.nose_width;
   // The rim of the nostril is an arch.
@@ -183,10 +190,11 @@ double Form::nose(double x, double y) const {
     const double blunt = 1 + at(4) * std::min(t * t, 1.0);
     z = at(1) * exact_pow(above, at(3)) * blunt * smooth_step(1.4, 1.0, t);
   }
-  // The wing is a separate ball, with a furrow behind it that runs from the tip to the cheek.
-  const double dx = at_x - 1.34, dy = y + 3.52, apart = std::sqrt(dx * dx + 0.8 * dy * dy) - 0.52;
-  z += 0.25 * bump(dx, dy, 0, 0, 0.36, 0.42);
-  z -= 0.34 * bump(apart, 0, 0, 0, 0.15, 1) * smooth_step(-0.50, 0.05, dy) *
+  // The tip is a ball of its own, as are the wings; a furrow runs around each wing from the tip to the cheek.
+  z += 0.16 * bump(at_x, row, 0, -3.02, 0.62, 0.55);
+  const double dx = at_x - 1.30, dy = y + 3.50, apart = std::sqrt(dx * dx + 0.8 * dy * dy) - 0.52;
+  z += 0.30 * bump(dx, dy, 0, 0, 0.34, 0.40);
+  z -= 0.44 * bump(apart, 0, 0, 0, 0.15, 1) * smooth_step(-0.50, 0.05, dy) *
        mix(0.25, 1, smooth_step(-0.45, 0.15, dx)) * smooth_step(1.10, 0.85, t);
   return p.nose * z;
 }
@@ -199,30 +207,58 @@ double Form::relief(double x, double y) const {
   };
   const double wing = p.nose_width;
   const Bump bumps[] = {
-      {-0.50, 3.3, 0.25, 1.9, 1.30},                    // sockets
-      {-0.10, 1.75, 0.15, 0.62, 0.95},                  // inner corners of the eyes
-      {0.26, 3.0, 1.40, 1.20, 0.50},                    // below the brow
-      {0.30, 3.6, 1.75, 1.6, 0.75},                     // skin that hangs over the crease
-      {0.22 + p.brow_ridge, 2.6, 2.85, 2.2, 0.85},      // brow ridge
-      {-0.20, 1.86 * wing, -3.6, 0.26, 0.55},           // behind the wing of the nose
-      {0.06 + 0.34 * p.cheek, 4.8, -1.9, 1.6, 1.2},     // cheekbones
-      {0.22, 2.9, -2.5, 1.2, 1.2},                      // apple of the cheek
-      {-0.12 - 0.36 * p.cheek, 5.0, -5.3, 1.4, 1.6},    // hollow of the cheek
+      {-0.42, 3.1, 0.25, 1.8, 1.25},                   // sockets
+      {-0.22, 1.60, 0.35, 0.60, 0.95},                 // inner corners of the eyes
+      {0.26, 3.3, 1.45, 1.30, 0.55},                   // below the brow
+      {0.30, 3.8, 1.80, 1.5, 0.75},                    // skin that hangs over the crease
+      {0.20 + p.brow_ridge, 1.9, 2.75, 1.5, 0.75},     // brow ridge, inner half
+      {0.30 + p.brow_ridge, 4.3, 2.85, 1.3, 0.80},     // and above the outer corner of the eye
+      {0.10 + 0.5 * p.brow_ridge, 0, 2.5, 1.1, 0.8},   // glabella
+      {-0.20, 1.80 * wing, -3.6, 0.26, 0.55},          // behind the wing of the nose
+      {0.24 + 0.34 * p.cheek, 4.7, -1.55, 1.6, 1.15},  // cheekbones
+      {0.24, 3.1, -2.4, 1.3, 1.1},                     // apple of the cheek
+      {-0.16, 2.7, -0.95, 1.0, 0.35},  // from the inner corner of the eye to the cheek
+      {-0.08 - 0.36 * p.cheek, 4.5, -5.0, 1.3, 1.5},    // hollow of the cheek
       {0.50 + 0.74 * p.muzzle, 0, -5.7, 2.6, 1.9},      // muzzle
-      {-0.04 - 0.24 * p.age, 2.25, -4.35, 0.30, 0.85},  // from nose to mouth
-      {-0.22, 2.75, -6.0, 0.42, 0.55},                  // corners of the mouth
-      {-0.13, 0, -4.75, 0.26, 0.55},                    // philtrum
-      {0.06, 0.42, -4.85, 0.20, 0.50},                  // its edges
+      {-0.06 - 0.24 * p.age, 2.25, -4.35, 0.30, 0.85},  // from nose to mouth
+      {-0.24, 2.68, -6.05, 0.34, 0.42},                 // corners of the mouth
+      {0.06, 3.2, -6.3, 0.7, 0.9},                      // and the muscles that meet beside them
+      {0.45 * p.weight, 4.3, -5.2, 1.6, 1.9},           // fat of the cheeks
+      {0.30 * p.weight, 3.0, -8.6, 1.8, 1.2},           // and of the jaw
+      {p.nose_hump, 0, -0.7, 0.7, 0.8},                 // bridge of the nose: convex or hollow
+      {-0.16, 0, -4.85, 0.24, 0.60},                    // philtrum
+      {0.09, 0.42, -4.95, 0.18, 0.55},                  // its edges
       {0.10 * p.age, 3.2, -1.35, 1.1, 0.35},            // below the eyes
       {-0.30 * p.age, 4.6, -4.0, 1.2, 1.2},             // cheeks sink
       {0.35 * p.age, 3.6, -8.3, 1.3, 1.0},              // jowls
-      {-0.24, 0, -7.65, 1.6, 0.55},                     // fold above the chin
-      {0.12 + 0.62 * p.chin, 0, -9.2, 1.6, 1.1},        // chin
-      {0.20, 1.6, 5.4, 2.6, 1.6},                       // forehead
-      {-0.25, 6.4, 2.2, 1.0, 1.8},                      // temples
+      {-0.34, 0, -7.70, 1.5, 0.50},                     // fold above the chin
+      {0.26 + 0.62 * p.chin, 0, -9.25, 1.25, 0.95},     // chin
+      {0.10, 0.75, -9.35, 0.6, 0.6},                    // its two tubercles
+      {-0.16, 2.3, -9.0, 0.7, 1.0},                     // beside it, before the jowl
+      {0.22, 1.7, 5.6, 1.7, 1.5},                       // frontal eminences
+      {-0.10, 0, 4.3, 1.6, 0.7},                        // between them and the brow ridge
+      {-0.28, 6.0, 2.2, 0.9, 1.6},                      // temples
   };
   for (const Bump& b : bumps) z += b.amount * bump(std::abs(x), y, b.cx, b.cy, b.sx, b.sy);
   return z;
+}
+
+/// How far the sides of the head stand out beyond their sections, along x.
+double Form::side_relief(double z, double y) const {
+  struct Bump {
+    double amount, z, y, sz, sy;
+  };
+  const double lean = 0.5 * person_.cheek;
+  const Bump bumps[] = {
+      {0.16 + 0.4 * lean, 2.8, -1.1, 2.3, 1.05},  // arch of the cheekbone
+      {-0.12 - 0.4 * lean, 2.9, -4.3, 2.0, 1.4},  // below it
+      {0.34, 0.2, -6.9, 1.4, 1.2},                // angle of the jaw, with the muscle on it
+      {-0.22, 3.8, 2.5, 1.9, 1.5},                // temple
+      {0.16, 5.3, 4.4, 1.0, 1.6},                 // line from the brow up, where the forehead turns
+  };
+  double x = 0;
+  for (const Bump& b : bumps) x += b.amount * bump(z, y, b.z, b.y, b.sz, b.sy);
+  return x;
 }
 
 /// How far the lips protrude: most at a third of their height from the line between them, where both are
@@ -303,17 +339,22 @@ FacePoint Form::face(double angle, double y, Side side) const {
          smooth_step(2.6, 0.9, std::abs(y - kMouthY)) *
          smooth_step(1.9, 1.1, p.x / kMouthHalfWidth) * front_mask;
 
+  const double standing_out = side_relief(p.z, p.y);
   p.z += front_mask * (relief(p.x, p.y) + lips(p.x, p.y));
+  p.x += standing_out * smooth_step(0.35, 0.9, sine);
   // Below and behind the jaw the neck is narrower.
   if (p.y < 0) {
     const double neck = smooth_step(0.8, -1.9, inside_jaw(p.y, p.z)) * smooth_step(-5, -0.5, p.z) *
                         smooth_step(-1.8, -5.5, p.y) * smooth_step(-15.5, -12.0, p.y);
     p.x *= 1 - 0.10 * neck;
   }
+  // Below the chin fat fills the angle to the neck.
+  p.z += 0.9 * std::max(0.0, person_.weight) * bump(p.x, p.y, 0, -11.8, 3.2, 1.3) *
+         smooth_step(0.2, 0.6, cosine);
   // The muscle from behind the ear to the breast bone, and the larynx.
   if (cosine > -0.1 && p.y < -8 && p.y > -17) {
     const double down = (-5.0 - p.y) / 11.2;
-    const double muscle = 0.24 * bump(p.x, 0, mix(5.3, 0.9, down), 0, 0.75, 1) *
+    const double muscle = 0.40 * bump(p.x, 0, mix(5.1, 0.8, down), 0, 0.70, 1) *
                           smooth_step(0.40, 0.65, down) * smooth_step(1.06, 0.90, down);
     p.x += muscle * sine;
     p.z += muscle * cosine + 0.20 * bump(p.x, p.y, 0, -13.3, 0.8, 1.1) -
@@ -379,22 +420,26 @@ Color Form::skin_color(Vec3 p, double row, double lid) const {
   const double in_front = smooth_step(2.5, 5.0, p.z);
   const Color blush = redder(skin, 0.85);
   Color c = skin;
+  // Blood shows at cheeks, nose, chin and ears; the forehead is paler.
   const double red =
-      0.20 * bump(x, p.y, 4.6, -2.3, 2.1, 1.7) + 0.34 * bump(x, p.y, 0, -3.2, 1.2, 0.8) +
-      0.20 * bump(x, p.y, 0, -9.4, 1.6, 0.9) + 0.06 * bump(x, p.y, 3.2, 1.6, 1.7, 0.8);
+      0.13 * bump(x, p.y, 4.0, -2.6, 1.9, 1.5) + 0.22 * bump(x, p.y, 0, -3.2, 1.2, 0.8) +
+      0.10 * bump(x, p.y, 0, -9.4, 1.6, 0.9) + 0.16 * bump(x, p.y, 3.2, -0.6, 1.6, 0.55) +
+      0.10 * bump(x, p.y, 3.2, 1.3, 1.7, 0.7) + 0.16 * bump(x, p.y, 1.3, -3.7, 0.5, 0.5);
   c = mix(c, blush, std::min(red, 0.8) * in_front);
   // Lips.
   if (x < 1.06 * kMouthHalfWidth && p.z > 4) {
     const double d = p.y - mouth_line(p.x);
     const double height = lip_height(x, d > 0 ? 1 : -1);
-    const double inside = smooth_step(height + 0.07, height + 0.02, std::abs(d));
-    c = mix(c, person_.lip, inside);
-    c = mix(c, mix(person_.lip, {60, 16, 20}, 0.6), inside * bump(0, d, 0, 0, 1, 0.07));
+    // The border is soft, more so below and towards the corners.
+    const double soft = mix(d > 0 ? 0.10 : 0.20, 0.30, smooth_step(0.4, 1.0, x / kMouthHalfWidth));
+    const double inside = smooth_step(height + 0.05, height - soft, std::abs(d));
+    c = mix(c, person_.lip, inside * smooth_step(1.04, 0.80, x / kMouthHalfWidth));
+    c = mix(c, mix(person_.lip, {60, 16, 20}, 0.5), 0.7 * inside * bump(0, d, 0, 0, 1, 0.05));
   }
   // Edges of the upper lids are dark with lashes.
   if (lid > 0) {
     const double open = upper_opening(p.x);
-    c = mix(c, mix(skin, {60, 30, 26}, 0.7), open > 0 ? smooth_step(0.90, 1.0, lid / open) : 0);
+    c = mix(c, mix(skin, {60, 30, 26}, 0.5), open > 0 ? smooth_step(0.94, 1.0, lid / open) : 0);
   }
   // A shirt.
   const double below = kCollarY - row;

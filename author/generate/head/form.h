@@ -38,6 +38,9 @@ struct Person {
   double breadth = 1, length = 1, height = 1, face = 1, jaw = 1, neck = 1;
   double chin = 1, nose = 1, nose_width = 1, cheek = 1, muzzle = 1, lips = 1, eyes = 1, brow = 1,
          ear = 1;
+  double sex = 0;                                      // -1 female ... 1 male; 0 is in between
+  double weight = 0;                                   // -1 lean ... 1 heavy
+  double nose_hump = 0, brow_height = 0;               // cm
   double chin_drop = 0, forehead = 0, brow_ridge = 0;  // cm: longer, farther in front
   double eye_tilt = 0;   // radians by which the outer corner is higher
   double age = 1.0 / 6;  // 0 ... 1: 20 ... 80 years
@@ -118,6 +121,7 @@ class Form {
   /// `cosine` of the angle.
   Section section(double y, double cosine) const;
   double relief(double x, double y) const;
+  double side_relief(double z, double y) const;
   double nose(double x, double y) const;
   double lips(double x, double y) const;
 

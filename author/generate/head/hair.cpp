@@ -66,7 +66,7 @@ class HairMaker {
   void make() {
     out_.mirrored = false;  // parted on the left
     make_cap();
-    if (lod_ < 3 && !out_.failed()) make_strips();
+    if (lod_ < 3 && form_.person().style != HairStyle::kParted && !out_.failed()) make_strips();
     if (lod_ < 3 && !out_.failed()) make_border();
   }
 
@@ -114,6 +114,11 @@ class HairMaker {
     return style_.wave * bump(around - kPart, 0, -0.55, 0, 0.75, 1);
   }
 
+  /// Combed hair is one smooth surface with furrows in front; other hair is made of locks.
+  bool sculpted() const {
+    const HairStyle style = form_.person().style;
+    return (style == HairStyle::kParted || style == HairStyle::kBob) && lod_ < 3;
+  }
   void make_cap();
   void make_strips();
   void make_border();
@@ -129,7 +134,8 @@ class HairMaker {
 };
 
 void HairMaker::make_cap() {
-  const uint32_t columns = 2 * at_lod(56, 7, lod_), rows = at_lod(24, 4, lod_) + 1;
+  const uint32_t columns = 2 * at_lod(sculpted() ? 76 : 56, 7, lod_),
+                 rows = at_lod(sculpted() ? 32 : 24, 4, lod_) + 1;
   const bool curly = form_.person().style == HairStyle::kCurly;
   const Color hair = form_.person().hair;
   const uint32_t first = out_.vertices.count();
@@ -140,7 +146,7 @@ void HairMaker::make_cap() {
       const double share = std::abs(around) / kPi, front = smooth_step(0.46, 0.0, share);
       // Locks: round ridges between furrows, swept away from the parting in front, straight behind.
       const double from_part = around - kPart;
-      const double sweep = 3.4 * t * front * parted_ * (from_part < 0 ? 1 : -0.6);
+      const double sweep = -9.0 * t * front * parted_ * (from_part < 0 ? 1 : -0.6);
       const double fade = smooth_step(1.0, 0.55, t);  // towards the crown, where all locks meet
       const double phase =
           1.2 * t * t + style_.locks * around + 0.9 * exact_sine(2 * around + 0.7) + sweep;
@@ -154,7 +160,7 @@ void HairMaker::make_cap() {
       const double parting =
           parted_ * bump(from_part, 0, 0, 0, 0.10, 1) * smooth_step(0.75, 0.35, t);
       // Where there are strips, their ends cover the border of the cap.
-      const double beyond = (lod_ < 3 ? 0.30 * front : 0) -
+      const double beyond = (lod_ < 3 && !sculpted() ? 0.30 * front : 0) -
                             front * (1.6 * style_.lock * lock + 2.5 * style_.strand * fine) +
                             parted_ * 0.35 * bump(from_part, 0, 0, 0, 0.16, 1) -
                             parted_ * 0.30 * front * smooth_step(0.3, -0.7, from_part) *
@@ -162,9 +168,9 @@ void HairMaker::make_cap() {
       const Root root = root_at(around, t, beyond);
       const double wave = wave_at(around);
       double thick = thickness(around, t, root);
-      thick +=
-          ((lod_ < 3 ? 0.5 : 1) * style_.lock * (1 + 0.4 * wave) * lock + style_.strand * fine) *
-          fade;
+      thick += ((lod_ < 3 && !sculpted() ? 0.5 : 1) * style_.lock * (1 + 0.4 * wave) * lock +
+                style_.strand * fine) *
+               fade;
       thick -= 0.42 * parting;
       const double grown =
           style_.hang < 0 && share > 0.35 ? 1 : smooth_step(0, 0.10 + 0.05 * front, t);
@@ -218,7 +224,7 @@ void HairMaker::make_strip(uint32_t number, double from, double to, double start
   const Color hair = form_.person().hair;
   const double shade = scatter(number + 80);
   const Color light = mix(hair, {255, 222, 180}, 0.16 + 0.08 * shade),
-              dark = mix(hair, {14, 9, 8}, 0.34 - 0.12 * shade);
+              dark = mix(hair, {14, 9, 8}, 0.24 - 0.10 * shade);
   const auto add = [&](Vec3 at, Color c, double u, double v) {
     return out_.vertices.add(plain(at, c, u, v, Carrier::kSkull));
   };
@@ -227,7 +233,7 @@ void HairMaker::make_strip(uint32_t number, double from, double to, double start
     const double s = static_cast<double>(i) / steps;
     const Vec3 along = path[i + 1] - path[i > 0 ? i - 1 : 0];
     const Vec3 across = unit(cross(along, normals[i]));
-    const double half = wide * mix(0.55, 1, smooth_step(0, 0.35, s)) * smooth_step(1.15, 0.45, s);
+    const double half = wide * mix(0.55, 1, smooth_step(0, 0.35, s)) * smooth_step(1.60, 0.55, s);
     const Vec3 down = normals[i] * (-0.30 * half);
     const Color edge = mix(dark, hair, 0.35 * s), ridge = mix(hair, light, exact_sine(kPi * s));
     const uint32_t here[3] = {add(path[i] - across * half + down, edge, 0.45, s),
@@ -256,7 +262,8 @@ void HairMaker::make_strips() {
     for (uint32_t i = 0; i < count; ++i, ++number) {
       double to = mix(-kPi, kPi, (i + 0.5 + 0.4 * scatter(number)) / count);
       const double front = smooth_step(0.46, 0.15, std::abs(to) / kPi);
-      double end = 0.85 * low + 0.035 + 0.045 * scatter(number + 1000);
+      if (sculpted() && front > 0.3) continue;
+      double end = 0.85 * low + 0.035 + (layer == 0 ? 0.018 : 0.045) * scatter(number + 1000);
       double size = (is_short ? 0.20 : curly ? 0.22 : 0.55) * (1 + 0.25 * scatter(number + 2000));
       double from = to, raise = is_short ? 0.10 : 0.16;
       if (curly) {
@@ -310,7 +317,7 @@ void HairMaker::make_strand(const Strand& strand, double wide, double shade) {
 /// Single hairs along the line: in front they grow out of it, in the back they hang over it.
 void HairMaker::make_border() {
   const uint32_t count = lod_ == 0 ? 700 : lod_ == 1 ? 320 : 140;
-  const double wide = lod_ == 0 ? 0.025 : lod_ == 1 ? 0.04 : 0.06;
+  const double wide = lod_ == 0 ? 0.014 : lod_ == 1 ? 0.03 : 0.05;
   for (uint32_t i = 0; i < count; ++i) {
     const double around = mix(-kPi, kPi, (i + 0.5 + 0.45 * scatter(i + 9000)) / count);
     const double share = std::abs(around) / kPi;
@@ -320,11 +327,11 @@ void HairMaker::make_border() {
     const double side = around < kPart ? -1 : 1;
     Strand strand;
     if (share < 0.40) {
-      strand = {around, -0.030 + 0.030 * jitter, around + side * 0.07 * (0.4 + parted_),
-                0.09 * size};
+      strand = {around, -0.010 + 0.016 * jitter, around + side * 0.09 * (0.4 + parted_),
+                0.10 * size};
     } else {
       strand = {around, 0.075 + 0.030 * jitter, around + 0.02 * scatter(i + 12000),
-                -0.012 - 0.030 * size * (0.6 + 0.4 * jitter)};
+                -0.004 - 0.012 * size * (0.6 + 0.4 * jitter)};
     }
     make_strand(strand, wide, scatter(i + 13000));
   }

@@ -20,18 +20,24 @@ void SkinMaker::make_nostril() {
   if (out_.failed()) return;
   // Inside, it goes up and back.
   static constexpr double kPath[][4] = {// size, up, back, darkness
-                                        {0.97, 0.05, 0.02, 0.45},
-                                        {0.85, 0.22, 0.10, 0.85},
+                                        {0.97, 0.05, 0.02, 0.70},
+                                        {0.85, 0.22, 0.10, 1.0},
                                         {0.50, 0.48, 0.24, 1.0}};
   Vec3 middle;
+  double middle_u = 0, middle_v = 0;
   for (uint32_t k = 0; k < ring_size_; ++k) {
-    middle = middle + out_.vertices[ring_[k]].closed * (1.0 / ring_size_);
+    const Vertex& v = out_.vertices[ring_[k]];
+    middle = middle + v.closed * (1.0 / ring_size_);
+    middle_u += v.u / ring_size_;
+    middle_v += v.v / ring_size_;
   }
   const Color dark = mix(redder(form_.person().skin, 0.9), {34, 10, 10}, 0.86);
   const auto inside = [&](uint32_t from, const double(&step)[4]) {
     Vertex v = out_.vertices[from];
     v.closed = middle + (v.closed - middle) * step[0] + Vec3{0, step[1], -step[2]};
     v.position = v.closed;
+    v.u = mix(middle_u, v.u, step[0]);
+    v.v = mix(middle_v, v.v, step[0]);
     v.color = mix(form_.skin_color(v.look, v.look.y, 0), dark, step[3]);
     return out_.vertices.add(v);
   };
@@ -50,6 +56,13 @@ void SkinMaker::make_nostril() {
     out_.triangle(ring_[k], ring_[(k + 1) % ring_size_], end);
   }
 }
+
+namespace {
+
+/// Across the part of the texture for the inside of the mouth.
+double from_middle(double out) { return 0.5 + 0.45 * out; }
+
+}  // namespace
 
 uint32_t SkinMaker::mouth_vertex(uint32_t from, double out, double depth, bool at_back) {
   static constexpr double kPath[][3] = {
@@ -70,7 +83,8 @@ uint32_t SkinMaker::mouth_vertex(uint32_t from, double out, double depth, bool a
   v.position = v.closed;
   v.edge = false;
   v.depth = depth;
-  v.v = kMouthV + (v.side == Side::kAbove ? 1 : -1) * 0.012 * depth;
+  v.u = from_middle(out);
+  v.v = kInnerV * (0.5 + (v.side == Side::kAbove ? 0.42 : -0.42) * (1 - 0.9 * depth));
   const Color lip = v.color, wet = {168, 78, 76}, dark = {58, 16, 20};
   v.color =
       mix(mix(lip, wet, smooth_step(0.02, 0.20, depth)), dark, smooth_step(0.30, 0.85, depth));

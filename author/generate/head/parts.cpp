@@ -61,28 +61,37 @@ void add_eyeball(const Form& form, uint32_t lod, HalfMesh& out) {
   const double radius = kEyeRadius * kShrunk[lod];
   const Color iris = form.person().iris;
   const auto color = [&](double angle, uint32_t k) -> Color {
-    const Color pupil = {14, 12, 14}, white = {228, 222, 216};
+    const Color pupil = {14, 12, 14}, white = {206, 199, 192};
     if (angle < 0.16) return pupil;
+    const double high = 0.5 + 0.5 * exact_sine(2 * kPi * k / around);  // 1 above the pupil
     if (angle < 0.44) {
-      // Darker above, in the shadow of the lid, and at the rim; streaks.
-      const double high = 0.5 + 0.5 * exact_sine(2 * kPi * k / around);
-      const double streak = 0.05 * exact_sine(2.0 * kPi * 13 * k / around);
-      Color c = mix(iris, {206, 196, 160}, 0.26 * (1 - high) + streak);
-      c = mix(c, {18, 18, 22}, 0.50 * high * high);
-      return mix(c, {22, 24, 30}, 0.72 * smooth_step(0.31, 0.43, angle));
+      // Darker above, in the shadow of the lid and of the limbus, lighter below, where the cornea gathers light;
+      // a ring of another shade around the pupil; streaks.
+      const double streak = 0.07 * exact_sine(2.0 * kPi * 13 * k / around) +
+                            0.05 * exact_sine(2.0 * kPi * 7 * k / around + 5 * angle);
+      Color c = mix(iris, {206, 186, 140}, clamp01(0.30 * (1 - high) + streak));
+      c = mix(c, {110, 74, 40}, 0.40 * smooth_step(0.27, 0.17, angle));
+      c = mix(c, {14, 14, 18}, 0.62 * high * high);
+      return mix(c, {20, 21, 26}, 0.80 * smooth_step(0.32, 0.43, angle));
     }
-    return mix(mix(white, iris, 0.12 * smooth_step(0.52, 0.46, angle)), {206, 140, 130},
-               0.8 * smooth_step(0.7, 1.2, angle));
+    // The limbus is soft; the white is shaded by the upper lid and pink towards the corners.
+    Color c = mix(white, mix(iris, {60, 58, 62}, 0.6), 0.55 * smooth_step(0.56, 0.44, angle));
+    c = mix(c, {120, 92, 84}, 0.42 * smooth_step(0.55, 1.0, high));
+    return mix(c, {196, 126, 116}, 0.75 * smooth_step(0.62, 1.15, angle));
   };
-  const uint32_t front =
-      out.vertices.add(plain(kEye + Vec3{0, 0, radius}, {14, 12, 14}, 0.5, 0.5, Carrier::kEyeball));
+  // The cornea stands out beyond the ball, from the limbus on, as far as the lids leave room.
+  const auto bulge = [lod](double angle) {
+    return lod < 2 ? 0.06 * smooth_step(0.50, 0.05, angle) : 0.0;
+  };
+  const uint32_t front = out.vertices.add(
+      plain(kEye + Vec3{0, 0, radius + bulge(0)}, {14, 12, 14}, 0.5, 0.5, Carrier::kEyeball));
   uint32_t before = front;
   for (uint32_t r = 0; r < rings; ++r) {
     const auto [s, c] = exact_sine_cosine(angles[r]);
     const uint32_t here = out.vertices.count();
     for (uint32_t k = 0; k < around; ++k) {
       const auto [sk, ck] = exact_sine_cosine(2 * kPi * k / around);
-      const Vec3 at = kEye + Vec3{ck * s, sk * s, c} * radius;
+      const Vec3 at = kEye + Vec3{ck * s, sk * s, c} * (radius + bulge(angles[r]));
       const double wide = 0.5 * angles[r] / kPi;
       out.vertices.add(
           plain(at, color(angles[r], k), 0.5 + wide * ck, 0.5 + wide * sk, Carrier::kEyeball));

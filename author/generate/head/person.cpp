@@ -23,7 +23,8 @@ double axis(uint64_t seed, uint32_t i) {
       2270897969802886507u,  7436329637833083697u,  7640891576956012808u,  13503953896175478587u,
       11912009170470909681u, 5840696475078001361u,  11170449401992604703u, 14680500436340154072u,
       7105036623409894663u,  10473403895298186519u, 1526699215303891257u,  10282925794625328401u,
-      15784041429090275239u, 12564921287827708315u};
+      15784041429090275239u, 12564921287827708315u, 3419155146083754954u,  7861075802853663213u,
+      10035097865011968310u, 16384295103918246975u};
   const uint64_t place = seed * kRoots[i] + (uint64_t{1} << 63);
   return static_cast<double>(place >> 11) * (2.0 / 9007199254740992.0) - 1;
 }
@@ -31,8 +32,10 @@ double axis(uint64_t seed, uint32_t i) {
 }  // namespace
 
 Person make_person(uint64_t seed) {
-  static constexpr Color kSkins[] = {{236, 188, 160}, {196, 142, 110}, {134, 92, 70},
-                                     {243, 206, 186}, {220, 168, 134}, {98, 68, 54}};
+  // One tone of each class of the individual typology angle, atan((L* - 50) / b*) (Chardon et al. 1991; classes
+  // as in Del Bino and Bernerd, Br. J. Dermatol. 169, 2013): light, tan, brown, very light, intermediate, dark.
+  static constexpr Color kSkins[] = {{204, 166, 147}, {165, 122, 98},  {137, 98, 77},
+                                     {207, 172, 153}, {183, 141, 119}, {103, 73, 60}};
   static constexpr Color kHairs[] = {{74, 46, 32},  {28, 24, 24}, {168, 118, 62},
                                      {122, 58, 30}, {46, 34, 30}, {98, 70, 46}};
   static constexpr Color kIrises[] = {{62, 122, 138}, {98, 62, 34}, {82, 110, 66},
@@ -44,33 +47,46 @@ Person make_person(uint64_t seed) {
   uint32_t next = 0;
   const auto by = [seed, &next](double spread) { return spread * axis(seed, next++); };
   // The most visible properties first: their roots keep the first dozens of seeds farthest apart.
-  p.breadth += by(0.11);
-  p.length += by(0.12);
-  p.height += by(0.11);
-  p.jaw += by(0.17);
-  p.chin_drop += by(1.0);
+  p.sex = by(1);
+  p.weight = by(1);
+  p.breadth += by(0.125);
+  p.length += by(0.135);
+  p.height += by(0.125);
+  p.jaw += by(0.16) + 0.05 * p.sex;
+  p.chin_drop += by(1.0) + 0.25 * p.sex;
   p.face += by(0.08);
-  p.neck += by(0.14);
-  p.nose += by(0.24);
-  p.nose_width += by(0.20);
+  p.neck += by(0.06) + 0.08 * p.sex + 0.07 * p.weight;
+  p.nose += by(0.24) + 0.05 * p.sex;
+  p.nose_width += by(0.24);
   p.forehead += by(0.60);
-  p.cheek += by(0.6);
-  p.chin += by(0.45);
-  p.lips += by(0.40);
-  p.brow_ridge += by(0.22);
+  p.cheek += by(0.8);
+  p.chin += by(0.35) + 0.15 * p.sex;
+  p.lips += by(0.46) - 0.10 * p.sex;
+  p.brow_ridge += by(0.10) + 0.14 * p.sex;
   p.muzzle += by(0.25);
-  p.eyes += by(0.10);
-  p.eye_tilt += by(0.06);
+  p.eyes += by(0.12) - 0.03 * p.sex;
+  p.eye_tilt += by(0.09);
   p.ear += by(0.14);
+  p.nose_hump += by(0.22);
+  p.brow_height += by(0.24) - 0.12 * p.sex;
   if (seed != 0) {
     Random random = Random::from_seed(seed, 1);
     p.age = random.between(0, 1);
-    p.brow = 1 + random.between(-0.3, 0.4);
+    p.brow = 1 + 0.22 * p.sex + random.between(-0.2, 0.25);
     skin = random.below(6);
+    // Hair and eyes are mostly dark where skin is: tones 1, 2 and 5.
+    static constexpr uint32_t kDarkHairs[] = {1, 4, 1, 4, 0, 5}, kDarkIrises[] = {1, 4, 4, 1, 5, 4};
+    const bool dark = skin == 1 || skin == 2 || skin == 5;
     hair = random.below(6);
     iris = random.below(6);
+    if (dark) hair = kDarkHairs[hair], iris = kDarkIrises[iris];
     shirt = random.below(6);
-    p.style = static_cast<HairStyle>(random.below(5));
+    static constexpr HairStyle kFemale[] = {HairStyle::kBob, HairStyle::kBob, HairStyle::kParted,
+                                            HairStyle::kCurly, HairStyle::kCropped},
+                               kMale[] = {HairStyle::kCropped, HairStyle::kParted,
+                                          HairStyle::kReceding, HairStyle::kCurly,
+                                          HairStyle::kCropped};
+    p.style = (p.sex < 0 ? kFemale : kMale)[random.below(5)];
     if (p.style == HairStyle::kReceding && p.age < 0.4) p.style = HairStyle::kCropped;
   }
   p.skin = kSkins[skin];
@@ -81,7 +97,7 @@ Person make_person(uint64_t seed) {
   // A wide jaw below a narrow face would be out of proportion.
   p.jaw = std::min(p.jaw, p.face + 0.10);
   p.brow_hair = mix(p.hair, {20, 14, 12}, 0.25);
-  p.lip = mix(redder(mix(p.skin, {0, 0, 0}, 0.10), 0.62), {168, 84, 84}, 0.16);
+  p.lip = mix(redder(mix(p.skin, {0, 0, 0}, 0.06), 0.46), {150, 82, 84}, 0.16);
   return p;
 }
 

@@ -305,8 +305,8 @@ Vec3 Shapes::one_side(Motion motion, Vec3 look, const Vertex& v) const {
       add(bump(look.x, line, 1.25, 0.2, 1.25, 1.25) * std::sqrt(apart), {0.06, 0.70, 0.10});
       break;
     case Motion::kBrowDown:
-      add(w.at(2.5, 3.05, 2.3, 1.15), {-0.26, -0.78, 0.14});
-      add(w.at(1.2, 2.6, 0.9, 0.9), {-0.16, -0.16, 0.14});
+      add(w.at(2.5, 3.05, 2.3, 1.15), {-0.18, -0.74, 0.16});
+      add(w.at(1.2, 2.6, 0.9, 0.9), {-0.08, -0.14, 0.18});
       break;
     case Motion::kBrowOuterUp:
       add(w.at(4.1, 3.2, 2.2, 1.45), {0.02, 0.84, 0.04});

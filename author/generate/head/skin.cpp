@@ -123,7 +123,8 @@ Vertex SkinMaker::skin_vertex(Place place, Side lid, Side lip) const {
   v.side = lip;
   v.position = turn_lid(v.closed, v.lid);
   v.u = 0.5 + 0.5 * place.angle / kPi;
-  v.v = (place.y - kBottomY) / (kCrownY - kBottomY);
+  // The slit between the lids is open in the texture, too: their edges are there.
+  v.v = row_v(place.y) + kLidV * std::min(std::max(v.lid / 0.5, -1.0), 1.0);
   v.color = form_.skin_color(v.closed, place.y, v.lid);
   v.color = mix(v.color, form_.person().hair, 0.6 * scalp(form_, place.angle, place.y));
   if (!grid_.nostril) {

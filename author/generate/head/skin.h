@@ -185,7 +185,10 @@ class SkinMaker {
   /// The first ring is close to the lips, so that the normals of the lips are those of their outside.
   double depth_of(uint32_t ring) const;
 
-  static constexpr double kMouthV = (kMouthY - kBottomY) / (kCrownY - kBottomY);
+  // The texture: skin above kInnerV, by angle and row; the inside of the mouth below.
+  static constexpr double kInnerV = 0.06, kLidV = 0.008;
+  static double row_v(double y) { return mix_v((y - kBottomY) / (kCrownY - kBottomY)); }
+  static double mix_v(double share) { return kInnerV + (1 - kInnerV) * share; }
 
   const Form& form_;
   const Grid grid_;

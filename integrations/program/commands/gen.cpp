@@ -2,7 +2,10 @@
 // mien gen: a synthetic rig; mien demo-head: the head in the box.
 #include <mien_author.h>
 
+#include "integrations/program/commands/head_textures.h"
 #include "integrations/program/commands/options.h"
+#include "integrations/program/io/failure.h"
+#include "integrations/program/io/input.h"
 #include "integrations/program/io/output.h"
 #include "integrations/program/io/write_dna.h"
 
@@ -13,6 +16,7 @@ namespace {
 struct GenOptions {
   OutputFile output;
   std::string preset = "tiny", seed = "0";
+  std::string textures;  // folder; empty: none
   bool ml = false;
 };
 
@@ -23,13 +27,19 @@ void run(const GenOptions& options, uint32_t preset, const Session& session) {
   desc.seed = parse_number("--seed", options.seed, UINT64_MAX);
   refuse_terminal(options.output.path, session, "a DNA file");
   refuse_replacing(options.output, {});
+  if (!options.textures.empty() && is_stream(options.output.path)) {
+    fail(kUsage, "cannot use --textures", options.output.path,
+         "the file that names them would be beside the DNA file", "give a file with -o");
+  }
 
   MienDna* made = nullptr;
   auto error = sized<MienError>();
   check(mien_dna_generate(&desc, &made, &error), &error, "cannot generate",
         "preset " + options.preset);
-  const Dna dna(made);
+  Dna dna(made);
   write_dna(made, sized<MienWriteDesc>(), options.output.path, session);
+  if (options.textures.empty()) return;
+  write_head_textures(std::move(dna), desc.seed, options.output.path, options.textures, session);
 }
 
 void add_common_options(CLI::App* command, GenOptions& options, const std::string& seed) {
@@ -73,12 +83,17 @@ Command add_demo_head_command(CLI::App& app, const Session& session) {
   options->preset = "head";
   CLI::App* head = app.add_subcommand("demo-head", "Generate a stylized head with 52 expressions");
   add_common_options(head, *options, "Each number gives another person (default: 0)");
+  head->add_option("--textures", options->textures,
+                   "Also write base color, normal and roughness of the skin into this\nfolder, and "
+                   "OUT.materials.json, which names them, beside OUT.dna")
+      ->type_name("DIR");
   head->footer(
       "A stylized person: skin, eyes, teeth, tongue, hair, with vertex colors, correctives,\n"
       "wrinkle maps and 8 LODs. Raw controls have the names of the ARKit coefficients;\n"
       "mouthClose closes the lips over an open jaw.\n\n"
       "Examples:\n"
       "  mien demo-head -o head.dna\n"
+      "  mien demo-head -o head.dna --textures textures\n"
       "  mien render head.dna --set jawOpen=0.6 --set mouthSmileLeft=1 -o smile.png");
   return {head, [options, &session] { run(*options, MIEN_PRESET_HEAD, session); }};
 }

@@ -20,7 +20,7 @@ GALLERY = os.path.join(HERE, "..", "render", "gallery")
 def setUpModule():
     make_folder()
     for seed in ("0", "3"):
-        make("demo-head", "-o", path("head%s.dna" % seed), "--seed", seed)
+        make("demo-head", "-o", path("head%s.dna" % seed), "--seed", seed, "--textures", path("skin" + seed))
 
 
 class Measure(ProgramTest):
@@ -75,7 +75,8 @@ class Likeness(ProgramTest):
         with open(os.path.join(GALLERY, "turntable.png"), "rb") as file:
             shown = Picture(file.read()).luma(2)
         found = similarity(shown, self.drawn("--turntable", "8", "--size", "200", shrink=2))
-        self.assertGreater(found, 0.98, "draw it anew: mien render head.dna --turntable 8 --size 200")
+        self.assertGreater(found, 0.98, "draw it anew: mien demo-head -o head.dna --textures textures; "
+                           "mien render head.dna --turntable 8 --size 200")
 
 
 if __name__ == "__main__":

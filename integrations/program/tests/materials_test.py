@@ -68,6 +68,36 @@ class MaterialsTest(ProgramTest):
         return glb.json["materials"][primitive["material"]], primitive["attributes"]
 
 
+class GeneratedHead(MaterialsTest):
+    def test_textures_of_the_skin(self):
+        self.ok("demo-head", "-o", path("made.dna"), "--textures", path("made"), "-q")
+        sidecar = json.loads(read("made.materials.json"))
+        self.assertEqual(sidecar["meshes"], {"head_lod%d_mesh" % lod: "skin" for lod in range(8)})
+        skin, = sidecar["materials"]
+        self.assertEqual(skin["textures"], {"base_color": "made/skin_basecolor.png", "normal": "made/skin_normal.png",
+                                            "roughness": "made/skin_roughness.png"})
+        for kind, size in (("basecolor", (2048, 1024)), ("normal", (2048, 1024)), ("roughness", (1024, 512))):
+            self.assertEqual(struct.unpack(">II", read("made/skin_%s.png" % kind)[16:24]), size)
+        self.ok("demo-head", "-o", path("plain.dna"), "-q")
+        pictures = {}
+        for name in ("plain", "made"):
+            self.ok("render", path(name + ".dna"), "-o", path(name + ".png"), "--target", "face", "--size", "96", "-q")
+            pictures[name] = Picture(read(name + ".png"))
+        made, plain = pictures["made"], pictures["plain"]
+        # Lips are redder than the forehead, as with the colors of vertices; what differs is little, but nearly everywhere.
+        forehead, lip = made.at(48, 9), made.at(48, 63)
+        self.assertGreater(lip[0] / lip[1], 1.08 * forehead[0] / forehead[1])
+        apart = [sum(abs(a - b) for a, b in zip(made.at(x, y), plain.at(x, y))) for x in range(30, 66) for y in range(30, 66)]
+        self.assertLess(sum(apart) / len(apart), 24)
+        self.assertGreater(sum(d > 0 for d in apart) / len(apart), 0.7)
+        self.ok("export", path("made.dna"), "-o", path("made.glb"), "--lod", "4", "-q")
+        glb = Glb(read("made.glb"))
+        material, attributes = self.material(glb, "head_lod4_mesh")
+        self.assertEqual(self.image(glb, material, "normalTexture"), read("made/skin_normal.png"))
+        self.assertNotIn("COLOR_0", attributes)
+        self.fails(USAGE, "demo-head", "-o", "-", "--textures", path("made"), says="--textures")
+
+
 class Export(MaterialsTest):
     def test_a_folder_of_textures(self):
         write("textures/unknown_thing.png", RED)

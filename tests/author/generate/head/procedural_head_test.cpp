@@ -253,7 +253,7 @@ uint64_t hash_of(const std::vector<uint8_t>& bytes) {
 }
 
 TEST(ProceduralHead, HasTheSameBytesOnEveryPlatform) {
-  const uint64_t expected[] = {8704544396666580797u, 15336122412641512879u};
+  const uint64_t expected[] = {13819349639861828480u, 9364625804815701797u};
   for (uint64_t seed = 0; seed < 2; ++seed) {
     EXPECT_EQ(hash_of(write_dna(generate_dna(MIEN_PRESET_HEAD, seed).get())), expected[seed])
         << "seed " << seed << ": if the head was meant to change, record the new number";
@@ -500,6 +500,57 @@ TEST(ProceduralHead, MirroredControlsGiveMirroredHeads) {
   const Points left = head.pose(Part::kEyeLeft, 0, {{"eyeLookInLeft", 1}});
   const Points right = head.pose(Part::kEyeRight, 0, {{"eyeLookInRight", 1}});
   for (size_t i = 0; i < left.size(); ++i) EXPECT_LT(length(left[i] - mirrored(right[i])), 1e-6);
+}
+
+// Proportions -----------------------------------------------------------------------------------
+
+/// Breadths are within two standard deviations of the means of women and men of Farkas 1994: cheekbones 13.0 and
+/// 13.7 (0.5) cm, head 14.4 and 15.1 (0.6). On the angles of the jaw there is skin and muscle of a centimeter.
+TEST(ProceduralHead, BreadthsAreThoseOfPeople) {
+  const Half half(0);
+  double cheekbones = 0, skull = 0, jaw = 0;
+  for (uint32_t i = 0; i < half.mesh.vertices.count(); ++i) {
+    const Vec3 p = half.mesh.vertices[i].position;
+    if (half.mesh.vertices[i].depth > 0) continue;
+    if (p.z > 0.8 && p.y > -2.2 && p.y < 0.2) cheekbones = std::max(cheekbones, 2 * p.x);
+    if (p.y > 3.2) skull = std::max(skull, 2 * p.x);
+    if (p.z > 0 && p.y > -7.6 && p.y < -6.6) jaw = std::max(jaw, 2 * p.x);
+  }
+  EXPECT_GT(cheekbones, 12.0);
+  EXPECT_LT(cheekbones, 14.7);
+  EXPECT_GT(skull, 13.2);
+  EXPECT_LT(skull, 16.3);
+  EXPECT_GT(jaw, 9.1 + 0.8);
+  EXPECT_LT(jaw, 9.7 + 2.0);
+  EXPECT_GT(cheekbones - jaw, 1.5);
+}
+
+/// Of an sRGB color, in degrees (Chardon et al. 1991).
+double typology_angle(head::Color c) {
+  const auto linear = [](double v) {
+    v /= 255;
+    return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+  };
+  const double r = linear(c.r), g = linear(c.g), b = linear(c.b);
+  const double y = 0.2126 * r + 0.7152 * g + 0.0722 * b;
+  const double z = (0.0193 * r + 0.1192 * g + 0.9505 * b) / 1.0888;
+  return std::atan2(116 * std::cbrt(y) - 16 - 50, 200 * (std::cbrt(y) - std::cbrt(z))) * 180 / M_PI;
+}
+
+TEST(ProceduralHead, SkinTonesAreOneOfEachClass) {
+  // Dark, brown, tan, intermediate, light, very light.
+  static constexpr double kBorders[] = {-30, 10, 28, 41, 55};
+  std::set<int> classes;
+  std::set<double> tones;
+  for (uint64_t seed = 0; seed < 60; ++seed) {
+    const double angle = typology_angle(head::make_person(seed).skin);
+    EXPECT_GT(angle, -70);
+    EXPECT_LT(angle, 70);
+    tones.insert(angle);
+    classes.insert(static_cast<int>(std::upper_bound(kBorders, kBorders + 5, angle) - kBorders));
+  }
+  EXPECT_EQ(tones.size(), 6u);
+  EXPECT_EQ(classes.size(), 6u);
 }
 
 // Lids and lips ---------------------------------------------------------------------------------

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Textures of skin, made from a mesh with colors: its own colors, to which pores, creases and blotches are added in
+// space, so that they have the same size everywhere and no seam.
+#pragma once
+
+#include "integrations/program/render/image.h"
+#include "integrations/program/render/render.h"
+
+namespace mien::render {
+
+/// Where in the texture other materials are. Coordinates as in Surface.
+struct SkinLayout {
+  float inner_below = 0;  // v below which the inside of the mouth is: wet, without pores
+  float cloth_below = 0;  // and v below which a shirt is
+  // Lips are what is redder than the skin at `skin`, in the box from `lips_low` to `lips_high`.
+  float skin_u = 0, skin_v = 0;
+  float lips_low_u = 0, lips_low_v = 0, lips_high_u = 0, lips_high_v = 0;
+  // Freckles are in this box, so many of 1 spots.
+  float freckles_low_v = 0, freckles_high_v = 0, freckles = 0;
+};
+
+struct SkinMaps {
+  Image base_color;  // sRGB
+  Image normal;      // tangent space, green towards larger v
+  Image roughness;   // gray, of half the size
+};
+
+/// `surface` has colors and texture coordinates; lengths are centimeters. Triangles that take up far more of the
+/// texture than of the surface are left out. Width and height are even. The same numbers for the same mesh. Throws std::bad_alloc.
+SkinMaps make_skin_maps(const Surface& surface, const SkinLayout& layout, int width, int height);
+
+}  // namespace mien::render
