@@ -6,6 +6,9 @@
 #include <cmath>
 #include <new>
 
+#include "solve/frame.h"
+#include "solve/surface.h"
+
 using namespace mien;
 using namespace mien::capi;
 
@@ -53,6 +56,21 @@ void place(const MienFitDesc& desc, Placer& placer, MienFit& fit) {
   fit.surface = placer.array<double>(desc.point_count * 3);
   fit.targets = placer.array<double>(desc.point_count * 3);
   fit.weights = placer.array<double>(desc.point_count);
+  if (desc.point_count == 0) return;
+  const size_t every = (desc.point_count + kMostSamples - 1) / kMostSamples;
+  fit.samples = placer.array<uint32_t>((desc.point_count + every - 1) / every);
+  fit.triangles = placer.array<uint32_t>(fit.triangle_count * 3);
+  fit.normals = placer.array<double>(desc.point_count * 3);
+  fit.pulls = placer.array<double>(desc.point_count);
+  fit.lost = placer.array<double>(desc.point_count);
+  fit.position_normals = placer.array<float>(fit.position_count * 3);
+  fit.sample_effects = placer.array<float>(all * fit.samples.count * 3);
+  fit.step_effects = placer.array<float>(moving * fit.samples.count * 3);
+  fit.direction = placer.array<float>(raw);
+  fit.moved = placer.array<float>(fit.position_count * 3);
+  fit.measured = placer.array<uint8_t>(moving);
+  fit.row = placer.array<double>(moving + kMostMotion);
+  fit.wide = placer.array<double>((moving + kMostMotion) * (moving + kMostMotion));
 }
 
 MienStatus check_bounds(const MienFitDesc& desc, size_t moving, MienError* error) {
@@ -121,6 +139,7 @@ MienStatus check_desc(const MienRig* rig, const MienFitDesc& desc, MienFit& fit,
     return give_error(error, status, "MienFitDesc.points[0].mesh is %u: no such mesh", fit.mesh);
   }
   fit.position_count = mesh.position_count;
+  fit.triangle_count = mesh.triangle_count;
   for (size_t i = 0; i < desc.point_count; ++i) {
     const MienSolvePoint& point = desc.points[i];
     if (point.mesh != fit.mesh) {
@@ -151,12 +170,30 @@ void copy_desc(const MienFitDesc& desc, MienFit& fit) {
     fit.upper[i] = desc.upper ? desc.upper[i] : 1.0f;
   }
   std::copy(desc.points, desc.points + desc.point_count, fit.points.data);
+  // One of each run of points, not always the same: a stride would follow rows of the mesh.
+  const size_t every = fit.samples.count ? (desc.point_count - 1) / fit.samples.count + 1 : 1;
+  uint32_t random = 1;
+  for (size_t s = 0; s < fit.samples.count; ++s) {
+    random = random * 1664525u + 1013904223u;
+    const size_t left = std::min(every, desc.point_count - s * every);
+    fit.samples[s] = static_cast<uint32_t>(s * every + (random >> 8) % left);
+  }
   std::copy(desc.symmetric, desc.symmetric + desc.symmetric_count, fit.symmetric.data);
   for (size_t i = 0; i < fit.joint_count; ++i) {
     fit.joint_weights[i] = desc.joint_weights ? desc.joint_weights[i]
                            : desc.point_count ? 0.0f
                                               : 1.0f;
   }
+}
+
+void copy_triangles(const MienFitDesc& desc, MienFit& fit) {
+  if (desc.point_count == 0) return;
+  MienMesh mesh = mien_mesh_default();
+  static_cast<void>(mien_deformer_mesh(desc.deformer, fit.mesh, &mesh));
+  for (size_t i = 0; i < fit.triangles.count; ++i) {
+    fit.triangles[i] = mesh.vertex_position_indices.data[mesh.triangles.data[i]];
+  }
+  fit.inward = signed_volume(mesh.positions.data, fit.triangles.data, fit.triangle_count) < 0;
 }
 
 /// The objects of libmien that the fit owns.
@@ -223,6 +260,7 @@ MienStatus mien_fit_create(const MienRig* rig, const MienFitDesc* desc, MienFit*
   fit->allocator = allocator;
   fit->block_size = sizes.size();
   copy_desc(known, *fit);
+  copy_triangles(known, *fit);
   std::copy(fit->raw.begin(), fit->raw.end(), fit->initial.begin());
   bool measured_all = false;
   {

@@ -27,7 +27,8 @@ struct MienFit {
   MienDeformerInstance* deformed = nullptr;  // with points
 
   uint32_t lod = 0, mesh = 0;
-  size_t raw_count = 0, control_count = 0, joint_count = 0, position_count = 0;
+  size_t raw_count = 0, control_count = 0, joint_count = 0;
+  size_t position_count = 0, triangle_count = 0;  // of the mesh
 
   mien::Span<float> raw;           // of the instance
   mien::Span<const float> joints;  // of the instance
@@ -36,7 +37,11 @@ struct MienFit {
   mien::Span<float> lower, upper;  // beside controls
   mien::Span<uint32_t> symmetric;  // pairs of places in `controls`
   mien::Span<MienSolvePoint> points;
-  mien::Span<float> joint_weights;  // [joint value]
+  mien::Span<float> joint_weights;   // [joint value]
+  mien::Span<uint32_t> triangles;    // [triangle][3] of the mesh, by positions
+  bool inward = false;               // how they are wound
+  mien::Span<uint32_t> samples;      // points that stand for all in steps
+  mien::Span<float> sample_effects;  // [control][sample][3], at the neutral pose
   mien::Span<float> joint_metric,
       point_metric;                 // [control][control]; G without the weights of a frame
   mien::Span<float> observability;  // [raw control]
@@ -53,8 +58,16 @@ struct MienFit {
   mien::Span<uint32_t> inputs;                    // their raw controls
   mien::Span<uint32_t> rows, columns, first;      // D by free control
   mien::Span<float> values;
-  mien::Span<double> surface, targets;  // [point][3], in model space
-  mien::Span<double> weights;           // [point]: 0 if it is missing
+  mien::Span<double> surface, targets;  // [point][3]: in model space; where it is drawn to
+  mien::Span<double> normals;  // [point][3] of the surface, or of the one that it is drawn to
+  mien::Span<double> weights;  // [point]: 0 if it is missing
+  mien::Span<double> pulls;    // [point]: weights, less those of outliers
+  mien::Span<double> lost;     // [point]: squared distance of one without a target, or -1
+  mien::Span<float> position_normals;  // [position][3]
+  mien::Span<float> direction, moved;  // [raw control]; [position][3]
+  mien::Span<float> step_effects;      // [control that may move][sample][3]
+  mien::Span<uint8_t> measured;        // [control that may move] its effects are those of this pose
+  mien::Span<double> row, wide;        // [motion and free]; that squared
 };
 
 namespace mien {

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "solve/fit.h"
+#include "solve/frame.h"
 
 using namespace mien;
 using namespace mien::capi;
@@ -13,8 +13,12 @@ namespace {
 
 constexpr uint32_t kDefaultIterations = 50;
 constexpr double kEnoughDecrease = 1e-9;  // of the cost
-constexpr double kEnoughOfFirst = 1e-8;   // of the cost at the start
+constexpr double kEnoughOfFirst = 1e-10;  // of the cost at the start
 constexpr double kEnoughStep = 1e-6;      // of a control
+constexpr double kRounding = 4e-7;        // of the largest coordinate: floats have no more digits
+constexpr double kSlow = 0.3;             // of what the step before gained
+constexpr double kFirstDamping = 1e-5;
+constexpr uint32_t kFirstRounds = 40, kMotionRounds = 3;  // of motions, in which they converge
 
 /// The sums over the data at some controls.
 struct Cost {
@@ -22,105 +26,11 @@ struct Cost {
   double joint_worst = 0, point_worst = 0;  // the latter squared
 };
 
-struct Frame {
-  MienFit& fit;
-  MienFitFrame in;
-  double rotation[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, translation[3] = {};
-  uint32_t missing = 0;
-
-  bool has_points() const { return in.points || in.images; }
-  double joint_factor() const { return in.joint_weight > 0 ? in.joint_weight : 1; }
-};
-
 double square(double v) { return v * v; }
-
-/// The robust cost of a squared residual, and the weight that it has in a step (S. Geman, D. McClure 1987).
-double robust(double squared, double scale, double& weight) {
-  if (!(scale > 0)) {
-    weight = 1;
-    return squared;
-  }
-  const double s = scale * scale, share = s / (s + squared);
-  weight = share * share;
-  return squared * share;
-}
 
 void evaluate(MienFit& fit) {
   static_cast<void>(mien_rig_evaluate_stages(fit.rig, fit.instance, fit.lod,
                                              MIEN_STAGE_ALL & ~uint32_t{MIEN_STAGE_ANIMATED_MAPS}));
-}
-
-/// The points of the surface at the controls of the instance.
-void find_surface(Frame& f) {
-  MienFit& fit = f.fit;
-  static_cast<void>(mien_deformer_instance_update(fit.deformed, fit.instance));
-  static_cast<void>(
-      mien_deformer_instance_deform(fit.deformed, fit.mesh, MIEN_NORMALS_NONE, nullptr));
-  MienFloatView positions = {};
-  static_cast<void>(mien_deformer_instance_positions(fit.deformed, fit.mesh, &positions));
-  for (size_t i = 0; i < fit.points.count; ++i) {
-    const MienSolvePoint& point = fit.points[i];
-    for (size_t k = 0; k < 3; ++k) {
-      double sum = 0;
-      for (size_t n = 0; n < 3; ++n) {
-        sum += double{point.weights[n]} * positions.data[size_t{point.positions[n]} * 3 + k];
-      }
-      fit.surface[3 * i + k] = sum;
-    }
-  }
-}
-
-/// The residual of a point in 3D and its derivative by the point, squared residual returned.
-double point_residual(const Frame& f, size_t i, double* gradient) {
-  const double* p = f.fit.surface.data + 3 * i;
-  double moved[3];
-  for (size_t r = 0; r < 3; ++r) {
-    moved[r] = f.translation[r];
-    for (size_t c = 0; c < 3; ++c) moved[r] += f.rotation[3 * r + c] * p[c];
-  }
-  double squared = 0, by_moved[3] = {};
-  if (f.in.points) {
-    for (size_t k = 0; k < 3; ++k) {
-      by_moved[k] = moved[k] - f.fit.targets[3 * i + k];
-      squared += square(by_moved[k]);
-    }
-  } else if (moved[2] > 1e-6) {
-    const MienFitCamera& camera = *f.in.camera;
-    for (size_t k = 0; k < 2; ++k) {
-      const double focal = camera.focal[k], z = moved[2];
-      const double r = focal * moved[k] / z + camera.center[k] - f.fit.targets[3 * i + k];
-      squared += r * r;
-      by_moved[k] += r * focal / z;
-      by_moved[2] -= r * focal * moved[k] / (z * z);
-    }
-  }
-  for (size_t c = 0; c < 3; ++c) {
-    gradient[c] = 0;
-    for (size_t r = 0; r < 3; ++r) gradient[c] += f.rotation[3 * r + c] * by_moved[r];
-  }
-  return squared;
-}
-
-/// Targets and weights of the frame; missing ones have no weight.
-void read_points(Frame& f) {
-  MienFit& fit = f.fit;
-  const float* rows = f.in.points ? f.in.points : f.in.images;
-  const size_t width = f.in.points ? 3 : 2;
-  for (size_t i = 0; i < fit.points.count; ++i) {
-    bool finite = true;
-    for (size_t k = 0; k < 3; ++k) {
-      const float v = k < width ? rows[width * i + k] : 0.0f;
-      finite = finite && std::isfinite(v);
-      fit.targets[3 * i + k] = v;
-    }
-    const float weight = f.in.point_weights ? f.in.point_weights[i] : 1.0f;
-    fit.weights[i] = finite ? weight : 0.0;
-    if (!finite) std::fill(fit.targets.data + 3 * i, fit.targets.data + 3 * i + 3, 0.0);
-    f.missing += !finite;
-  }
-  if (!f.in.images) return;
-  for (int k = 0; k < 9; ++k) f.rotation[k] = f.in.camera->rotation[k];
-  for (int k = 0; k < 3; ++k) f.translation[k] = f.in.camera->translation[k];
 }
 
 /// The weight of a control's distance to where it started, or to its prior, and so on: adds to the cost, and
@@ -146,6 +56,50 @@ double regularize(const Frame& f, const float* raw, double* gradient) {
   return cost;
 }
 
+/// Moves the target as a whole, or the camera, to where it fits the points, which have moved.
+void follow_points(Frame& f, uint32_t rounds) {
+  MienFit& fit = f.fit;
+  if (f.in.points && f.in.rigid) {
+    fit_rigid(fit.surface.data, fit.targets.data, fit.weights.data, fit.points.count,
+              f.motion.rotation, f.motion.translation);
+  } else if (f.in.rigid) {
+    fit_motion(f, rounds);
+  } else if (f.in.surface) {
+    match_surface(f);
+  }
+}
+
+void add_point_cost(Frame& f, bool with_gradients, Cost& cost) {
+  MienFit& fit = f.fit;
+  find_points(f);
+  follow_points(f, kMotionRounds);
+  if (with_gradients) {
+    std::fill(fit.position_gradient.begin(), fit.position_gradient.end(), 0.0f);
+  }
+  for (size_t i = 0; i < fit.points.count; ++i) {
+    fit.pulls[i] = 0;
+    if (!(fit.weights[i] > 0)) continue;
+    double gradient[3], weight;
+    if (fit.lost[i] >= 0) {
+      cost.points += fit.weights[i] * robust(fit.lost[i], double{f.in.robust_scale}, weight);
+      continue;
+    }
+    const double squared = point_residual(f, i, gradient);
+    cost.points += fit.weights[i] * robust(squared, double{f.in.robust_scale}, weight);
+    cost.point_weight += fit.weights[i];
+    cost.point_worst = std::max(cost.point_worst, squared);
+    fit.pulls[i] = fit.weights[i] * weight;
+    if (!with_gradients) continue;
+    const MienSolvePoint& point = fit.points[i];
+    for (size_t n = 0; n < 3; ++n) {
+      float* to = fit.position_gradient.data + size_t{point.positions[n]} * 3;
+      for (size_t k = 0; k < 3; ++k) {
+        to[k] += static_cast<float>(fit.pulls[i] * point.weights[n] * gradient[k]);
+      }
+    }
+  }
+}
+
 /// The cost at the controls of the instance; with gradients of joints and positions if asked for.
 Cost find_cost(Frame& f, bool with_gradients) {
   MienFit& fit = f.fit;
@@ -162,32 +116,7 @@ Cost find_cost(Frame& f, bool with_gradients) {
       if (with_gradients) fit.joint_gradient[i] = static_cast<float>(weight * r);
     }
   }
-  if (f.has_points()) {
-    find_surface(f);
-    if (f.in.points && f.in.rigid) {
-      fit_rigid(fit.surface.data, fit.targets.data, fit.weights.data, fit.points.count, f.rotation,
-                f.translation);
-    }
-    if (with_gradients) {
-      std::fill(fit.position_gradient.begin(), fit.position_gradient.end(), 0.0f);
-    }
-    for (size_t i = 0; i < fit.points.count; ++i) {
-      if (!(fit.weights[i] > 0)) continue;
-      double gradient[3], weight;
-      const double squared = point_residual(f, i, gradient);
-      cost.points += fit.weights[i] * robust(squared, f.in.robust_scale, weight);
-      cost.point_weight += fit.weights[i];
-      cost.point_worst = std::max(cost.point_worst, squared);
-      if (!with_gradients) continue;
-      const MienSolvePoint& point = fit.points[i];
-      for (size_t n = 0; n < 3; ++n) {
-        float* to = fit.position_gradient.data + size_t{point.positions[n]} * 3;
-        for (size_t k = 0; k < 3; ++k) {
-          to[k] += static_cast<float>(fit.weights[i] * weight * point.weights[n] * gradient[k]);
-        }
-      }
-    }
-  }
+  if (f.has_points()) add_point_cost(f, with_gradients, cost);
   cost.total = cost.joints + cost.points;
   return cost;
 }
@@ -228,18 +157,11 @@ size_t list_free(const MienFit& fit) {
   return count;
 }
 
-/// The factor of the metric of points: their weights, and in images the scale at which they appear.
-double point_factor(const Frame& f) {
-  const MienFit& fit = f.fit;
-  if (!f.has_points()) return 0;
+/// The mean weight of points: what the metric of points is multiplied by.
+double point_factor(const MienFit& fit) {
   double factor = 0;
-  for (size_t i = 0; i < fit.points.count; ++i) factor += fit.weights[i];
-  factor /= static_cast<double>(fit.points.count);
-  if (!f.in.images) return factor;
-  double z = f.translation[2];
-  for (size_t k = 0; k < 3; ++k) z += f.rotation[6 + k] * fit.surface[k];
-  const double focal = std::max(f.in.camera->focal[0], f.in.camera->focal[1]);
-  return factor * square(focal / std::max(std::fabs(z), 1e-6));
+  for (size_t i = 0; i < fit.points.count; ++i) factor += fit.pulls[i];
+  return factor / static_cast<double>(fit.points.count);
 }
 
 /// The matrix of a step: D^T G D and the regularization.
@@ -248,8 +170,11 @@ void set_matrix(Frame& f, size_t free_count) {
   list_free_derivatives(fit, free_count);
   std::fill(fit.matrix.data, fit.matrix.data + free_count * free_count, 0.0);
   if (f.in.joints) project_metric(fit, fit.joint_metric.data, f.joint_factor(), free_count);
-  const double points = point_factor(f);
-  if (points > 0) project_metric(fit, fit.point_metric.data, points, free_count);
+  if (f.has_points() && f.has_rows()) {
+    add_point_rows(f, free_count);
+  } else if (f.has_points()) {
+    project_metric(fit, fit.point_metric.data, point_factor(fit), free_count);
+  }
   for (size_t a = 0; a < free_count; ++a) {
     fit.matrix[a * free_count + a] += double{f.in.prior_weight} + f.in.smooth_weight;
   }
@@ -291,13 +216,39 @@ double take_step(Frame& f, size_t free_count, double damping) {
 
 bool is_weight(float v) { return v >= 0 && std::isfinite(v); }
 
-MienStatus check_frame(const MienFit& fit, const MienFitFrame& in) {
-  if ((in.points || in.images) && fit.points.count == 0) return MIEN_ERROR_NULL_ARGUMENT;
-  if (in.images && (!in.camera || in.points)) {
-    return in.camera ? MIEN_ERROR_INVALID_ARGUMENT : MIEN_ERROR_NULL_ARGUMENT;
+MienStatus check_camera(const MienFitFrame& in) {
+  const MienFitCamera& camera = *in.camera;
+  bool known = false;
+  for (const float v : camera.rotation) {
+    if (!std::isfinite(v)) return MIEN_ERROR_INVALID_ARGUMENT;
+    known = known || v != 0;
   }
-  for (const float weight : {in.prior_weight, in.smooth_weight, in.sparse_weight,
-                             in.symmetric_weight, in.robust_scale, in.joint_weight}) {
+  for (size_t k = 0; k < 2; ++k) {
+    if (!std::isfinite(camera.center[k]) || !std::isfinite(camera.focal[k]) ||
+        (in.rigid && !(camera.focal[k] > 0))) {
+      return MIEN_ERROR_INVALID_ARGUMENT;
+    }
+  }
+  for (const float v : camera.translation) {
+    if (!std::isfinite(v)) return MIEN_ERROR_INVALID_ARGUMENT;
+  }
+  return known || in.rigid ? MIEN_OK : MIEN_ERROR_INVALID_ARGUMENT;
+}
+
+MienStatus check_frame(const MienFit& fit, const MienFitFrame& in) {
+  const int kinds = (in.points ? 1 : 0) + (in.images ? 1 : 0) + (in.surface ? 1 : 0);
+  if (kinds != 0 && fit.points.count == 0) return MIEN_ERROR_NULL_ARGUMENT;
+  if (in.images && !in.camera) return MIEN_ERROR_NULL_ARGUMENT;
+  if (kinds > 1) return MIEN_ERROR_INVALID_ARGUMENT;
+  if (in.images) {
+    if (MienStatus status = check_camera(in)) return status;
+  }
+  if (in.surface) {
+    if (MienStatus status = check_tag(in.surface, kFitSurfaceTag)) return status;
+  }
+  for (const float weight :
+       {in.prior_weight, in.smooth_weight, in.sparse_weight, in.symmetric_weight, in.robust_scale,
+        in.joint_weight, in.surface_reach}) {
     if (!is_weight(weight)) return MIEN_ERROR_INVALID_ARGUMENT;
   }
   for (size_t i = 0; in.point_weights && i < fit.points.count; ++i) {
@@ -326,6 +277,27 @@ void read_rows(Frame& f) {
   }
 }
 
+double largest_target(const Frame& f) {
+  double largest = 0;
+  for (size_t i = 0; i < f.fit.points.count; ++i) {
+    if (!(f.fit.weights[i] > 0)) continue;
+    for (size_t k = 0; k < 3; ++k) largest = std::max(largest, std::fabs(f.fit.targets[3 * i + k]));
+  }
+  return largest;
+}
+
+/// The motion at the start.
+void start_motion(Frame& f) {
+  if (!f.has_points() || !f.in.rigid) return;
+  evaluate(f.fit);
+  find_points(f);
+  if (f.in.images &&
+      std::all_of(f.motion.rotation, f.motion.rotation + 9, [](double v) { return v == 0; })) {
+    guess_camera(f);
+  }
+  follow_points(f, kFirstRounds);
+}
+
 uint32_t solve(Frame& f, Cost& cost, uint32_t& iterations) {
   using Clock = std::chrono::steady_clock;
   MienFit& fit = f.fit;
@@ -336,12 +308,33 @@ uint32_t solve(Frame& f, Cost& cost, uint32_t& iterations) {
   };
   const uint32_t limit = f.in.max_iterations ? f.in.max_iterations : kDefaultIterations;
   const auto keep = [&] { std::copy(fit.raw.begin(), fit.raw.end(), fit.best.begin()); };
-  cost = find_cost(f, true);
-  cost.total += regularize(f, fit.raw.data, nullptr);
+  const auto find_all = [&](bool with_gradients) {
+    Cost found = find_cost(f, with_gradients);
+    found.total += regularize(f, fit.raw.data, nullptr);
+    return found;
+  };
+  start_motion(f);
+  const auto is_rounding = [&](const Cost& found) {
+    return !f.in.joints &&
+           found.points <= found.point_weight * square(kRounding * largest_target(f));
+  };
+  cost = find_all(true);
   keep();
   if (!(cost.joint_weight + cost.point_weight > 0)) return MIEN_FIT_NO_DATA;
   const double first = cost.total;
-  double damping = 1e-5;
+  double damping = kFirstDamping, before = 0;
+  uint32_t slow = 0;  // steps in a row that gained little less than the one before
+  std::fill(fit.measured.begin(), fit.measured.end(), uint8_t{0});
+  // Effects of controls on points change with the pose: where steps gain little, they are measured at it.
+  const auto measure_again = [&] {
+    if (!f.has_points() || (f.exact && slow == 0)) return false;
+    f.exact = true;
+    slow = 0;
+    before = 0;
+    damping = kFirstDamping;
+    std::fill(fit.measured.begin(), fit.measured.end(), uint8_t{0});
+    return true;
+  };
   for (iterations = 0; iterations < limit; ++iterations) {
     if (f.in.canceled && f.in.canceled(f.in.user)) return MIEN_FIT_CANCELED;
     if (iterations != 0 && late()) return MIEN_FIT_TIME;
@@ -349,25 +342,30 @@ uint32_t solve(Frame& f, Cost& cost, uint32_t& iterations) {
     const size_t free_count = list_free(fit);
     if (free_count == 0) return MIEN_FIT_CONVERGED;
     set_matrix(f, free_count);
-    bool better = false;
-    while (!better) {
+    const Motion motion = f.motion;
+    for (;;) {
       const double farthest = take_step(f, free_count, damping);
-      Cost next = find_cost(f, true);
-      next.total += regularize(f, fit.raw.data, nullptr);
-      better = next.total < cost.total;
-      if (better) {
+      const Cost next = find_all(true);
+      if (next.total < cost.total) {
         const double decrease = cost.total - next.total;
         const double enough = std::max(kEnoughDecrease * cost.total, kEnoughOfFirst * first);
+        slow = decrease > kSlow * before && before > 0 ? slow + 1 : 0;
+        before = decrease;
         cost = next;
         keep();
         damping = std::max(damping * 0.2, 1e-7);
-        if (decrease <= enough || farthest < kEnoughStep) return MIEN_FIT_CONVERGED;
+        if (is_rounding(cost)) return MIEN_FIT_CONVERGED;
+        const bool done = decrease <= enough || farthest < kEnoughStep;
+        if (done && (slow == 0 || !measure_again())) return MIEN_FIT_CONVERGED;
+        if (slow >= 2) measure_again();
         break;
       }
       std::copy(fit.best.begin(), fit.best.end(), fit.raw.begin());
-      if (farthest < kEnoughStep || damping > 1e8) {
-        cost = find_cost(f, false);  // of the best controls
-        cost.total += regularize(f, fit.raw.data, nullptr);
+      f.motion = motion;
+      const bool ended = farthest < kEnoughStep || damping > 1e8;
+      if (ended) {
+        cost = find_all(true);  // of the best controls
+        if (!f.exact && damping > kFirstDamping && measure_again()) break;
         return MIEN_FIT_CONVERGED;
       }
       damping *= 10;
@@ -388,7 +386,7 @@ MienStatus mien_fit_solve(MienFit* fit, const MienFitFrame* frame, float* out_ra
     if (MienStatus status = clear_struct(result)) return status;
   }
   if (MienStatus status = check_frame(*fit, known)) return status;
-  Frame f = {*fit, known};
+  Frame f = {*fit, known, {}};
   read_rows(f);
   if (f.has_points()) read_points(f);
   Cost cost;
@@ -406,8 +404,9 @@ MienStatus mien_fit_solve(MienFit* fit, const MienFitFrame* frame, float* out_ra
   told.joint_worst = cost.joint_worst;
   told.point_worst = std::sqrt(cost.point_worst);
   told.missing_points = f.missing;
-  for (int k = 0; k < 9; ++k) told.rotation[k] = static_cast<float>(f.rotation[k]);
-  for (int k = 0; k < 3; ++k) told.translation[k] = static_cast<float>(f.translation[k]);
+  for (int k = 0; k < 9; ++k) told.rotation[k] = static_cast<float>(f.motion.rotation[k]);
+  for (int k = 0; k < 3; ++k) told.translation[k] = static_cast<float>(f.motion.translation[k]);
+  for (int k = 0; k < 2 && f.in.images; ++k) told.focal[k] = static_cast<float>(f.motion.focal[k]);
   if (result) write_struct(result, told);
   return MIEN_OK;
 }

@@ -10,8 +10,6 @@
 namespace mien {
 namespace {
 
-constexpr size_t kMaxMeasuredPoints = 400;  // more points add time and no new directions
-
 struct Column {
   uint32_t first, count;  // into the entries
 };
@@ -85,13 +83,12 @@ bool measure_joints(MienFit& fit, Arena& arena) {
 
 /// Some of the points, evenly chosen, stand for all.
 bool measure_points(MienFit& fit, Arena& arena) {
-  const size_t every = (fit.points.count + kMaxMeasuredPoints - 1) / kMaxMeasuredPoints;
-  const size_t count = (fit.points.count + every - 1) / every;
+  const size_t count = fit.samples.count;
   // The coordinates that the chosen points read, ascending.
   Span<uint32_t> outputs = arena.array<uint32_t>(count * 9 + 1);
   if (!outputs.data) return false;
   size_t used = 0;
-  for (size_t i = 0; i < fit.points.count; i += every) {
+  for (const uint32_t i : fit.samples) {
     for (const uint32_t position : fit.points[i].positions) {
       for (uint32_t k = 0; k < 3; ++k) outputs[used++] = position * 3 + k;
     }
@@ -110,6 +107,7 @@ bool measure_points(MienFit& fit, Arena& arena) {
   if (!coordinates.data || !dense.data || !columns.data || !rows.data || !values.data) return false;
   const double scale =
       std::sqrt(static_cast<double>(fit.points.count) / static_cast<double>(count));
+  std::fill(fit.sample_effects.begin(), fit.sample_effects.end(), 0.0f);
   uint32_t at = 0;
   for (size_t c = 0; c < fit.control_count; ++c) {
     const Column& column = entries.columns[c];
@@ -120,7 +118,7 @@ bool measure_points(MienFit& fit, Arena& arena) {
       coordinates[entries.rows[column.first + i]] = entries.values[column.first + i];
     }
     uint32_t row = 0;
-    for (size_t i = 0; i < fit.points.count; i += every) {
+    for (const uint32_t i : fit.samples) {
       const MienSolvePoint& point = fit.points[i];
       for (uint32_t k = 0; k < 3; ++k, ++row) {
         double sum = 0;
@@ -129,6 +127,7 @@ bool measure_points(MienFit& fit, Arena& arena) {
           const uint32_t* found = std::lower_bound(outputs.data, outputs.data + used, number);
           sum += double{point.weights[n]} * coordinates[static_cast<size_t>(found - outputs.data)];
         }
+        fit.sample_effects[c * count * 3 + row] = static_cast<float>(sum);
         if (sum == 0) continue;
         rows[at] = row;
         values[at++] = static_cast<float>(sum * scale);

@@ -66,7 +66,7 @@ WITHOUT = {
 }
 # Families of names that languages have not yet: what they begin with. Users call these by the C interface, which Rust has
 # in mien-sys, Lua by its FFI, C# as Mien.Native.Functions, and Go as cgo.
-_SOLVING = ("MienDerivatives", "MienFitDesc", "MienFitFrame", "MienJacobian", "mien_derivatives_", "mien_fit_")
+_SOLVING = ("MienDerivatives", "MienFitDesc", "MienFitFrame", "MienFitSurface", "MienJacobian", "mien_derivatives_", "mien_fit_")
 LATER_IN_ALL = (
     "MienAuthorDesc", "MienAuthorMesh", "MienDocument", "MienPlacement",
     "MienProject", "MienPrune", "MienSolver", "MienTransplant", "MienValidate", "mien_author_", "mien_batch_bytes",

@@ -88,7 +88,21 @@ class Derivatives : public Owner<MienDerivatives, mien_derivatives_destroy> {
 
 using FitDesc = Sized<MienFitDesc>;
 using FitFrame = Sized<MienFitFrame>;
+using FitSurfaceDesc = Sized<MienFitSurfaceDesc>;
 using FitResult = Sized<MienFitResult>;
+
+/// A scan, or a mesh of another topology, as a target. Any threads may use one at the same time.
+class FitSurface : public Owner<MienFitSurface, mien_fit_surface_destroy> {
+ public:
+  using Owner::Owner;
+
+  /// Everything is copied.
+  static Result<FitSurface> create(const FitSurfaceDesc& desc) {
+    return make<FitSurface>([&](MienFitSurface** out, MienError* error) {
+      return mien_fit_surface_create(&desc, out, error);
+    });
+  }
+};
 
 /// Finds the raw controls of frames (docs/solving.md). For one thread at a time.
 class Fit : public Owner<MienFit, mien_fit_destroy> {

@@ -81,6 +81,20 @@ void test_fit(const mien::Rig& rig, mien::Instance& face) {
   CHECK(!refused && refused.status() == MIEN_ERROR_LOD);
 }
 
+void test_surface() {
+  const Row positions = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  const std::vector<uint32_t> triangles = {0, 1, 2, 0, 1, 3};
+  mien::FitSurfaceDesc desc;
+  desc.positions = positions.data();
+  desc.position_count = 3;
+  desc.triangles = triangles.data();
+  desc.triangle_count = 1;
+  CHECK(mien::FitSurface::create(desc).value().get() != nullptr);
+  desc.triangle_count = 2;
+  const auto refused = mien::FitSurface::create(desc);
+  CHECK(!refused && refused.status() == MIEN_ERROR_INDEX);
+}
+
 void test_keys() {
   const Row curve = {0, 0.25f, 0.5f, 0.75f, 1, 0.5f, 0};
   std::vector<uint32_t> keys(curve.size());
@@ -103,6 +117,7 @@ int main() {
   CHECK(rig.evaluate(face, 0));
   test_derivatives(rig, face);
   test_fit(rig, face);
+  test_surface();
   test_keys();
   return 0;
 }

@@ -1332,15 +1332,18 @@ type FitResult struct {
 	JointResidual float64
 	// the same for points, or for image points in their unit
 	PointResidual float64
+	// with a surface: those that have no target
 	MissingPoints uint32
 	reserved      uint32
-	// rows: points of the target = rotation * model + translation, if rigid
+	// rows: points of the target = rotation * model + translation, if rigid; the camera's with images
 	Rotation    [9]float32
 	Translation [3]float32
 	// largest difference of a joint value that counts
 	JointWorst float64
 	// largest distance of a point that counts
 	PointWorst float64
+	// of the camera, with images; else 0
+	Focal [2]float32
 }
 
 // Bytes of each struct in C, to compare with unsafe.Sizeof.
@@ -1384,5 +1387,5 @@ var structSizes = [][2]uintptr{
 	{unsafe.Sizeof(ProjectDesc{}), 24},
 	{unsafe.Sizeof(Conformed{}), 24},
 	{unsafe.Sizeof(TransplantDesc{}), 16},
-	{unsafe.Sizeof(FitResult{}), 112},
+	{unsafe.Sizeof(FitResult{}), 120},
 }

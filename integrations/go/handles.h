@@ -59,3 +59,6 @@ struct MienSolverState {
 struct MienFit {
   char unused;
 };
+struct MienFitSurface {
+  char unused;
+};

@@ -206,6 +206,129 @@ TEST(Fit, FindsControlsOfImages) {
   MienFitResult result = mien_fit_result_default();
   ASSERT_EQ(mien_fit_solve(fit.get(), &frame, found.data(), &result), MIEN_OK);
   EXPECT_LE(result.point_residual, 0.5) << "pixels, after " << result.iterations;
+  // A camera that was moved, turned and has another focal length.
+  const MienFitCamera known = camera;
+  camera.focal[0] = camera.focal[1] = 1400;
+  camera.translation[0] = 3;
+  camera.translation[2] = 110;
+  const float c = std::cos(0.1f), s = std::sin(0.1f);
+  const float turned[9] = {c, -s, 0, s, c, 0, 0, 0, 1};
+  std::copy(turned, turned + 9, camera.rotation);
+  frame.rigid = 1;
+  frame.focal = 1;
+  ASSERT_EQ(mien_fit_solve(fit.get(), &frame, found.data(), &result), MIEN_OK);
+  EXPECT_LE(result.point_residual, 0.5) << "pixels, after " << result.iterations;
+  for (int k = 0; k < 9; ++k) EXPECT_NEAR(result.rotation[k], known.rotation[k], 0.01) << k;
+  EXPECT_NEAR(result.translation[2] / result.focal[0], known.translation[2] / known.focal[0], 1e-3);
+  // One whose rotation is unknown is found only if it may move.
+  for (float& v : camera.rotation) v = 0;
+  frame.rigid = 0;
+  EXPECT_EQ(mien_fit_solve(fit.get(), &frame, found.data(), &result), MIEN_ERROR_INVALID_ARGUMENT);
+  camera.rotation[4] = std::numeric_limits<float>::infinity();
+  frame.rigid = 1;
+  EXPECT_EQ(mien_fit_solve(fit.get(), &frame, found.data(), &result), MIEN_ERROR_INVALID_ARGUMENT);
+}
+
+struct DestroySurface {
+  void operator()(MienFitSurface* surface) const { mien_fit_surface_destroy(surface); }
+};
+using SurfaceHandle = std::unique_ptr<MienFitSurface, DestroySurface>;
+
+SurfaceHandle create_surface(const std::vector<float>& positions,
+                             const std::vector<uint32_t>& triangles, MienStatus expected = MIEN_OK,
+                             const MienAllocator* memory = nullptr) {
+  MienFitSurfaceDesc desc = mien_fit_surface_desc_default();
+  desc.positions = positions.data();
+  desc.position_count = positions.size() / 3;
+  desc.triangles = triangles.data();
+  desc.triangle_count = triangles.size() / 3;
+  desc.allocator = memory;
+  MienFitSurface* made = nullptr;
+  MienError error = sized<MienError>();
+  EXPECT_EQ(mien_fit_surface_create(&desc, &made, &error), expected) << error.message;
+  return SurfaceHandle(made);
+}
+
+// That controls come back from a surface is tested with a real head, in solve_test.py of the program: this mesh is
+// too rough for nearest places to be the right ones.
+TEST(Fit, SurfacesOfAnotherTopologyDrawPointsToThem) {
+  Head head;
+  const MienMesh mesh = mesh_of(head.deformer.get(), 0);
+  const std::vector<MienSolvePoint> points = every(mesh.position_count, 31);
+  MienFitDesc desc = sized<MienFitDesc>();
+  desc.deformer = head.deformer.get();
+  desc.points = points.data();
+  desc.point_count = points.size();
+  const FitHandle fit = create_fit(head.rig, desc);
+  std::vector<float> raw(head.character.raw.count);
+  for (size_t i = 0; i < raw.size(); i += 9) raw[i] = 0.5f;
+  // Triangles split at their centers, without the last tenth of them.
+  std::vector<float> surface = head.positions(raw);
+  std::vector<uint32_t> triangles;
+  for (size_t t = 0; t < mesh.triangle_count * size_t{9} / 10; ++t) {
+    uint32_t corner[3];
+    float center[3] = {};
+    for (size_t n = 0; n < 3; ++n) {
+      corner[n] = mesh.vertex_position_indices.data[mesh.triangles.data[3 * t + n]];
+      for (size_t k = 0; k < 3; ++k) center[k] += surface[corner[n] * size_t{3} + k] / 3;
+    }
+    const auto middle = static_cast<uint32_t>(surface.size() / 3);
+    surface.insert(surface.end(), center, center + 3);
+    for (size_t n = 0; n < 3; ++n) {
+      triangles.insert(triangles.end(), {corner[n], corner[(n + 1) % 3], middle});
+    }
+  }
+  const SurfaceHandle target = create_surface(surface, triangles);
+  MienFitFrame frame = mien_fit_frame_default();
+  frame.surface = target.get();
+  frame.surface_reach = 2;
+  frame.prior_weight = 1e-4f;
+  std::vector<float> found(raw.size());
+  MienFitResult start = mien_fit_result_default(), result = mien_fit_result_default();
+  frame.max_iterations = 1;
+  ASSERT_EQ(mien_fit_solve(fit.get(), &frame, found.data(), &start), MIEN_OK);
+  frame.max_iterations = 0;
+  ASSERT_EQ(mien_fit_solve(fit.get(), &frame, found.data(), &result), MIEN_OK);
+  std::vector<float> again(raw.size());
+  ASSERT_EQ(mien_fit_solve(fit.get(), &frame, again.data(), nullptr), MIEN_OK);
+  EXPECT_EQ(found, again);
+  EXPECT_LT(result.cost, start.cost);
+  EXPECT_GT(result.missing_points, points.size() / 20) << "where the surface ends";
+  EXPECT_LT(result.missing_points, points.size() / 3);
+}
+
+TEST(Fit, RefusesWrongSurfaces) {
+  const std::vector<float> corners = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  create_surface(corners, {0, 1, 3}, MIEN_ERROR_INDEX);
+  create_surface(corners, {}, MIEN_ERROR_INVALID_ARGUMENT);
+  create_surface({0, 0, 0, 1, 0, NAN, 0, 1, 0}, {0, 1, 2}, MIEN_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(mien_fit_surface_create(nullptr, nullptr, nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  mien_fit_surface_destroy(nullptr);
+  CountingAllocator memory;
+  const MienAllocator allocator = memory.get();
+  memory.restart();
+  memory.fail_at = 1;
+  create_surface(corners, {0, 1, 2}, MIEN_ERROR_MEMORY, &allocator);
+  memory.restart();
+  const SurfaceHandle one = create_surface(corners, {0, 1, 2}, MIEN_OK, nullptr);
+  Head head(MIEN_PRESET_TINY);
+  const FitHandle fit = create_fit(head.rig, sized<MienFitDesc>());
+  std::vector<float> found(head.character.raw.count);
+  MienFitFrame frame = mien_fit_frame_default();
+  frame.surface = one.get();
+  EXPECT_EQ(mien_fit_solve(fit.get(), &frame, found.data(), nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  const std::vector<MienSolvePoint> points = {{0, {0, 0, 0}, {1, 0, 0}}};
+  MienFitDesc desc = sized<MienFitDesc>();
+  desc.deformer = head.deformer.get();
+  desc.points = points.data();
+  desc.point_count = 1;
+  const FitHandle with_points = create_fit(head.rig, desc);
+  frame.points = corners.data();
+  EXPECT_EQ(mien_fit_solve(with_points.get(), &frame, found.data(), nullptr),
+            MIEN_ERROR_INVALID_ARGUMENT);
+  frame.points = nullptr;
+  frame.surface = reinterpret_cast<const MienFitSurface*>(fit.get());
+  EXPECT_EQ(mien_fit_solve(with_points.get(), &frame, found.data(), nullptr), MIEN_ERROR_HANDLE);
 }
 
 TEST(Fit, TellsWhyItStops) {

@@ -719,9 +719,10 @@ namespace Mien.Native {
       new[] { sizeof(MienByteSink), 16 },
       new[] { sizeof(MienSolvePoint), 28 },
       new[] { sizeof(MienFitDesc), 104 },
+      new[] { sizeof(MienFitSurfaceDesc), 48 },
       new[] { sizeof(MienFitCamera), 64 },
-      new[] { sizeof(MienFitFrame), 120 },
-      new[] { sizeof(MienFitResult), 112 },
+      new[] { sizeof(MienFitFrame), 136 },
+      new[] { sizeof(MienFitResult), 120 },
     };
   }
 
@@ -2646,13 +2647,33 @@ namespace Mien.Native {
     }
   }
 
+  /// <summary>How to create a surface. Everything is copied. Its unit and axes are those of the rig; triangles may be
+  /// wound either way, but all the same way.</summary>
+  [StructLayout(LayoutKind.Sequential)]
+  public unsafe struct MienFitSurfaceDesc {
+    public UIntPtr StructSize;
+    /// <summary>x y z each. Positions in the same place are one, as along texture seams</summary>
+    public float* Positions;
+    /// <summary>three positions each</summary>
+    public uint* Triangles;
+    public UIntPtr PositionCount;
+    public UIntPtr TriangleCount;
+    /// <summary>NULL: the heap</summary>
+    public MienAllocator* Allocator;
+
+    /// <summary>All fields zero but StructSize.</summary>
+    public static MienFitSurfaceDesc Create() {
+      return new MienFitSurfaceDesc { StructSize = (UIntPtr)sizeof(MienFitSurfaceDesc) };
+    }
+  }
+
   /// <summary>A pinhole camera: image x = focal[0] * x / z + center[0], and y likewise, for the point x y z in camera
   /// space, after `rotation` and `translation`. z grows in front of the camera.</summary>
   [StructLayout(LayoutKind.Sequential)]
   public unsafe struct MienFitCamera {
     public fixed float Focal[2];
     public fixed float Center[2];
-    /// <summary>rows, from model space</summary>
+    /// <summary>rows, from model space. With MienFitFrame.rigid, all 0: unknown</summary>
     public fixed float Rotation[9];
     public fixed float Translation[3];
   }
@@ -2687,7 +2708,7 @@ namespace Mien.Native {
     public float RobustScale;
     /// <summary>weight of the joints relative to the points. 0: 1</summary>
     public float JointWeight;
-    /// <summary>the targets may be rotated and translated as a whole</summary>
+    /// <summary>the targets may be rotated and translated as a whole. With `images`, the camera is found, from that of `camera`, or, if its rotation is unknown, from one that sees the face from the front</summary>
     public uint Rigid;
     /// <summary>0: 50</summary>
     public uint MaxIterations;
@@ -2697,6 +2718,12 @@ namespace Mien.Native {
     public void* User;
     /// <summary>Called before each iteration; a nonzero result stops. NULL: never.</summary>
     public IntPtr Canceled;
+    /// <summary>in place of `points` and `images`: each point is drawn to the nearest place of the surface that faces the same way, within 60 degrees, and is not at a border. NULL: none</summary>
+    public IntPtr Surface;
+    /// <summary>points farther from the surface have no target. 0: no limit</summary>
+    public float SurfaceReach;
+    /// <summary>, with `images` and `rigid`: the focal length is found too, its two numbers scaled alike</summary>
+    public uint Focal;
 
     /// <summary>All fields zero but StructSize.</summary>
     public static MienFitFrame Create() {
@@ -2717,15 +2744,18 @@ namespace Mien.Native {
     public double JointResidual;
     /// <summary>the same for points, or for image points in their unit</summary>
     public double PointResidual;
+    /// <summary>with a surface: those that have no target</summary>
     public uint MissingPoints;
     public uint Reserved;
-    /// <summary>rows: points of the target = rotation * model + translation, if rigid</summary>
+    /// <summary>rows: points of the target = rotation * model + translation, if rigid; the camera's with images</summary>
     public fixed float Rotation[9];
     public fixed float Translation[3];
     /// <summary>largest difference of a joint value that counts</summary>
     public double JointWorst;
     /// <summary>largest distance of a point that counts</summary>
     public double PointWorst;
+    /// <summary>of the camera, with images; else 0</summary>
+    public fixed float Focal[2];
 
     /// <summary>All fields zero but StructSize.</summary>
     public static MienFitResult Create() {
@@ -2977,6 +3007,17 @@ namespace Mien.Native {
     internal FitHandle(IntPtr taken, params Handle[] kept) : base(taken, kept) { }
 
     protected override void Destroy(IntPtr taken) { Functions.mien_fit_destroy(taken); }
+  }
+
+  /// <summary>A surface without correspondences: a scan, or a mesh of another topology. Immutable: any threads may use
+  /// one at the same time.</summary>
+  public sealed class FitSurfaceHandle : Handle {
+    /// <summary>For parameters that may be NULL.</summary>
+    public static readonly FitSurfaceHandle Null = new FitSurfaceHandle(IntPtr.Zero);
+
+    internal FitSurfaceHandle(IntPtr taken, params Handle[] kept) : base(taken, kept) { }
+
+    protected override void Destroy(IntPtr taken) { Functions.mien_fit_surface_destroy(taken); }
   }
 
   /// <summary>The C functions.</summary>
@@ -4716,11 +4757,23 @@ namespace Mien.Native {
     [DllImport("mien-solve", CallingConvention = CallingConvention.Cdecl)]
     public static extern void mien_fit_destroy(IntPtr fit);
 
+    /// <summary>Creates a surface with a tree to find the nearest points. `desc` is required. Destroy with
+    /// mien_fit_surface_destroy().
+    /// Fails with MIEN_ERROR_INDEX if a position does not exist, MIEN_ERROR_INVALID_ARGUMENT if there are no
+    /// triangles, or a coordinate is not finite.</summary>
+    [DllImport("mien-solve", CallingConvention = CallingConvention.Cdecl)]
+    public static extern Status mien_fit_surface_create(MienFitSurfaceDesc* desc, out IntPtr out_surface, MienError* error);
+
+    /// <summary>Destroys a surface. NULL is allowed.</summary>
+    [DllImport("mien-solve", CallingConvention = CallingConvention.Cdecl)]
+    public static extern void mien_fit_surface_destroy(IntPtr surface);
+
     /// <summary>Finds the raw controls of a frame by bounded Gauss-Newton steps with Levenberg-Marquardt damping. Writes
     /// all raw controls of the rig to `out_raw`; those that may not move keep their values of `start`. `result`
     /// may be NULL. Deterministic unless there is a time limit. Does not allocate or lock.
-    /// Fails with MIEN_ERROR_NULL_ARGUMENT if points are given to a fit without points, or images without a
-    /// camera, MIEN_ERROR_INVALID_ARGUMENT if a weight is negative or not finite.</summary>
+    /// Fails with MIEN_ERROR_NULL_ARGUMENT if points, images or a surface are given to a fit without points, or
+    /// images without a camera, MIEN_ERROR_INVALID_ARGUMENT if two of these are given, or a weight, a control or a
+    /// number of the camera is not finite, or a weight is negative, MIEN_ERROR_HANDLE if `surface` is none.</summary>
     [DllImport("mien-solve", CallingConvention = CallingConvention.Cdecl)]
     public static extern Status mien_fit_solve(FitHandle fit, MienFitFrame* frame, float* out_raw, MienFitResult* result);
 

@@ -26,6 +26,7 @@ typedef struct MienSolverState MienSolverState;
 typedef struct MienAuthorReport MienAuthorReport;
 typedef struct MienDocument MienDocument;
 typedef struct MienFit MienFit;
+typedef struct MienFitSurface MienFitSurface;
 typedef void (*MienTask)(void* context, uint32_t index);
 
 /* Details of a failure, owned by the caller. A call that fails fills all fields; a call that succeeds
@@ -1110,12 +1111,23 @@ typedef struct MienFitDesc {
     MienAllocator const* allocator; /* NULL: the heap */
 } MienFitDesc;
 
+/* How to create a surface. Everything is copied. Its unit and axes are those of the rig; triangles may be
+wound either way, but all the same way. */
+typedef struct MienFitSurfaceDesc {
+    size_t struct_size;
+    float const* positions; /* x y z each. Positions in the same place are one, as along texture seams */
+    uint32_t const* triangles; /* three positions each */
+    size_t position_count;
+    size_t triangle_count;
+    MienAllocator const* allocator; /* NULL: the heap */
+} MienFitSurfaceDesc;
+
 /* A pinhole camera: image x = focal[0] * x / z + center[0], and y likewise, for the point x y z in camera
 space, after `rotation` and `translation`. z grows in front of the camera. */
 typedef struct MienFitCamera {
     float focal[2];
     float center[2];
-    float rotation[9]; /* rows, from model space */
+    float rotation[9]; /* rows, from model space. With MienFitFrame.rigid, all 0: unknown */
     float translation[3];
 } MienFitCamera;
 
@@ -1135,11 +1147,14 @@ typedef struct MienFitFrame {
     float symmetric_weight; /* times the squared differences of symmetric pairs */
     float robust_scale; /* points farther off than this count less. 0: all count fully */
     float joint_weight; /* weight of the joints relative to the points. 0: 1 */
-    uint32_t rigid; /* the targets may be rotated and translated as a whole */
+    uint32_t rigid; /* the targets may be rotated and translated as a whole. With `images`, the camera is found, from that of `camera`, or, if its rotation is unknown, from one that sees the face from the front */
     uint32_t max_iterations; /* 0: 50 */
     double max_seconds; /* 0: no limit. A limit makes results depend on the machine */
     void* user; /* passed to `canceled` */
     uint32_t (*canceled)(void* user); /* Called before each iteration; a nonzero result stops. NULL: never. */
+    MienFitSurface const* surface; /* in place of `points` and `images`: each point is drawn to the nearest place of the surface that faces the same way, within 60 degrees, and is not at a border. NULL: none */
+    float surface_reach; /* points farther from the surface have no target. 0: no limit */
+    uint32_t focal; /* , with `images` and `rigid`: the focal length is found too, its two numbers scaled alike */
 } MienFitFrame;
 
 /* The result of a solve. */
@@ -1150,12 +1165,13 @@ typedef struct MienFitResult {
     double cost; /* the minimized sum, with all terms */
     double joint_residual; /* weighted root mean square of the differences of joint values */
     double point_residual; /* the same for points, or for image points in their unit */
-    uint32_t missing_points;
+    uint32_t missing_points; /* with a surface: those that have no target */
     uint32_t reserved;
-    float rotation[9]; /* rows: points of the target = rotation * model + translation, if rigid */
+    float rotation[9]; /* rows: points of the target = rotation * model + translation, if rigid; the camera's with images */
     float translation[3];
     double joint_worst; /* largest difference of a joint value that counts */
     double point_worst; /* largest distance of a point that counts */
+    float focal[2]; /* of the camera, with images; else 0 */
 } MienFitResult;
 ]]
 
@@ -2654,11 +2670,21 @@ MienStatus mien_fit_create(MienRig const* rig, MienFitDesc const* desc, MienFit*
 /* Destroys a fit. NULL is allowed. */
 void mien_fit_destroy(MienFit* fit);
 
+/* Creates a surface with a tree to find the nearest points. `desc` is required. Destroy with
+mien_fit_surface_destroy().
+Fails with MIEN_ERROR_INDEX if a position does not exist, MIEN_ERROR_INVALID_ARGUMENT if there are no
+triangles, or a coordinate is not finite. */
+MienStatus mien_fit_surface_create(MienFitSurfaceDesc const* desc, MienFitSurface** out_surface, MienError* error);
+
+/* Destroys a surface. NULL is allowed. */
+void mien_fit_surface_destroy(MienFitSurface* surface);
+
 /* Finds the raw controls of a frame by bounded Gauss-Newton steps with Levenberg-Marquardt damping. Writes
 all raw controls of the rig to `out_raw`; those that may not move keep their values of `start`. `result`
 may be NULL. Deterministic unless there is a time limit. Does not allocate or lock.
-Fails with MIEN_ERROR_NULL_ARGUMENT if points are given to a fit without points, or images without a
-camera, MIEN_ERROR_INVALID_ARGUMENT if a weight is negative or not finite. */
+Fails with MIEN_ERROR_NULL_ARGUMENT if points, images or a surface are given to a fit without points, or
+images without a camera, MIEN_ERROR_INVALID_ARGUMENT if two of these are given, or a weight, a control or a
+number of the camera is not finite, or a weight is negative, MIEN_ERROR_HANDLE if `surface` is none. */
 MienStatus mien_fit_solve(MienFit* fit, MienFitFrame const* frame, float* out_raw, MienFitResult* result);
 
 /* Writes for each raw control how well the data determines it at the initial pose: 0 if it moves nothing
@@ -3149,9 +3175,10 @@ api.sizes = {
   MienByteSink = 16,
   MienSolvePoint = 28,
   MienFitDesc = 104,
+  MienFitSurfaceDesc = 48,
   MienFitCamera = 64,
-  MienFitFrame = 120,
-  MienFitResult = 112,
+  MienFitFrame = 136,
+  MienFitResult = 120,
 }
 
 -- The function that releases a handle.
@@ -3176,6 +3203,7 @@ api.destroy = {
   MienAuthorReport = "mien_author_report_close",
   MienDocument = "mien_document_destroy",
   MienFit = "mien_fit_destroy",
+  MienFitSurface = "mien_fit_surface_destroy",
 }
 
 return api

@@ -46,7 +46,7 @@ const OptionWords kOptionWords[] = {
     {"--samples", {"1", "4", "16"}},
     {"--target", {"face", "eyes", "mouth"}},
     {"--loop", {"clamp", "wrap"}},
-    {"solve --kind", {"vertices", "joints", "landmarks3", "landmarks2", "weights"}},
+    {"solve --kind", {"vertices", "joints", "landmarks3", "landmarks2", "weights", "surface"}},
     {"--engine", {"local", "dask", "mpi", "slurm", "opencue", "deadline", "openjd", "flamenco"}},
     {"--symmetry", {"auto", "on", "off"}},
     {"--residual", {"targets", "off"}},

@@ -52,8 +52,21 @@ void check_command(const SolveCommand& command, TargetKind kind) {
   if (kind == TargetKind::kJoints && !command.target.mesh.empty()) {
     fail_usage("--mesh", "joints have no mesh", "leave it out");
   }
-  if (command.rigid && (kind == TargetKind::kJoints || kind == TargetKind::kLandmarks2)) {
-    fail_usage("--rigid", "only positions in space can be moved as a whole", "leave it out");
+  if (command.rigid && kind == TargetKind::kJoints) {
+    fail_usage("--rigid", "joints cannot be moved as a whole", "leave it out");
+  }
+  if (command.focal && (kind != TargetKind::kLandmarks2 || !command.rigid)) {
+    fail_usage("--focal", "it is found together with a camera that moves",
+               "give landmarks2 and --rigid, or leave it out");
+  }
+  if (!command.reach.empty() && kind != TargetKind::kSurface) {
+    fail_usage("--reach", "the target is no surface", "leave it out, or add --kind surface");
+  }
+  if (!command.robust.empty() && kind == TargetKind::kJoints) {
+    fail_usage("--robust", "only distances of points are compared with it", "leave it out");
+  }
+  if (!command.images.empty() && kind == TargetKind::kSurface) {
+    fail_usage("--pictures", "vertices have no targets of their own on a surface", "leave it out");
   }
   const std::string& path = command.output.path;
   if (path != "-" && !ends_with(path, ".clip") && !ends_with(path, ".json")) {
@@ -116,6 +129,10 @@ void note_frames_without_data(const SolvedTake& take, const Session& session) {
                     " frames have no data; they hold the frame before");
 }
 
+bool knows_rotation(const MienFitCamera& camera) {
+  return std::any_of(camera.rotation, camera.rotation + 9, [](float v) { return v != 0; });
+}
+
 SolvedTake solve_take(const SolveCommand& command, const SolvedRig& rig, const SolveTarget& target,
                       const Fit& fit, const Session& session) {
   SolvedTake take;
@@ -132,8 +149,16 @@ SolvedTake solve_take(const SolveCommand& command, const SolvedRig& rig, const S
   auto frame = sized<MienFitFrame>();
   frame.joints = joints ? row.data() : nullptr;
   frame.images = target.kind == TargetKind::kLandmarks2 ? row.data() : nullptr;
-  frame.points = joints || frame.images ? nullptr : row.data();
-  frame.camera = frame.images ? &*target.camera : nullptr;
+  const bool surfaces = target.kind == TargetKind::kSurface;
+  frame.points = joints || frame.images || surfaces ? nullptr : row.data();
+  MienFitCamera camera = target.camera ? *target.camera : MienFitCamera{};
+  if (!command.rigid && !knows_rotation(camera)) {
+    for (const int k : {0, 4, 8}) camera.rotation[k] = 1;
+  }
+  frame.camera = frame.images ? &camera : nullptr;
+  frame.focal = command.focal ? 1 : 0;
+  frame.robust_scale = parse_weight("--robust", command.robust);
+  frame.surface_reach = parse_weight("--reach", command.reach);
   frame.rigid = command.rigid ? 1 : 0;
   frame.sparse_weight = parse_weight("--sparse", command.sparse) * amount;
   frame.max_iterations = kFirstIterations;
@@ -142,6 +167,8 @@ SolvedTake solve_take(const SolveCommand& command, const SolvedRig& rig, const S
   for (size_t f = 0; f < target.frame_count; ++f) {
     progress.at(f);
     target.read(f, row.data());
+    const FitSurface surface = surfaces ? target.read_surface(f) : nullptr;
+    frame.surface = surface.get();
     auto result = sized<MienFitResult>();
     float* const out = take.values.data() + f * count;
     check(mien_fit_solve(fit.get(), &frame, out, &result), nullptr, "cannot solve", rig.shown);
@@ -151,6 +178,13 @@ SolvedTake solve_take(const SolveCommand& command, const SolvedRig& rig, const S
     if (command.rigid) {
       std::copy_n(result.rotation, 9, take.frames.back().rotation);
       std::copy_n(result.translation, 3, take.frames.back().translation);
+      // The next frame begins with the camera of this one.
+      if (result.status != MIEN_FIT_NO_DATA && frame.images) {
+        std::copy_n(result.rotation, 9, camera.rotation);
+        std::copy_n(result.translation, 3, camera.translation);
+        std::copy_n(result.focal, 2, camera.focal);
+        std::copy_n(result.focal, 2, take.frames.back().focal);
+      }
     }
     frame.start = out;
     frame.smooth_weight = parse_weight("--smooth", command.smooth) * amount;
@@ -187,6 +221,8 @@ void solve_file(const SolveCommand& command, const Session& session) {
   const float keys = parse_weight("--keys", command.keys);
   parse_weight("--smooth", command.smooth);
   parse_weight("--sparse", command.sparse);
+  parse_weight("--robust", command.robust);
+  parse_weight("--reach", command.reach);
   std::vector<std::string> inputs = {command.rig, command.target.path};
   for (const std::string& other : {command.target.from, command.target.landmarks}) {
     if (!other.empty()) inputs.push_back(other);
@@ -263,9 +299,10 @@ Command add_solve_command(CLI::App& app, const Session& session) {
                      "Controls to write, as .clip or .json; - writes JSON to standard output")
       ->required();
   solve
-      ->add_option("--kind", options->target.kind,
-                   "What TARGET holds: vertices, joints, landmarks3, landmarks2 or\nweights "
-                   "(default: told by its name and by --from)")
+      ->add_option(
+          "--kind", options->target.kind,
+          "What TARGET holds: vertices, surface, joints, landmarks3, landmarks2\nor weights "
+          "(default: told by its name and by --from)")
       ->type_name("KIND");
   solve
       ->add_option("--from", options->target.from,
@@ -285,7 +322,20 @@ Command add_solve_command(CLI::App& app, const Session& session) {
                    "Only these raw controls may move: names or patterns such as\nmouth*,jawOpen")
       ->type_name("LIST");
   solve->add_flag("--rigid", options->rigid,
-                  "The target may be rotated and moved as a whole in each frame");
+                  "The target may be rotated and moved as a whole in each frame; with\nlandmarks2, "
+                  "the camera moves");
+  solve->add_flag("--focal", options->focal,
+                  "Find the focal length of the camera too, with --rigid");
+  solve
+      ->add_option("--robust", options->robust,
+                   "Points farther off than S count less, such as wrong landmarks: in the\nunit of "
+                   "the rig, or pixels (default: all count)")
+      ->type_name("S");
+  solve
+      ->add_option("--reach", options->reach,
+                   "Vertices farther than R from a surface have no target, in the unit of\nthe rig "
+                   "(default: no limit)")
+      ->type_name("R");
   solve->add_option("--rate", options->rate, "Frames per second (default: TARGET's, otherwise 60)")
       ->type_name("R");
   solve
@@ -315,7 +365,12 @@ Command add_solve_command(CLI::App& app, const Session& session) {
       "  vertices    NPY of frames x vertices x 3 in the unit and order of the mesh, an OBJ or "
       "GLB\n"
       "              (each morph target is a frame), or a folder of OBJ, a frame each\n"
-      "  joints      NPY of frames x joints x 9, as `mien eval` writes joints\n"
+      "  surface     OBJ, GLB or a folder of OBJ of any topology: vertices are drawn to the "
+      "nearest\n"
+      "              places that face the same way\n"
+      "  joints      NPY of frames x joints x 9, as `mien eval` writes joints, or a GLB whose "
+      "nodes\n"
+      "              have the names of joints\n"
       "  landmarks3  CSV time,NAME.x,NAME.y,NAME.z,...; empty cells are missing\n"
       "  landmarks2  CSV time,NAME.x,NAME.y,... in pixels, seen by the camera of --landmarks\n"
       "  weights     JSON of `mien play`, or a clip, for the rig --from: what its controls do to\n"
@@ -323,13 +378,15 @@ Command add_solve_command(CLI::App& app, const Session& session) {
       "--landmarks: {\"points\": {\"chin\": 1234, \"nose\": {\"positions\": [1, 2, 3], "
       "\"weights\":\n"
       "[0.2, 0.3, 0.5]}}, \"camera\": {\"focal\": [1200, 1200], \"center\": [960, 540],\n"
-      "\"rotation\": [9 numbers, by rows], \"translation\": [0, 0, 100]}}. Names that are numbers "
-      "are\n"
-      "positions of the mesh. See docs/solving.md.\n\n"
+      "\"rotation\": [9 numbers, by rows], \"translation\": [0, 0, 100]}}. With --rigid, rotation "
+      "and\n"
+      "translation may be left out. Names that are numbers are positions of the mesh. See\n"
+      "docs/solving.md.\n\n"
       "Examples:\n"
       "  mien solve head.dna scan.npy -o take.clip --report report.json\n"
       "  mien solve head.dna scans/ -o take.json --keys 0.01 --pictures pictures/\n"
-      "  mien solve head.dna joints.npy --kind joints -o take.clip\n"
+      "  mien solve head.dna scan.obj --kind surface --rigid --reach 2 -o take.json\n"
+      "  mien solve head.dna animation.glb --kind joints -o take.clip\n"
       "  mien solve head.dna face.csv --landmarks points.json -o take.clip --smooth 0.01\n"
       "  mien solve other.dna scene.json --from head.dna -o other.clip");
   return {solve, [options, &session] { solve_file(*options, session); }};

@@ -11,8 +11,8 @@ namespace mien::cli {
 /// As it was typed.
 struct SolveCommand {
   TargetOptions target;
-  std::string rig, controls, rate, keys, smooth, sparse, report, images;
-  bool rigid = false;
+  std::string rig, controls, rate, keys, smooth, sparse, robust, reach, report, images;
+  bool rigid = false, focal = false;
   OutputFile output;
 };
 

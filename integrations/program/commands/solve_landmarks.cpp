@@ -79,10 +79,13 @@ MienSolvePoint read_point(const LandmarkJson& value, const Landmarks& landmarks,
 
 MienFitCamera read_camera(const LandmarkJson& value, const std::string& where) {
   MienFitCamera camera = {};
-  for (const int k : {0, 4, 8}) camera.rotation[k] = 1;
   if (!value.is_object()) fail_landmarks(where, "the camera is not an object");
   read_numbers(value.value("focal", LandmarkJson()), 2, camera.focal, where + ".focal");
   read_numbers(value.value("center", LandmarkJson()), 2, camera.center, where + ".center");
+  // Without either, the rotation stays 0: unknown.
+  if (value.contains("rotation") || value.contains("translation")) {
+    for (const int k : {0, 4, 8}) camera.rotation[k] = 1;
+  }
   if (value.contains("rotation")) {
     read_numbers(value["rotation"], 9, camera.rotation, where + ".rotation");
   }

@@ -39,34 +39,10 @@ std::pair<size_t, size_t> find_positions(const MeshFile& file, const std::string
   return {low, size_t{high} - low + 1};
 }
 
-/// From the positions of files to those of the mesh of a rig.
-struct MeshReader {
-  const SolvedRig& rig;
-  MienMesh mesh;
-  std::string name;
+struct RigSpace {
   MienRigInfo info;
 
-  MeshReader(const SolvedRig& solved, uint32_t index)
-      : rig(solved), mesh(mesh_of(solved, index)),
-        name(rig_name(solved.rig, MIEN_KIND_MESH, index)), info(rig_info(solved.rig)) {}
-
-  /// Files by vertices have several at one position, of which the last counts: all are the same.
-  void place(const MeshFile& file, const std::string& path, const std::vector<Vec3d>& points,
-             float* row) const {
-    const auto [first, count] = find_positions(file, name);
-    const bool by_vertex = count == mesh.vertex_count && count != mesh.position_count;
-    if (!by_vertex && count != mesh.position_count) {
-      fail(kInvalid, "cannot solve", path,
-           "it has " + grouped(count) + " positions, mesh " + one_line(name) + " of the rig has " +
-               grouped(mesh.position_count),
-           "give the same topology, or another mesh with --mesh");
-    }
-    for (size_t i = 0; i < count; ++i) {
-      const size_t to = by_vertex ? mesh.vertex_position_indices.data[i] : i;
-      const Vec3d p = file.in_meters ? from_gltf(points[first + i]) : points[first + i];
-      for (int k = 0; k < 3; ++k) row[3 * to + static_cast<size_t>(k)] = static_cast<float>(p[k]);
-    }
-  }
+  explicit RigSpace(const SolvedRig& rig) : info(rig_info(rig.rig)) {}
 
   /// From meters, x to the left, y up and z to the front.
   Vec3d from_gltf(Vec3d p) const {
@@ -77,6 +53,35 @@ struct MeshReader {
     return Vec3d{dot(p, kDirections[info.axes[0]]), dot(p, kDirections[info.axes[1]]),
                  dot(p, kDirections[info.axes[2]])} *
            units;
+  }
+};
+
+/// From the positions of files to those of the mesh of a rig.
+struct MeshReader {
+  MienMesh mesh;
+  std::string name;
+  RigSpace space;
+
+  MeshReader(const SolvedRig& solved, uint32_t index)
+      : mesh(mesh_of(solved, index)), name(rig_name(solved.rig, MIEN_KIND_MESH, index)),
+        space(solved) {}
+
+  /// Files by vertices have several at one position, of which the last counts: all are the same.
+  void place(const MeshFile& file, const std::string& path, const std::vector<Vec3d>& points,
+             float* row) const {
+    const auto [first, count] = find_positions(file, name);
+    const bool by_vertex = count == mesh.vertex_count && count != mesh.position_count;
+    if (!by_vertex && count != mesh.position_count) {
+      fail(kInvalid, "cannot solve", path,
+           "it has " + grouped(count) + " positions, mesh " + one_line(name) + " of the rig has " +
+               grouped(mesh.position_count),
+           "give the same topology, another mesh with --mesh, or --kind surface");
+    }
+    for (size_t i = 0; i < count; ++i) {
+      const size_t to = by_vertex ? mesh.vertex_position_indices.data[i] : i;
+      const Vec3d p = file.in_meters ? space.from_gltf(points[first + i]) : points[first + i];
+      for (int k = 0; k < 3; ++k) row[3 * to + static_cast<size_t>(k)] = static_cast<float>(p[k]);
+    }
   }
 };
 
@@ -218,38 +223,105 @@ class MovingMesh {
   DeformerInstance pose_;
 };
 
-}  // namespace
+/// The meshes of frames: of each OBJ of a folder, or each morph target of a file.
+struct MeshFrames {
+  std::vector<std::string> files;  // of a folder
+  MeshFile file;                   // else
+  std::string shown;
+  size_t count = 0;
 
-SolveTarget read_meshes(const TargetOptions& options, const SolvedRig& rig, uint32_t mesh) {
-  SolveTarget target;
-  auto reader = std::make_shared<MeshReader>(rig, mesh);
-  target.width = size_t{3} * reader->mesh.position_count;
-  std::error_code ignored;
-  if (std::filesystem::is_directory(options.path, ignored)) {
-    auto files = std::make_shared<std::vector<std::string>>(list_obj_files(options.path));
-    target.frame_count = files->size();
-    target.read = [reader, files](size_t frame, float* row) {
-      const std::string& path = (*files)[frame];
-      const MeshFile file = read_obj(read_mesh_bytes(path, "cannot read target"), path);
-      reader->place(file, path, points_of(file), row);
-    };
-    return target;
+  explicit MeshFrames(const std::string& path) : shown(shown_name(path)) {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(path, ignored)) {
+      files = list_obj_files(path);
+      count = files.size();
+    } else {
+      file = read_mesh_file(path);
+      count = std::max(file.shapes.size(), size_t{1});
+    }
   }
-  auto file = std::make_shared<MeshFile>(read_mesh_file(options.path));
-  const std::string shown = shown_name(options.path);
-  for (const MeshShape& shape : file->shapes) target.frame_names.push_back(shape.name);
-  target.frame_count = std::max(file->shapes.size(), size_t{1});
-  target.read = [reader, file, shown](size_t frame, float* row) {
-    std::vector<Vec3d> points = points_of(*file);
-    if (!file->shapes.empty()) {
-      const MeshShape& shape = file->shapes[frame];
+  std::vector<std::string> names() const {
+    std::vector<std::string> names;
+    for (const MeshShape& shape : file.shapes) names.push_back(shape.name);
+    return names;
+  }
+  /// Calls use(file, its name for messages, its positions in the frame).
+  template <class F>
+  auto at(size_t frame, F&& use) const {
+    if (!files.empty()) {
+      const std::string& path = files[frame];
+      const MeshFile own = read_obj(read_mesh_bytes(path, "cannot read target"), path);
+      return use(own, path, points_of(own));
+    }
+    std::vector<Vec3d> points = points_of(file);
+    if (!file.shapes.empty()) {
+      const MeshShape& shape = file.shapes[frame];
       for (size_t i = 0; i < shape.displacements.size() / 3; ++i) {
         const double* d = shape.displacements.data() + 3 * i;
         points[shape.vertices.empty() ? i : shape.vertices[i]] += Vec3d{d[0], d[1], d[2]};
       }
     }
-    reader->place(*file, shown, points, row);
+    return use(file, shown, points);
+  }
+};
+
+/// In the unit and axes of the rig, faces as fans of triangles.
+FitSurface create_surface(const MeshFile& file, const std::string& shown,
+                          const std::vector<Vec3d>& points, const RigSpace& space) {
+  std::vector<float> positions;
+  for (const Vec3d& point : points) {
+    const Vec3d p = file.in_meters ? space.from_gltf(point) : point;
+    for (int k = 0; k < 3; ++k) positions.push_back(static_cast<float>(p[k]));
+  }
+  std::vector<uint32_t> triangles;
+  size_t first = 0;
+  for (const uint32_t size : file.face_sizes) {
+    for (uint32_t k = 2; k < size; ++k) {
+      for (const uint32_t corner : {0u, k - 1, k})
+        triangles.push_back(file.corners[first + corner]);
+    }
+    first += size;
+  }
+  auto desc = sized<MienFitSurfaceDesc>();
+  desc.positions = positions.data();
+  desc.position_count = points.size();
+  desc.triangles = triangles.data();
+  desc.triangle_count = triangles.size() / 3;
+  auto error = sized<MienError>();
+  MienFitSurface* surface = nullptr;
+  check(mien_fit_surface_create(&desc, &surface, &error), &error, "cannot solve", shown);
+  return FitSurface(surface);
+}
+
+}  // namespace
+
+SolveTarget read_meshes(const TargetOptions& options, const SolvedRig& rig, uint32_t mesh) {
+  SolveTarget target;
+  auto reader = std::make_shared<MeshReader>(rig, mesh);
+  auto frames = std::make_shared<MeshFrames>(options.path);
+  target.width = size_t{3} * reader->mesh.position_count;
+  target.frame_names = frames->names();
+  target.frame_count = frames->count;
+  target.read = [reader, frames](size_t frame, float* row) {
+    frames->at(frame,
+               [&](const MeshFile& file, const std::string& path,
+                   const std::vector<Vec3d>& points) { reader->place(file, path, points, row); });
   };
+  return target;
+}
+
+SolveTarget read_surfaces(const TargetOptions& options, const SolvedRig& rig) {
+  SolveTarget target;
+  auto frames = std::make_shared<MeshFrames>(options.path);
+  target.frame_names = frames->names();
+  target.frame_count = frames->count;
+  target.read_surface = [frames, space = RigSpace(rig)](size_t frame) {
+    return frames->at(frame, [&](const MeshFile& file, const std::string& path,
+                                 const std::vector<Vec3d>& points) {
+      return create_surface(file, path, points, space);
+    });
+  };
+  target.read = [](size_t, float*) {};
   return target;
 }
 

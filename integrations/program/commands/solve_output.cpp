@@ -156,6 +156,10 @@ void write_solve_report(const SolvedTake& take, const SolveTarget& target, Outpu
       json.floats(frame.rotation, 9);
       json.key("translation");
       json.floats(frame.translation, 3);
+      if (frame.focal[0] > 0) {
+        json.key("focal");
+        json.floats(frame.focal, 2);
+      }
     }
     json.end_object();
   }

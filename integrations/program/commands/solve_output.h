@@ -12,6 +12,7 @@ struct SolvedFrame {
   uint32_t status = 0;  // MIEN_FIT_...
   // Points of the target = rotation (rows) * model + translation.
   float rotation[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, translation[3] = {};
+  float focal[2] = {};  // of a camera that was found
 };
 
 /// Controls of a take.

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "integrations/program/commands/baked_rig.h"
+#include "integrations/program/commands/solve_joints.h"
 #include "integrations/program/commands/solve_landmarks.h"
 #include "integrations/program/commands/solve_meshes.h"
 #include "integrations/program/io/input.h"
@@ -51,10 +52,13 @@ SolveTarget read_array(const TargetOptions& options, size_t rows, size_t columns
   return target;
 }
 
-SolveTarget read_joints(const TargetOptions& options, const SolvedRig& rig) {
+SolveTarget read_joints(const TargetOptions& options, const SolvedRig& rig,
+                        const Session& session) {
+  if (ends_with(options.path, ".glb")) return read_glb_joints(options, rig, session);
   if (!ends_with(options.path, ".npy")) {
-    fail_usage("--kind joints", "joints are read from NPY files",
-               "give frames x joints x 9 numbers as `mien eval` writes joints, as .npy");
+    fail_usage("--kind joints", "joints are read from NPY files and from GLB",
+               "give frames x joints x 9 numbers as `mien eval` writes joints, as .npy, or an "
+               "animated .glb");
   }
   return read_array(options, rig_count(rig.rig, MIEN_KIND_JOINT), kJointWidth,
                     "the joint values that `mien eval` writes, for all joints in their order");
@@ -139,7 +143,7 @@ SolveTarget open_target(const TargetOptions& options, TargetKind kind, const Sol
                         const Session& session) {
   SolveTarget target;
   if (kind == TargetKind::kJoints) {
-    target = read_joints(options, rig);
+    target = read_joints(options, rig, session);
   } else if (kind == TargetKind::kLandmarks3 || kind == TargetKind::kLandmarks2) {
     target = read_landmarks(options, kind == TargetKind::kLandmarks2, rig);
   } else {
@@ -151,6 +155,8 @@ SolveTarget open_target(const TargetOptions& options, TargetKind kind, const Sol
       target = read_array(options, count, 3,
                           "the positions of mesh " + rig_name(rig.rig, MIEN_KIND_MESH, mesh) +
                               ", in the order of the file");
+    } else if (kind == TargetKind::kSurface) {
+      target = read_surfaces(options, rig);
     } else {
       target = read_meshes(options, rig, mesh);
     }

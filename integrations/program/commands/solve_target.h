@@ -34,8 +34,11 @@ uint32_t find_mesh(const SolvedRig& rig, const std::string& name);
 
 MienMesh mesh_of(const SolvedRig& rig, uint32_t mesh);
 
+using FitSurface =
+    std::unique_ptr<MienFitSurface, Destroy<MienFitSurface, mien_fit_surface_destroy>>;
+
 /// In the order of the words of --kind.
-enum class TargetKind { kVertices, kJoints, kLandmarks3, kLandmarks2, kWeights };
+enum class TargetKind { kVertices, kJoints, kLandmarks3, kLandmarks2, kWeights, kSurface };
 
 struct TargetOptions {
   std::string path, kind, from, mesh, landmarks;
@@ -47,13 +50,15 @@ TargetKind find_kind(const TargetOptions& options);
 struct SolveTarget {
   TargetKind kind = TargetKind::kVertices;
   size_t frame_count = 0;
-  size_t width = 0;  // numbers of a frame: joint values, or 3 (2 in images) for each point
+  size_t width =
+      0;  // numbers of a frame: joint values, or 3 (2 in images) for each point; 0: surfaces
   std::vector<std::string> frame_names;  // where frames are shapes; else empty
   std::vector<MienSolvePoint> points;    // empty: joints
   std::optional<MienFitCamera> camera;   // of images
   Rate rate;                             // unknown if the file has none
   /// Writes the numbers of a frame. Missing ones are NaN.
   std::function<void(size_t frame, float* row)> read;
+  std::function<FitSurface(size_t frame)> read_surface;  // of kSurface
 };
 
 /// Fails with kInvalid if the file does not fit the rig.

@@ -5,28 +5,23 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "integrations/program/io/failure.h"
 #include "integrations/program/io/text.h"
-#include "integrations/program/mesh/mesh_file.h"
+#include "integrations/program/mesh/glb_data.h"
 
 namespace mien::cli {
 
 namespace {
 
-using Json = nlohmann::json;
+using Json = GlbData::Json;
 using Matrix = std::array<double, 12>;  // 3 rows of 4
 
-constexpr size_t kMaxElements = size_t{1} << 28;
 constexpr int kMaxDepth = 256;
 constexpr size_t kMaxTargets = 4096;  // each takes memory for all positions
-// Nodes and targets may name the same data again and again. Of real files none has a fraction of this.
-constexpr size_t kMaxNumbers = size_t{1} << 22, kMaxNumbersPerByte = 32;
 // What looking at one of them takes, in numbers that are read in the same time.
 constexpr size_t kNodeNumbers = 128, kPrimitiveNumbers = 256, kTargetNumbers = 64;
 
@@ -58,86 +53,14 @@ Matrix product(const Matrix& a, const Matrix& b) {
   return out;
 }
 
-class Glb {
+class Glb : GlbData {
  public:
-  Glb(const std::string& bytes, const std::string& path)
-      : path_(path), numbers_left_(kMaxNumbers + bytes.size() * kMaxNumbersPerByte) {
-    const auto word = [&](size_t at) {
-      uint32_t value = 0;
-      if (bytes.size() < 4 || at > bytes.size() - 4) fail("", "truncated", "get the file again");
-      for (size_t i = 0; i < 4; ++i) {
-        value |= uint32_t{static_cast<unsigned char>(bytes[at + i])} << (8 * i);
-      }
-      return value;
-    };
-    if (word(4) != 2) {
-      fail("byte 4", "version " + std::to_string(word(4)) + ": 2 is supported",
-           "export it as glTF 2.0");
-    }
-    std::string json;
-    for (size_t at = 12; bytes.size() >= 8 && at <= bytes.size() - 8;) {
-      const size_t size = word(at);
-      const uint32_t kind = word(at + 4);
-      at += 8;
-      if (size > bytes.size() - at) {
-        fail("byte " + std::to_string(at),
-             "truncated: a chunk of " + std::to_string(size) + " bytes does not fit",
-             "get the file again");
-      }
-      if (kind == 0x4E4F534A && json.empty()) json = bytes.substr(at, size);
-      if (kind == 0x004E4942 && binary_.empty()) binary_ = std::string_view(bytes).substr(at, size);
-      at += (size + 3) / 4 * 4;
-    }
-    root_ = Json::parse(json, nullptr, false);
-    if (!root_.is_object()) fail("", "its JSON is not valid", "export it again");
-    for (const Json& name : list(root_, "extensionsRequired")) {
-      if (name.is_string() && name.get<std::string>() == "KHR_mesh_quantization") continue;
-      fail("",
-           "it needs the extension " + (name.is_string() ? one_line(name.get<std::string>()) : "?"),
-           "export it without compression");
-    }
-  }
+  Glb(const std::string& bytes, const std::string& path) : GlbData(bytes, path) {}
 
   MeshFile read();
 
  private:
-  [[noreturn]] void fail(const std::string& where, const std::string& why,
-                         const std::string& what_to_do = "export it again") const {
-    fail_mesh(path_, where, why, what_to_do);
-  }
-  static const Json& list(const Json& of, const char* key) {
-    static const Json kNothing = Json::array();
-    const auto it = of.is_object() ? of.find(key) : of.end();
-    return of.is_object() && it != of.end() && it->is_array() ? *it : kNothing;
-  }
-  const Json& element(const char* key, size_t index) const {
-    const Json& all = list(root_, key);
-    if (index >= all.size() || !all[index].is_object()) {
-      fail("", std::string("there is no element ") + std::to_string(index) + " of " + key);
-    }
-    return all[index];
-  }
-  size_t whole(const Json& of, const char* key, size_t otherwise) const {
-    const auto it = of.find(key);
-    if (it == of.end()) return otherwise;
-    if (!it->is_number_unsigned() || it->get<uint64_t>() > kMaxElements) {
-      fail("", std::string("\"") + key + "\" is not a number from 0 to 2^28");
-    }
-    return it->get<size_t>();
-  }
-  static std::string text(const Json& of, const char* key) {
-    const auto it = of.find(key);
-    return it != of.end() && it->is_string() ? it->get<std::string>() : std::string();
-  }
-
-  /// `count` elements of `width` numbers in the binary chunk, through a buffer view.
-  void copy(size_t view, size_t offset, size_t type, bool normalized, size_t count, size_t width,
-            std::vector<double>& out) const;
-  /// Numbers of an accessor, `width` per element, with sparse ones.
-  std::vector<double> numbers(size_t accessor, size_t width, const char* what);
   std::vector<uint32_t> indices(size_t accessor, size_t below, const char* what);
-  /// Fails once far more numbers are read than the file has.
-  void take_numbers(size_t count);
   Matrix local_matrix(const Json& node) const;
   void add_node(size_t index, const Matrix& parent, int depth);
   /// Whether the positions are integers, whose scale is undone by the node or, if there is one, by the skin.
@@ -153,9 +76,6 @@ class Glb {
                        MeshMaterial& material);
   double share(const Json& value, const char* what) const;
 
-  const std::string& path_;
-  std::string_view binary_;
-  Json root_;
   MeshFile out_;
   std::map<std::string, size_t> shape_of_;
   std::set<std::string> object_names_;
@@ -165,114 +85,7 @@ class Glb {
   std::map<size_t, Matrix> skin_places_;
   std::set<std::string> material_names_;
   bool all_have_uvs_ = true;
-  size_t numbers_left_;
 };
-
-void Glb::take_numbers(size_t count) {
-  if (count > numbers_left_) {
-    fail("", "its meshes and targets name the same data too often", "make it smaller");
-  }
-  numbers_left_ -= count;
-}
-
-void Glb::copy(size_t view_index, size_t offset, size_t type, bool normalized, size_t count,
-               size_t width, std::vector<double>& out) const {
-  const Json& view = element("bufferViews", view_index);
-  if (whole(view, "buffer", 0) != 0 || !text(element("buffers", 0), "uri").empty()) {
-    fail("", "its data lie in another file", "export it as one .glb file");
-  }
-  const size_t sizes[] = {1, 1, 2, 2, 0, 4, 4};  // from 5120
-  if (type < 5120 || type > 5126 || sizes[type - 5120] == 0) {
-    fail("", "numbers of type " + std::to_string(type) + " are not known");
-  }
-  const size_t size = sizes[type - 5120];
-  const size_t stride = std::max(whole(view, "byteStride", 0), size_t{0});
-  const size_t step = stride ? stride : size * width;
-  const size_t begin = whole(view, "byteOffset", 0), length = whole(view, "byteLength", 0);
-  if (begin > binary_.size() || length > binary_.size() - begin || offset > length ||
-      (count > 0 && (step < size * width || (count - 1) > (length - offset) / step ||
-                     (count - 1) * step + size * width > length - offset))) {
-    fail("buffer view " + std::to_string(view_index),
-         "it does not have " + std::to_string(count) + " elements within the file");
-  }
-  out.reserve(count * width);
-  const char* from = binary_.data() + begin + offset;
-  for (size_t i = 0; i < count; ++i) {
-    for (size_t k = 0; k < width; ++k) {
-      const char* at = from + i * step + k * size;
-      uint32_t bits = 0;
-      for (size_t b = 0; b < size; ++b)
-        bits |= uint32_t{static_cast<unsigned char>(at[b])} << (8 * b);
-      double value = 0;
-      switch (type) {
-        case 5120: value = static_cast<int8_t>(bits); break;
-        case 5121: value = bits; break;
-        case 5122: value = static_cast<int16_t>(bits); break;
-        case 5123: value = bits; break;
-        case 5125: value = bits; break;
-        default: {
-          float single;
-          memcpy(&single, &bits, sizeof(single));
-          value = double{single};
-        }
-      }
-      const double largest[] = {127, 255, 32767, 65535, 1, 4294967295.0, 1};
-      if (normalized) value = std::max(value / largest[type - 5120], -1.0);
-      if (!std::isfinite(value)) {
-        fail("buffer view " + std::to_string(view_index), "a number is not finite");
-      }
-      out.push_back(value);
-    }
-  }
-}
-
-std::vector<double> Glb::numbers(size_t index, size_t width, const char* what) {
-  const Json& accessor = element("accessors", index);
-  const char* const types[] = {"", "SCALAR", "VEC2", "VEC3"};
-  const char* const wanted = width == 16 ? "MAT4" : types[width];
-  if (text(accessor, "type") != wanted) {
-    fail("accessor " + std::to_string(index),
-         std::string(what) + " should have the type " + wanted);
-  }
-  const size_t count = whole(accessor, "count", 0), type = whole(accessor, "componentType", 0);
-  take_numbers(count * width);
-  const auto normal = accessor.find("normalized");
-  const bool normalized = normal != accessor.end() && normal->is_boolean() && normal->get<bool>();
-  std::vector<double> out;
-  if (accessor.contains("bufferView")) {
-    copy(whole(accessor, "bufferView", 0), whole(accessor, "byteOffset", 0), type, normalized,
-         count, width, out);
-  } else {
-    // Zeros, as of targets that do not move a mesh, and sparse ones over them: bounded by what others
-    // of the file hold.
-    if (count > binary_.size())
-      fail("accessor " + std::to_string(index), "it is larger than the file");
-    out.assign(count * width, 0);
-  }
-  const auto sparse = accessor.find("sparse");
-  if (sparse == accessor.end()) return out;
-  if (!sparse->is_object() || !sparse->contains("indices") || !sparse->contains("values") ||
-      !(*sparse)["indices"].is_object() || !(*sparse)["values"].is_object()) {
-    fail("accessor " + std::to_string(index), "its sparse part is incomplete");
-  }
-  const size_t changed = whole(*sparse, "count", 0);
-  take_numbers(changed * (width + 1));
-  const Json &places = (*sparse)["indices"], &values = (*sparse)["values"];
-  std::vector<double> at, with;
-  copy(whole(places, "bufferView", 0), whole(places, "byteOffset", 0),
-       whole(places, "componentType", 0), false, changed, 1, at);
-  copy(whole(values, "bufferView", 0), whole(values, "byteOffset", 0), type, normalized, changed,
-       width, with);
-  for (size_t i = 0; i < changed; ++i) {
-    if (!(at[i] >= 0 && at[i] < static_cast<double>(count))) {
-      fail("accessor " + std::to_string(index), "it changes an element that is not there");
-    }
-    for (size_t k = 0; k < width; ++k) {
-      out[static_cast<size_t>(at[i]) * width + k] = with[i * width + k];
-    }
-  }
-  return out;
-}
 
 std::vector<uint32_t> Glb::indices(size_t accessor, size_t below, const char* what) {
   std::vector<uint32_t> out;
@@ -329,7 +142,7 @@ bool Glb::has_integers(const Json& primitive) const {
 
 Matrix Glb::world_matrix(size_t node) {
   Matrix place = local_matrix(element("nodes", node));
-  const Json& nodes = list(root_, "nodes");
+  const Json& nodes = list(root(), "nodes");
   for (int depth = 0; depth < kMaxDepth; ++depth) {
     size_t parent = 0;
     for (; parent < nodes.size(); ++parent) {
@@ -488,7 +301,7 @@ void Glb::read_texture_of(const Json& holder, const char* key, TextureKind kind,
   }
   if (!uri.empty()) {
     if (uri.size() > kMaxPathBytes) fail("", "the address of an image is longer than 4095 bytes");
-    const std::filesystem::path folder = std::filesystem::path(path_).parent_path();
+    const std::filesystem::path folder = std::filesystem::path(path()).parent_path();
     material.surface.textures[size_t(kind)] = (folder / unescaped(uri)).lexically_normal().string();
     return;
   }
@@ -499,14 +312,14 @@ void Glb::read_texture_of(const Json& holder, const char* key, TextureKind kind,
   }
   const Json& view = element("bufferViews", whole(image, "bufferView", kMaxElements));
   const size_t begin = whole(view, "byteOffset", 0), length = whole(view, "byteLength", 0);
-  if (begin > binary_.size() || length > binary_.size() - begin) {
+  if (begin > binary().size() || length > binary().size() - begin) {
     fail("image " + std::to_string(number), "it does not lie within the file");
   }
   take_numbers(length);
   material.images[size_t(kind)] = static_cast<uint32_t>(out_.images.size());
   images_[number] = material.images[size_t(kind)];
-  out_.images.push_back(texture_of(std::string(binary_.substr(begin, length)),
-                                   one_line(path_) + ", image " + std::to_string(number)));
+  out_.images.push_back(texture_of(std::string(binary().substr(begin, length)),
+                                   one_line(path()) + ", image " + std::to_string(number)));
 }
 
 uint32_t Glb::material_number(const Json& primitive) {
@@ -570,13 +383,13 @@ void Glb::add_node(size_t index, const Matrix& parent, int depth) {
 
 MeshFile Glb::read() {
   const Matrix identity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
-  if (!list(root_, "scenes").empty()) {
-    for (const Json& node : list(element("scenes", whole(root_, "scene", 0)), "nodes")) {
+  if (!list(root(), "scenes").empty()) {
+    for (const Json& node : list(element("scenes", whole(root(), "scene", 0)), "nodes")) {
       if (!node.is_number_unsigned()) fail("", "a node of the scene is not a number");
       add_node(node.get<size_t>(), identity, 0);
     }
   } else {
-    for (size_t node = 0; node < list(root_, "nodes").size(); ++node) {
+    for (size_t node = 0; node < list(root(), "nodes").size(); ++node) {
       if (visited_.count(node) == 0) add_node(node, identity, 0);
     }
   }

@@ -122,6 +122,42 @@ class Kinds(SolveTest):
                     self.compare(row, POSE, 0.01, report["unobservable"])
                 self.assertLess(report["residual"]["worst"], 0.01)  # cm
 
+    def test_joints_of_an_animated_glb(self):
+        poses = [{"jawOpen": 0.1}, POSE, {"mouthSmileLeft": 0.8, "browInnerUp": 0.5}]
+        write("poses.json", json.dumps({"rate": 30, "frames": [{"raw": pose} for pose in poses]}))
+        self.ok("export", path(HEAD), "-o", path("animated.glb"), "--animation", path("poses.json"))
+        rows, report = self.solved(path("animated.glb"), "--kind", "joints")
+        self.assertEqual(json.loads(read("out.json"))["rate"], 30)
+        self.assertEqual(len(rows), 3)
+        for row, pose in zip(rows, poses):
+            self.compare(row, pose, 0.01, report["unobservable"])
+        self.fails(INVALID, "solve", path(TINY), path("animated.glb"), "--kind", "joints", "-o", path("no.json"),
+                   says="no node has the name")
+        self.fails(INVALID, "solve", path(TINY), write("wrong.glb", b"glTF" + bytes(40)), "--kind", "joints", "-o",
+                   path("no.json"), says="wrong.glb")
+
+    def test_a_surface_of_another_topology(self):
+        mesh, points = self.obj(POSE)
+        self.ok("export", path(HEAD), "-o", path("posed.obj"), "--lod", "0",
+                *[word for name, value in POSE.items() for word in ("--set", f"{name}={value}")])
+        faces, begun = [], 0
+        for line in read("posed.obj").decode().splitlines():
+            begun += line.startswith("o ")
+            if begun == 1 and line.startswith("f "):
+                faces.append([int(word.split("/")[0]) for word in line.split()[1:]])
+        # Positions in another order, polygons as triangles from their second corner, moved by 0.3 cm.
+        count = len(points)
+        lines = ["v %.6f %.6f %.6f" % (p[0] + 0.3, p[1], p[2]) for p in reversed(points)]
+        for face in faces:
+            turned = [count + 1 - i for i in face[1:] + face[:1]]
+            lines += ["f %d %d %d" % (turned[0], a, b) for a, b in zip(turned[1:], turned[2:])]
+        write("scan.obj", "\n".join(lines) + "\n")
+        rows, report = self.solved(path("scan.obj"), "--kind", "surface", "--mesh", mesh, "--rigid", "--reach", "2")
+        for name, value in POSE.items():
+            self.assertAlmostEqual(rows[0][name], value, delta=0.02, msg=name)
+        self.assertLess(report["residual"]["rms"], 0.01)  # cm
+        self.assertAlmostEqual(report["by_frame"][0]["translation"][0], 0.3, delta=0.02)
+
     def test_a_posed_glb(self):
         mesh, _ = self.obj({})
         shapes = write("shapes.json", json.dumps({"smile": {"mouthSmileLeft": 1}, "open": {"jawOpen": 1}}))
@@ -199,6 +235,14 @@ class Kinds(SolveTest):
         for row, pose in zip(rows, poses):
             self.assertAlmostEqual(row["jawOpen"], pose["jawOpen"], delta=0.03)
         self.assertLess(report["residual"]["worst"], 1)  # pixel
+        # A camera of which only the focal length is known, not exactly.
+        places["camera"] = {"focal": [1.1 * focal, 1.1 * focal], "center": [500, 400]}
+        write("points.json", json.dumps(places))
+        rows, report = self.solved(path("landmarks.csv"), "--landmarks", path("points.json"), "--sparse", "0.01",
+                                   "--rigid", "--focal")
+        for row, pose, frame in zip(rows, poses, report["by_frame"]):
+            self.assertAlmostEqual(row["jawOpen"], pose["jawOpen"], delta=0.05)
+            self.assertAlmostEqual(frame["translation"][2] / frame["focal"][0], away / focal, delta=0.01)
         del places["camera"]
         write("points.json", json.dumps(places))
         self.fails(INVALID, "solve", path(HEAD), path("landmarks.csv"), "--landmarks", path("points.json"),
@@ -349,6 +393,9 @@ class Refusals(SolveTest):
         self.refuse(take, "--smooth", "--from", path(TINY), "--smooth", "nan", code=USAGE)
         self.refuse(take, "--rate", "--from", path(TINY), "--rate", "0", code=USAGE)
         self.refuse(take, "--rigid", "--kind", "joints", "--rigid", code=USAGE)
+        self.refuse(take, "--focal", "--from", path(TINY), "--focal", code=USAGE)
+        self.refuse(take, "--reach", "--from", path(TINY), "--reach", "1", code=USAGE)
+        self.refuse(take, "--robust", "--kind", "joints", "--robust", "1", code=USAGE)
         self.refuse(take, "--landmarks", "--from", path(TINY), "--landmarks", take, code=USAGE)
         self.fails(USAGE, "solve", path(TINY), take, "--from", path(TINY), "-o", path("no.glb"), says=".clip")
         self.fails(FILE, "solve", path(TINY), take, "--from", path(TINY), "-o", path("none/no.json"), says="none")

@@ -33,7 +33,7 @@ from .dna import Dna, coordinate_system, coordinate_system_names, validate
 from .document import ControlError, Document, DocumentLayer
 from .errors import (ArgumentError, AuthorError, BusyError, ClipError, ClosedError, DnaError, Error,
                      FileError, MixError, OutOfMemoryError, OutOfRangeError, UnknownNameError)
-from .fit import Fit, FitCamera, FitResult, reduce_keys, solve
+from .fit import Fit, FitCamera, FitResult, FitSurface, reduce_keys, solve
 from .instance import Instance
 from .mix import Gaze, Mix
 from .mix_parts import (NO_CONTROL, Antagonists, CustomGuard, Landmark, MixLayer, Reaction, Stroke,
@@ -56,7 +56,7 @@ __all__ = [
     "CoordinateSystem", "CopySolver", "CustomGuard", "CustomSolver", "deform_batch", "Deformer",
     "DeformerInfo", "DeformerInstance", "Derivatives", "Direction", "Dna", "DnaError", "DnaField", "DnaInfo",
     "DnaLayer", "Document", "DocumentLayer", "Error", "FaceWinding", "FieldType", "FileAccess", "FileError", "Finding", "Fit", "FitCamera",
-    "FitResult", "FitStatus",
+    "FitResult", "FitStatus", "FitSurface",
     "Gaze", "Generate", "Generator", "glare", "Guard", "GuardInfo", "GuardState", "Instance",
     "InstanceStatistics", "Interpolation", "Isa", "isa_available", "isa_name", "Jacobian", "Kind",
     "Landmark", "Layer", "LayerGroup", "LayerSource", "library_path", "Looping", "Match", "Mesh", "MeshAxis", "Mix",

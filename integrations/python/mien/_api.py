@@ -806,6 +806,10 @@ class MienFit(c_void_p):
     pass
 
 
+class MienFitSurface(c_void_p):
+    pass
+
+
 MienTask = CFUNCTYPE(None, c_void_p, c_uint32)
 
 
@@ -3199,6 +3203,36 @@ class MienFitDesc(Structure):
         self.allocator = allocator
 
 
+class MienFitSurfaceDesc(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("positions", c_void_p),
+        ("triangles", c_void_p),
+        ("position_count", c_size_t),
+        ("triangle_count", c_size_t),
+        ("allocator", POINTER(MienAllocator)),
+    ]
+    struct_size: Any
+    positions: Any
+    triangles: Any
+    position_count: Any
+    triangle_count: Any
+    allocator: Any
+
+    def __init__(self, *,
+                 positions: Any = None,
+                 triangles: Any = None,
+                 position_count: int = 0,
+                 triangle_count: int = 0,
+                 allocator: Any = None) -> None:
+        super().__init__(48)
+        self.positions = positions
+        self.triangles = triangles
+        self.position_count = position_count
+        self.triangle_count = triangle_count
+        self.allocator = allocator
+
+
 class MienFitCamera(Structure):
     _fields_ = [
         ("focal", c_float * 2),
@@ -3233,6 +3267,9 @@ class MienFitFrame(Structure):
         ("max_seconds", c_double),
         ("user", c_void_p),
         ("canceled", CFUNCTYPE(c_uint32, c_void_p)),
+        ("surface", MienFitSurface),
+        ("surface_reach", c_float),
+        ("focal", c_uint32),
     ]
     struct_size: Any
     joints: Any
@@ -3253,6 +3290,9 @@ class MienFitFrame(Structure):
     max_seconds: Any
     user: Any
     canceled: Any
+    surface: Any
+    surface_reach: Any
+    focal: Any
 
     def __init__(self, *,
                  joints: Any = None,
@@ -3272,8 +3312,11 @@ class MienFitFrame(Structure):
                  max_iterations: int = 0,
                  max_seconds: float = 0,
                  user: Any = None,
-                 canceled: Any = None) -> None:
-        super().__init__(120)
+                 canceled: Any = None,
+                 surface: Any = None,
+                 surface_reach: float = 0,
+                 focal: bool = False) -> None:
+        super().__init__(136)
         self.joints = joints
         self.points = points
         self.images = images
@@ -3292,6 +3335,9 @@ class MienFitFrame(Structure):
         self.max_seconds = max_seconds
         self.user = user
         self.canceled = canceled
+        self.surface = surface
+        self.surface_reach = surface_reach
+        self.focal = focal
 
 
 class MienFitResult(Structure):
@@ -3308,6 +3354,7 @@ class MienFitResult(Structure):
         ("translation", c_float * 3),
         ("joint_worst", c_double),
         ("point_worst", c_double),
+        ("focal", c_float * 2),
     ]
     struct_size: Any
     status: Any
@@ -3321,9 +3368,10 @@ class MienFitResult(Structure):
     translation: Any
     joint_worst: Any
     point_worst: Any
+    focal: Any
 
     def __init__(self) -> None:
-        super().__init__(112)
+        super().__init__(120)
 
 
 class CoordinateSystem(NamedTuple):
@@ -5584,9 +5632,18 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
         (Status.MEMORY,
          "there is no memory"),
     ),
+    "mien_fit_surface_create": (
+        (Status.INVALID_ARGUMENT,
+         "there are no triangles, or a coordinate is not finite"),
+        (Status.INDEX,
+         "a position does not exist"),
+        (Status.MEMORY,
+         "there is no memory"),
+    ),
     "mien_fit_solve": (
         (Status.INVALID_ARGUMENT,
-         "a weight is negative or not finite"),
+         "two of these are given, or a weight, a control or a number of the camera is "
+         "not finite, or a weight is negative"),
     ),
     "mien_fit_observability": (
         (Status.INVALID_ARGUMENT,
@@ -6223,6 +6280,9 @@ SOLVE_FUNCTIONS: Tuple[Tuple[str, Any, Tuple[Any, ...]], ...] = (
     ("mien_fit_create", c_int32, (MienRig, POINTER(MienFitDesc), POINTER(MienFit),
      POINTER(MienError))),
     ("mien_fit_destroy", None, (MienFit,)),
+    ("mien_fit_surface_create", c_int32, (POINTER(MienFitSurfaceDesc), POINTER(MienFitSurface),
+     POINTER(MienError))),
+    ("mien_fit_surface_destroy", None, (MienFitSurface,)),
     ("mien_fit_solve", c_int32, (MienFit, POINTER(MienFitFrame), c_void_p, POINTER(MienFitResult))),
     ("mien_fit_observability", c_int32, (MienFit, c_void_p, c_size_t)),
     ("mien_fit_keys", c_int32, (c_void_p, c_size_t, c_float, c_void_p, c_void_p)),
@@ -6234,6 +6294,8 @@ class SolveLibrary:
 
     mien_fit_create: Any
     mien_fit_destroy: Any
+    mien_fit_surface_create: Any
+    mien_fit_surface_destroy: Any
     mien_fit_solve: Any
     mien_fit_observability: Any
     mien_fit_keys: Any

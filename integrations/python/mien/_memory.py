@@ -167,6 +167,12 @@ class FitHandle(_Address, _api.MienFit):
             library().mien_fit_destroy(self)
 
 
+class FitSurfaceHandle(_Address, _api.MienFitSurface):
+    def __del__(self, library: Any = solver) -> None:
+        if self.value:
+            library().mien_fit_surface_destroy(self)
+
+
 class DeformerHandle(_Address, _api.MienDeformer):
     baked: Optional[BakedHandle] = None  # where its arrays are
 

@@ -10,7 +10,7 @@ from typing import Any, Iterator, List, NamedTuple, Optional, Sequence
 from . import _api
 from ._api import FitStatus, Kind, MienError, Status
 from ._library import solver
-from ._memory import Closable, FitHandle, Floats, numpy, uint32
+from ._memory import Closable, FitHandle, FitSurfaceHandle, Floats, numpy, uint32
 from .deformer import Deformer
 from .errors import ArgumentError, BusyError, fail, raises
 from .rig import Rig
@@ -37,7 +37,9 @@ class FitResult(NamedTuple):
     joint_residual: weighted root mean square of the differences of joint values
     point_residual: the same of distances
     joint_worst, point_worst: the largest ones
-    rotation, translation: points of the target = rotation @ model + translation, if rigid
+    rotation, translation: points of the target = rotation @ model + translation, if rigid; those of the camera
+                    with images
+    focal:          of the camera
     """
 
     controls: Any
@@ -51,6 +53,39 @@ class FitResult(NamedTuple):
     missing_points: int
     rotation: Any
     translation: Any
+    focal: Any
+
+
+class FitSurface(Closable):
+    """A surface without correspondences, as a target of `Fit.solve()`: a scan, or a mesh of another topology.
+
+    positions: (positions, 3) in the unit and axes of the rig; those in the same place are one
+    triangles: (triangles, 3) indices of positions, all wound the same way
+    """
+
+    __slots__ = ()
+
+    @raises("mien_fit_surface_create")
+    def __init__(self, positions: Any, triangles: Any) -> None:
+        if numpy is None:
+            raise ImportError("solving needs NumPy")
+        points = numpy.ascontiguousarray(positions, "f")
+        corners = numpy.asarray(triangles)
+        if points.ndim != 2 or points.shape[1] != 3 or corners.ndim != 2 or corners.shape[1] != 3:
+            raise ArgumentError("a surface has positions (positions, 3) and triangles (triangles, 3)")
+        if corners.dtype.kind not in "iu" or (corners.size and corners.min() < 0):
+            raise ArgumentError("a triangle has three indices of positions")
+        if corners.size and corners.max() > 0xFFFFFFFF:
+            raise ArgumentError("a position is not an index")
+        corners = numpy.ascontiguousarray(corners, "uint32")
+        desc = _api.MienFitSurfaceDesc(
+            positions=points.ctypes.data, triangles=corners.ctypes.data, position_count=len(points),
+            triangle_count=len(corners))
+        handle, error = FitSurfaceHandle(), MienError()
+        status = solver().mien_fit_surface_create(_byref(desc), _byref(handle), _byref(error))
+        if status:
+            fail(status, "cannot make a surface", error)
+        self._handle = handle
 
 
 class Fit(Closable):
@@ -148,7 +183,8 @@ class Fit(Closable):
               prior: Any = None, prior_weight: float = 0, smooth_weight: float = 0,
               sparse_weight: float = 0, symmetric_weight: float = 0, robust_scale: float = 0,
               joint_weight: float = 0, rigid: bool = False, max_iterations: int = 0,
-              max_seconds: float = 0, canceled: Any = None) -> FitResult:
+              max_seconds: float = 0, canceled: Any = None, surface: Optional[FitSurface] = None,
+              surface_reach: float = 0, focal: bool = False) -> FitResult:
         """The controls of a frame. Targets of NaN are missing.
 
         joints:   as `Instance.joints`
@@ -156,6 +192,9 @@ class Fit(Closable):
         start:    raw controls to start from, those of the frame before; None: the initial ones
         prior:    raw controls that the result is drawn to with `prior_weight`
         canceled: function called before each iteration; the solve stops if it returns true
+        surface:  in place of points and images; points farther than `surface_reach` from it have no target
+        rigid:    the target moves as a whole; with images, the camera is found, and with `focal` its focal
+                  length too. A camera with a rotation of zeros is unknown.
         """
         kept: List[Any] = []
 
@@ -176,7 +215,8 @@ class Fit(Closable):
             prior_weight=prior_weight, smooth_weight=smooth_weight, sparse_weight=sparse_weight,
             symmetric_weight=symmetric_weight, robust_scale=robust_scale, joint_weight=joint_weight,
             rigid=bool(rigid), max_iterations=uint32(max_iterations, "max_iterations"),
-            max_seconds=max_seconds, canceled=_canceled_type())
+            max_seconds=max_seconds, canceled=_canceled_type(),
+            surface=surface and surface._open(), surface_reach=surface_reach, focal=bool(focal))
         if camera is not None:
             seen = _api.MienFitCamera()
             for name, values in camera._asdict().items():
@@ -204,7 +244,8 @@ class Fit(Closable):
         return FitResult(
             out, _api._enum(FitStatus, result.status), result.iterations, result.cost, result.joint_residual,
             result.point_residual, result.joint_worst, result.point_worst, result.missing_points,
-            numpy.array(result.rotation, "f").reshape(3, 3), numpy.array(result.translation, "f"))
+            numpy.array(result.rotation, "f").reshape(3, 3), numpy.array(result.translation, "f"),
+            numpy.array(result.focal, "f"))
 
     @property
     @raises("mien_fit_observability", but=(Status.INVALID_ARGUMENT,))

@@ -134,6 +134,32 @@ class Fits(unittest.TestCase):
         with self.assertRaises(mien.ArgumentError):
             fit.solve(images=images)
 
+    def test_surfaces(self):
+        deformer, face = deformer_of(), posed()
+        pose = deformer.instance()
+        pose.update(face)
+        pose.deform(0)
+        mesh = deformer.mesh(0)
+        corners = mesh.vertex_position_indices[mesh.triangles].reshape(-1, 3)
+        # Positions in another order.
+        order = numpy.random.default_rng(5).permutation(mesh.position_count)
+        places = numpy.empty(len(order), "uint32")
+        places[order] = numpy.arange(len(order), dtype="uint32")
+        surface = mien.FitSurface(pose.positions(0).reshape(-1, 3)[order], places[corners])
+        with mien.Fit(rig_of(), deformer) as fit:
+            # From the pose itself, nothing is left to do.
+            result = fit.solve(surface=surface, start=face.raw_controls)
+            self.assertLess(result.point_worst, 1e-3)
+            numpy.testing.assert_allclose(result.controls, face.raw_controls, atol=1e-3)
+            with self.assertRaises(mien.ArgumentError):
+                fit.solve(surface=surface, points=pose.positions(0))
+        for positions, triangles in (([1, 2, 3], [[0, 0, 0]]), ([[1, 2, 3]], [[0, 0, 1.5]]), ([[1, 2, 3]], [[0, 0, -1]]),
+                                     ([[1, 2, 3]], [[0, 0, 2**32]]), ([[1, 2, 3]], [0, 0, 0])):
+            with self.assertRaises(mien.ArgumentError):
+                mien.FitSurface(positions, triangles)
+        with self.assertRaises(mien.Error):
+            mien.FitSurface([[1, 2, 3]], [[0, 0, 1]])
+
     def test_stops(self):
         fit, face = mien.Fit(rig_of()), posed()
         self.assertEqual(fit.solve(joints=face.joints, canceled=lambda: True).status, mien.FitStatus.CANCELED)

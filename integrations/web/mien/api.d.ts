@@ -2179,13 +2179,26 @@ export interface FitDesc {
 }
 
 /**
+ * How to create a surface. Everything is copied. Its unit and axes are those of the rig; triangles may be
+ * wound either way, but all the same way.
+ */
+export interface FitSurfaceDesc {
+  /** x y z each. Positions in the same place are one, as along texture seams */
+  positions?: Float32Array | readonly number[];
+  /** three positions each */
+  triangles?: Uint32Array | readonly number[];
+  positionCount?: number;
+  triangleCount?: number;
+}
+
+/**
  * A pinhole camera: image x = focal[0] * x / z + center[0], and y likewise, for the point x y z in camera
  * space, after `rotation` and `translation`. z grows in front of the camera.
  */
 export interface FitCamera {
   focal?: readonly number[];
   center?: readonly number[];
-  /** rows, from model space */
+  /** rows, from model space. With MienFitFrame.rigid, all 0: unknown */
   rotation?: readonly number[];
   translation?: readonly number[];
 }
@@ -2220,7 +2233,9 @@ export interface FitFrame {
   robustScale?: number;
   /** weight of the joints relative to the points. 0: 1 */
   jointWeight?: number;
-  /** the targets may be rotated and translated as a whole */
+  /**
+   * the targets may be rotated and translated as a whole. With `images`, the camera is found, from that of `camera`, or, if its rotation is unknown, from one that sees the face from the front
+   */
   rigid?: boolean;
   /** 0: 50 */
   maxIterations?: number;
@@ -2230,6 +2245,16 @@ export interface FitFrame {
   user?: number;
   /** Called before each iteration; a nonzero result stops. NULL: never. */
   canceled?: number;
+  /**
+   * in place of `points` and `images`: each point is drawn to the nearest place of the surface that faces the same way, within 60 degrees, and is not at a border. NULL: none
+   */
+  surface?: { readonly handle: number };
+  /** points farther from the surface have no target. 0: no limit */
+  surfaceReach?: number;
+  /**
+   * , with `images` and `rigid`: the focal length is found too, its two numbers scaled alike
+   */
+  focal?: boolean;
 }
 
 /** The result of a solve. */
@@ -2243,14 +2268,19 @@ export interface FitResult {
   readonly jointResidual: number;
   /** the same for points, or for image points in their unit */
   readonly pointResidual: number;
+  /** with a surface: those that have no target */
   readonly missingPoints: number;
-  /** rows: points of the target = rotation * model + translation, if rigid */
+  /**
+   * rows: points of the target = rotation * model + translation, if rigid; the camera's with images
+   */
   readonly rotation: readonly number[];
   readonly translation: readonly number[];
   /** largest difference of a joint value that counts */
   readonly jointWorst: number;
   /** largest distance of a point that counts */
   readonly pointWorst: number;
+  /** of the camera, with images; else 0 */
+  readonly focal: readonly number[];
 }
 
 /**
@@ -3821,11 +3851,21 @@ export interface Exports {
   /** Destroys a fit. NULL is allowed. */
   mien_fit_destroy(fit: number): void;
   /**
+   * Creates a surface with a tree to find the nearest points. `desc` is required. Destroy with
+   * mien_fit_surface_destroy().
+   * Fails with MIEN_ERROR_INDEX if a position does not exist, MIEN_ERROR_INVALID_ARGUMENT if there are no
+   * triangles, or a coordinate is not finite.
+   */
+  mien_fit_surface_create(desc: number, out_surface: number, error: number): number;
+  /** Destroys a surface. NULL is allowed. */
+  mien_fit_surface_destroy(surface: number): void;
+  /**
    * Finds the raw controls of a frame by bounded Gauss-Newton steps with Levenberg-Marquardt damping. Writes
    * all raw controls of the rig to `out_raw`; those that may not move keep their values of `start`. `result`
    * may be NULL. Deterministic unless there is a time limit. Does not allocate or lock.
-   * Fails with MIEN_ERROR_NULL_ARGUMENT if points are given to a fit without points, or images without a
-   * camera, MIEN_ERROR_INVALID_ARGUMENT if a weight is negative or not finite.
+   * Fails with MIEN_ERROR_NULL_ARGUMENT if points, images or a surface are given to a fit without points, or
+   * images without a camera, MIEN_ERROR_INVALID_ARGUMENT if two of these are given, or a weight, a control or a
+   * number of the camera is not finite, or a weight is negative, MIEN_ERROR_HANDLE if `surface` is none.
    */
   mien_fit_solve(fit: number, frame: number, out_raw: number, result: number): number;
   /**

@@ -1078,13 +1078,19 @@ export const layouts = {
     pointCount: [40, "u32"],
     lod: [44, "u32"],
   } },
+  FitSurfaceDesc: { size: 24, sized: true, fields: {
+    positions: [4, "*f32", "positionCount"],
+    triangles: [8, "*u32", "triangleCount"],
+    positionCount: [12, "u32"],
+    triangleCount: [16, "u32"],
+  } },
   FitCamera: { size: 64, sized: false, fields: {
     focal: [0, "f32", 2],
     center: [8, "f32", 2],
     rotation: [16, "f32", 9],
     translation: [52, "f32", 3],
   } },
-  FitFrame: { size: 80, sized: true, fields: {
+  FitFrame: { size: 96, sized: true, fields: {
     joints: [4, "*f32"],
     points: [8, "*f32"],
     images: [12, "*f32"],
@@ -1103,8 +1109,11 @@ export const layouts = {
     maxSeconds: [64, "f64"],
     user: [72, "u32"],
     canceled: [76, "u32"],
+    surface: [80, "handle"],
+    surfaceReach: [84, "f32"],
+    focal: [88, "bool"],
   } },
-  FitResult: { size: 112, sized: true, fields: {
+  FitResult: { size: 120, sized: true, fields: {
     status: [4, "u32"],
     iterations: [8, "u32"],
     cost: [16, "f64"],
@@ -1115,6 +1124,7 @@ export const layouts = {
     translation: [84, "f32", 3],
     jointWorst: [96, "f64"],
     pointWorst: [104, "f64"],
+    focal: [112, "f32", 2],
   } },
 };
 

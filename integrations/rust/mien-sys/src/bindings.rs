@@ -735,6 +735,14 @@ pub struct MienFit {
     _opaque: Opaque,
 }
 
+/// A surface without correspondences: a scan, or a mesh of another topology. Immutable: any
+/// threads may use one at the same time.
+#[repr(C)]
+pub struct MienFitSurface {
+    _size: [u8; 0],
+    _opaque: Opaque,
+}
+
 /// Details of a failure, owned by the caller. A call that fails fills all fields; a call that
 /// succeeds sets status to `MIEN_OK` and leaves the other fields unchanged.
 #[repr(C)]
@@ -3430,6 +3438,32 @@ impl Default for MienFitDesc {
     }
 }
 
+/// How to create a surface. Everything is copied. Its unit and axes are those of the rig;
+/// triangles may be wound either way, but all the same way.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienFitSurfaceDesc {
+    pub struct_size: usize,
+    /// X y z each. Positions in the same place are one, as along texture seams.
+    pub positions: *const f32,
+    /// Three positions each.
+    pub triangles: *const u32,
+    pub position_count: usize,
+    pub triangle_count: usize,
+    /// NULL: the heap.
+    pub allocator: *const MienAllocator,
+}
+
+impl Default for MienFitSurfaceDesc {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>();
+        zero
+    }
+}
+
 /// A pinhole camera: image x = focal\[0\] \* x / z + center\[0\], and y likewise, for the point x
 /// y z in camera space, after `rotation` and `translation`. z grows in front of the camera.
 #[repr(C)]
@@ -3437,7 +3471,7 @@ impl Default for MienFitDesc {
 pub struct MienFitCamera {
     pub focal: [f32; 2],
     pub center: [f32; 2],
-    /// Rows, from model space.
+    /// Rows, from model space. With MienFitFrame.rigid, all 0: unknown.
     pub rotation: [f32; 9],
     pub translation: [f32; 3],
 }
@@ -3481,7 +3515,9 @@ pub struct MienFitFrame {
     pub robust_scale: f32,
     /// Weight of the joints relative to the points. 0: 1.
     pub joint_weight: f32,
-    /// The targets may be rotated and translated as a whole.
+    /// The targets may be rotated and translated as a whole. With `images`, the camera is found,
+    /// from that of `camera`, or, if its rotation is unknown, from one that sees the face from the
+    /// front.
     pub rigid: u32,
     /// 0: 50.
     pub max_iterations: u32,
@@ -3491,6 +3527,13 @@ pub struct MienFitFrame {
     pub user: *mut c_void,
     /// Called before each iteration; a nonzero result stops. NULL: never.
     pub canceled: Option<unsafe extern "C" fn(user: *mut c_void) -> u32>,
+    /// In place of `points` and `images`: each point is drawn to the nearest place of the surface
+    /// that faces the same way, within 60 degrees, and is not at a border. NULL: none.
+    pub surface: *const MienFitSurface,
+    /// Points farther from the surface have no target. 0: no limit.
+    pub surface_reach: f32,
+    /// , with `images` and `rigid`: the focal length is found too, its two numbers scaled alike.
+    pub focal: u32,
 }
 
 impl Default for MienFitFrame {
@@ -3517,15 +3560,19 @@ pub struct MienFitResult {
     pub joint_residual: f64,
     /// The same for points, or for image points in their unit.
     pub point_residual: f64,
+    /// With a surface: those that have no target.
     pub missing_points: u32,
     pub reserved: u32,
-    /// Rows: points of the target = rotation \* model + translation, if rigid.
+    /// Rows: points of the target = rotation \* model + translation, if rigid; the camera's with
+    /// images.
     pub rotation: [f32; 9],
     pub translation: [f32; 3],
     /// Largest difference of a joint value that counts.
     pub joint_worst: f64,
     /// Largest distance of a point that counts.
     pub point_worst: f64,
+    /// Of the camera, with images; else 0.
+    pub focal: [f32; 2],
 }
 
 impl Default for MienFitResult {
@@ -5380,14 +5427,25 @@ extern "C" {
     /// Destroys a fit. NULL is allowed.
     pub fn mien_fit_destroy(fit: *mut MienFit);
 
+    /// Creates a surface with a tree to find the nearest points. `desc` is required. Destroy with
+    /// `mien_fit_surface_destroy()`.
+    ///
+    /// Fails with `MIEN_ERROR_INDEX` if a position does not exist, `MIEN_ERROR_INVALID_ARGUMENT`
+    /// if there are no triangles, or a coordinate is not finite.
+    pub fn mien_fit_surface_create(desc: *const MienFitSurfaceDesc, out_surface: *mut *mut MienFitSurface, error: *mut MienError) -> MienStatus;
+
+    /// Destroys a surface. NULL is allowed.
+    pub fn mien_fit_surface_destroy(surface: *mut MienFitSurface);
+
     /// Finds the raw controls of a frame by bounded Gauss-Newton steps with Levenberg-Marquardt
     /// damping. Writes all raw controls of the rig to `out_raw`; those that may not move keep
     /// their values of `start`. `result` may be NULL. Deterministic unless there is a time limit.
     /// Does not allocate or lock.
     ///
-    /// Fails with `MIEN_ERROR_NULL_ARGUMENT` if points are given to a fit without points, or
-    /// images without a camera, `MIEN_ERROR_INVALID_ARGUMENT` if a weight is negative or not
-    /// finite.
+    /// Fails with `MIEN_ERROR_NULL_ARGUMENT` if points, images or a surface are given to a fit
+    /// without points, or images without a camera, `MIEN_ERROR_INVALID_ARGUMENT` if two of these
+    /// are given, or a weight, a control or a number of the camera is not finite, or a weight is
+    /// negative, `MIEN_ERROR_HANDLE` if `surface` is none.
     pub fn mien_fit_solve(fit: *mut MienFit, frame: *const MienFitFrame, out_raw: *mut f32, result: *mut MienFitResult) -> MienStatus;
 
     /// Writes for each raw control how well the data determines it at the initial pose: 0 if it

@@ -2901,8 +2901,13 @@ macro_rules! errors {
          - [`Status::LOD`](crate::Status::LOD) if the rig has no such LOD\n\
          - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory"
     };
+    (mien_fit_surface_create) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if there are no triangles, or a coordinate is not finite\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if a position does not exist\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory"
+    };
     (mien_fit_solve) => {
-        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if a weight is negative or not finite"
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if two of these are given, or a weight, a control or a number of the camera is not finite, or a weight is negative"
     };
     (mien_fit_observability) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `count` is another number"

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+// The points of a frame: where they are, where they are drawn to, and how far that is.
+#include <algorithm>
+
+#include "solve/frame.h"
+
+namespace mien {
+namespace {
+
+/// Sums of the area vectors around each position.
+void find_position_normals(MienFit& fit, const float* positions) {
+  std::fill(fit.position_normals.begin(), fit.position_normals.end(), 0.0f);
+  for (size_t t = 0; t < fit.triangle_count; ++t) {
+    const uint32_t* corner = fit.triangles.data + 3 * t;
+    const float *a = positions + size_t{corner[0]} * 3, *b = positions + size_t{corner[1]} * 3,
+                *c = positions + size_t{corner[2]} * 3;
+    float ab[3], ac[3];
+    for (int k = 0; k < 3; ++k) ab[k] = b[k] - a[k], ac[k] = c[k] - a[k];
+    const float sign = fit.inward ? -1.0f : 1.0f;
+    const float normal[3] = {sign * (ab[1] * ac[2] - ab[2] * ac[1]),
+                             sign * (ab[2] * ac[0] - ab[0] * ac[2]),
+                             sign * (ab[0] * ac[1] - ab[1] * ac[0])};
+    for (int n = 0; n < 3; ++n) {
+      for (int k = 0; k < 3; ++k)
+        fit.position_normals[size_t{corner[n]} * 3 + static_cast<size_t>(k)] += normal[k];
+    }
+  }
+}
+
+void sum_rows(const MienSolvePoint& point, const float* rows, double* out) {
+  for (size_t k = 0; k < 3; ++k) {
+    out[k] = 0;
+    for (size_t n = 0; n < 3; ++n)
+      out[k] += double{point.weights[n]} * rows[size_t{point.positions[n]} * 3 + k];
+  }
+}
+
+double squared_length(const double* v) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; }
+
+}  // namespace
+
+void read_points(Frame& f) {
+  MienFit& fit = f.fit;
+  std::fill(fit.lost.begin(), fit.lost.end(), -1.0);
+  const float* rows = f.in.points ? f.in.points : f.in.images;
+  const size_t width = f.in.points ? 3 : 2;
+  for (size_t i = 0; i < fit.points.count; ++i) {
+    bool finite = true;
+    for (size_t k = 0; k < 3; ++k) {
+      const float v = rows && k < width ? rows[width * i + k] : 0.0f;
+      finite = finite && std::isfinite(v);
+      fit.targets[3 * i + k] = v;
+    }
+    const float weight = f.in.point_weights ? f.in.point_weights[i] : 1.0f;
+    fit.weights[i] = finite ? weight : 0.0;
+    if (!finite) std::fill(fit.targets.data + 3 * i, fit.targets.data + 3 * i + 3, 0.0);
+    f.missing += !finite;
+  }
+  if (!f.in.images) return;
+  const MienFitCamera& camera = *f.in.camera;
+  std::copy(camera.rotation, camera.rotation + 9, f.motion.rotation);
+  std::copy(camera.translation, camera.translation + 3, f.motion.translation);
+  std::copy(camera.focal, camera.focal + 2, f.motion.focal);
+}
+
+void find_points(Frame& f) {
+  MienFit& fit = f.fit;
+  static_cast<void>(mien_deformer_instance_update(fit.deformed, fit.instance));
+  static_cast<void>(
+      mien_deformer_instance_deform(fit.deformed, fit.mesh, MIEN_NORMALS_NONE, nullptr));
+  MienFloatView positions = {};
+  static_cast<void>(mien_deformer_instance_positions(fit.deformed, fit.mesh, &positions));
+  for (size_t i = 0; i < fit.points.count; ++i) {
+    sum_rows(fit.points[i], positions.data, fit.surface.data + 3 * i);
+  }
+  if (f.in.surface) find_position_normals(fit, positions.data);
+}
+
+void match_surface(Frame& f) {
+  MienFit& fit = f.fit;
+  const double reach = f.in.surface_reach > 0 ? double{f.in.surface_reach} : 1e30;
+  f.missing = 0;
+  for (size_t i = 0; i < fit.points.count; ++i) {
+    if (!(fit.weights[i] > 0)) continue;
+    double at[3], own[3], normal[3] = {};
+    f.motion.place(fit.surface.data + 3 * i, at);
+    sum_rows(fit.points[i], fit.position_normals.data, own);
+    const double length = std::sqrt(squared_length(own));
+    for (size_t r = 0; r < 3 && length > 0; ++r) {
+      for (size_t c = 0; c < 3; ++c) normal[r] += f.motion.rotation[3 * r + c] * own[c] / length;
+    }
+    SurfacePoint found;
+    const bool near_enough = find_nearest(*f.in.surface, at, normal, reach, found);
+    fit.lost[i] = -1;
+    if (near_enough) {
+      std::copy(found.position, found.position + 3, fit.targets.data + 3 * i);
+      std::copy(found.normal, found.normal + 3, fit.normals.data + 3 * i);
+    }
+    if (near_enough && !found.border) continue;
+    // It counts as far as it is, so that nothing is gained when a target is lost.
+    ++f.missing;
+    fit.lost[i] = f.in.surface_reach > 0 ? reach * reach : 0;
+    if (near_enough) {
+      double apart[3];
+      for (size_t k = 0; k < 3; ++k) apart[k] = at[k] - found.position[k];
+      fit.lost[i] = squared_length(apart);
+    }
+  }
+}
+
+double point_residual(const Frame& f, size_t i, double* gradient) {
+  double moved[3];
+  f.motion.place(f.fit.surface.data + 3 * i, moved);
+  const double* target = f.fit.targets.data + 3 * i;
+  double squared = 0, by_moved[3] = {};
+  if (!f.in.images) {
+    for (size_t k = 0; k < 3; ++k) by_moved[k] = moved[k] - target[k];
+    squared = squared_length(by_moved);
+  } else if (moved[2] > 1e-6) {
+    for (size_t k = 0; k < 2; ++k) {
+      const double focal = f.motion.focal[k], z = moved[2];
+      const double r = focal * moved[k] / z + double{f.in.camera->center[k]} - target[k];
+      squared += r * r;
+      by_moved[k] += r * focal / z;
+      by_moved[2] -= r * focal * moved[k] / (z * z);
+    }
+  }
+  f.motion.turn_back(by_moved, gradient);
+  return squared;
+}
+
+size_t point_rows(const Frame& f, size_t i, double (*directions)[3], double* residuals) {
+  double moved[3];
+  f.motion.place(f.fit.surface.data + 3 * i, moved);
+  const double* target = f.fit.targets.data + 3 * i;
+  if (f.in.images) {
+    if (!(moved[2] > 1e-6)) return 0;
+    for (size_t k = 0; k < 2; ++k) {
+      const double focal = f.motion.focal[k], z = moved[2];
+      std::fill(directions[k], directions[k] + 3, 0.0);
+      directions[k][k] = focal / z;
+      directions[k][2] = -focal * moved[k] / (z * z);
+      residuals[k] = focal * moved[k] / z + double{f.in.camera->center[k]} - target[k];
+    }
+    return 2;
+  }
+  if (f.in.surface) {
+    // Along the surface a point may slide.
+    residuals[0] = 0;
+    for (size_t k = 0; k < 3; ++k) {
+      directions[0][k] = f.fit.normals[3 * i + k];
+      residuals[0] += directions[0][k] * (moved[k] - target[k]);
+    }
+    return 1;
+  }
+  for (size_t k = 0; k < 3; ++k) {
+    for (size_t n = 0; n < 3; ++n) directions[k][n] = n == k;
+    residuals[k] = moved[k] - target[k];
+  }
+  return 3;
+}
+
+}  // namespace mien

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+// The part of points in the matrix of a step: derivatives of the residuals of samples by the free controls.
+#include <algorithm>
+
+#include "solve/frame.h"
+
+namespace mien {
+namespace {
+
+/// What a control does to the samples at the pose at hand.
+void measure_control(MienFit& fit, uint32_t control, float* to) {
+  std::fill(fit.direction.begin(), fit.direction.end(), 0.0f);
+  fit.direction[control] = 1;
+  static_cast<void>(mien_derivatives_forward(fit.derivatives, MIEN_POINT_RAW, MIEN_POINT_POSITIONS,
+                                             fit.mesh, 1, fit.direction.data, fit.moved.data));
+  for (size_t s = 0; s < fit.samples.count; ++s) {
+    const MienSolvePoint& point = fit.points[fit.samples[s]];
+    for (size_t k = 0; k < 3; ++k) {
+      float sum = 0;
+      for (size_t n = 0; n < 3; ++n) {
+        sum += point.weights[n] * fit.moved[size_t{point.positions[n]} * 3 + k];
+      }
+      to[3 * s + k] = sum;
+    }
+  }
+}
+
+/// The effects of the free controls: those of this pose, or what all controls do at the neutral pose.
+void find_effects(Frame& f, size_t free_count) {
+  MienFit& fit = f.fit;
+  const size_t width = fit.samples.count * 3;
+  for (size_t a = 0; a < free_count; ++a) {
+    const uint32_t i = fit.free[a];
+    float* const to = fit.step_effects.data + i * width;
+    if (fit.measured[i]) continue;
+    if (f.exact) {
+      measure_control(fit, fit.controls[i], to);
+      fit.measured[i] = 1;
+      continue;
+    }
+    std::fill(to, to + width, 0.0f);
+    for (uint32_t k = fit.first[a]; k < fit.first[a + 1]; ++k) {
+      const float* const from = fit.sample_effects.data + size_t{fit.rows[k]} * width;
+      for (size_t n = 0; n < width; ++n) to[n] += fit.values[k] * from[n];
+    }
+  }
+}
+
+}  // namespace
+
+void add_point_rows(Frame& f, size_t free_count) {
+  MienFit& fit = f.fit;
+  find_effects(f, free_count);
+  double all = 0, sampled = 0;
+  for (const double pull : fit.pulls) all += pull;
+  for (const uint32_t i : fit.samples) sampled += fit.pulls[i];
+  if (!(sampled > 0)) return;
+  const size_t motion = f.motion_count(), width = motion + free_count;
+  double* const wide = fit.wide.data;
+  double* const row = fit.row.data;
+  std::fill(wide, wide + width * width, 0.0);
+  for (size_t s = 0; s < fit.samples.count; ++s) {
+    const size_t i = fit.samples[s];
+    if (!(fit.pulls[i] > 0)) continue;
+    const double scale = std::sqrt(fit.pulls[i] * all / sampled);
+    double directions[3][3], residuals[3], moved[3];
+    f.motion.place(fit.surface.data + 3 * i, moved);
+    const size_t rows = point_rows(f, i, directions, residuals);
+    for (size_t r = 0; r < rows; ++r) {
+      double back[3];
+      f.motion.turn_back(directions[r], back);
+      if (motion != 0) list_motion(f, moved, directions[r], r, row);
+      for (size_t a = 0; a < free_count; ++a) {
+        const float* const effect =
+            fit.step_effects.data + (fit.free[a] * fit.samples.count + s) * 3;
+        row[motion + a] = back[0] * effect[0] + back[1] * effect[1] + back[2] * effect[2];
+      }
+      for (size_t a = 0; a < width; ++a) row[a] *= scale;
+      for (size_t a = 0; a < width; ++a) {
+        const double value = row[a];
+        double* const to = wide + a * width;
+        for (size_t b = 0; b <= a; ++b) to[b] += value * row[b];
+      }
+    }
+  }
+  // Without the motion, which is chosen anew at each pose: its part is eliminated.
+  for (size_t p = 0; p < motion; ++p) {
+    const double pivot = wide[p * width + p];
+    if (!(pivot > 1e-12)) continue;
+    for (size_t a = p + 1; a < width; ++a) {
+      const double factor = wide[a * width + p] / pivot;
+      for (size_t b = p + 1; b <= a; ++b) wide[a * width + b] -= factor * wide[b * width + p];
+    }
+  }
+  for (size_t a = 0; a < free_count; ++a) {
+    for (size_t b = 0; b <= a; ++b) {
+      const double value = wide[(motion + a) * width + motion + b];
+      fit.matrix[a * free_count + b] += value;
+      if (a != b) fit.matrix[b * free_count + a] += value;
+    }
+  }
+}
+
+}  // namespace mien
