@@ -157,11 +157,11 @@ void run_piece(const FarmJob& job, const FarmPiece& piece, bool resume, const Se
       if (resume && before.is_done(job, task, inputs)) {
         ++log.kept;
       } else {
-        const std::vector<std::string> files =
+        const std::vector<DoneFile> files =
             worker.run(task, [&](const FarmOutput& output, uint64_t frame) {
               return farm_path(job, output, task, frame);
             });
-        record.add_done(task, {inputs, describe_files(files)}, (work_ns() - start) * 1e-9);
+        record.add_done(task, {inputs, files}, (work_ns() - start) * 1e-9);
         ++log.done;
       }
     } catch (const Failure& failure) {
@@ -237,16 +237,15 @@ FarmSample run_sample(const FarmJob& job, uint32_t take, uint64_t frames, const 
   worker.open_take(take);  // with all its frames
   const double take_open = work_ns();
   size_t number = 0;
-  const std::vector<std::string> files =
+  const std::vector<DoneFile> files =
       worker.run(sample.task, [&](const FarmOutput& output, uint64_t) {
         const std::string ending = fs::path(output.pattern).extension().string();
         return (folder.path / (std::to_string(number++) + ending)).string();
       });
-  describe_files(files);
   const double share = static_cast<double>(sample.frames) / static_cast<double>(frames);
   sample.open_seconds = (rig_open - start) * 1e-9;
   sample.seconds = (work_ns() - take_open + share * (take_open - rig_open)) * 1e-9;
-  for (const std::string& file : files) sample.bytes += fs::file_size(file);
+  for (const DoneFile& file : files) sample.bytes += file.bytes;
   sample.peak_bytes = peak_memory();
   return sample;
 }

@@ -31,6 +31,18 @@ constexpr const char* kFarmExample =
 constexpr uint64_t kUsualBlock = 250;
 constexpr int kFrameDigits = 6;
 
+/// The faster of the two that give the same bits and of which every machine has one. See docs/numbers.md.
+uint32_t portable_isa() {
+  return mien_isa_available(MIEN_ISA_SSE2) ? MIEN_ISA_SSE2 : MIEN_ISA_SCALAR;
+}
+
+uint32_t parse_isa(const std::string& word) {
+  if (word == "best") return MIEN_ISA_BEST;
+  RigOptions options;
+  options.isa = word;
+  return parse_rig_options(options).isa;
+}
+
 const Words kFarmKinds = {"joints", "vertices", "glb", "png", "clip"};
 const Words kJobKeys = {"rigs", "takes", "outputs", "lod", "rate", "block", "isa"};
 // Of each kind, after "kind" and "path".
@@ -244,11 +256,8 @@ FarmJob read_farm_job(const std::string& path) {
     if (!job.rate.known()) rate.wrong("not a number of frames per second", "give 60, say");
   }
   job.block = json.contains("block") ? root.at("block").number(1, 1000000) : kUsualBlock;
-  if (json.contains("isa")) {
-    RigOptions options;
-    options.isa = root.at("isa").text();
-    job.isa = parse_rig_options(options).isa;
-  }
+  const std::string isa = json.contains("isa") ? root.at("isa").text() : "portable";
+  job.isa = isa == "portable" ? portable_isa() : parse_isa(isa);
   FarmJson settings = json;
   settings.erase("rigs");
   settings.erase("takes");

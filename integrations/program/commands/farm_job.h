@@ -36,9 +36,9 @@ struct FarmJob {
   std::vector<std::string> rigs, takes;  // paths
   std::vector<FarmOutput> outputs;
   uint32_t lod = 0;
-  Rate rate;           // unknown: that of each take
-  uint64_t block = 0;  // frames of a task, if takes are cut
-  uint32_t isa = MIEN_ISA_BEST;
+  Rate rate;                     // unknown: that of each take
+  uint64_t block = 0;            // frames of a task, if takes are cut
+  uint32_t isa = MIEN_ISA_BEST;  // by default one that gives the same bits on every machine
   std::string settings;  // all that results depend on, but for the contents of rigs and takes
 
   bool has(FarmKind kind) const;

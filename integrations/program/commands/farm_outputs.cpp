@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "integrations/program/commands/eval_output.h"
+#include "integrations/program/io/fingerprint.h"
 #include "integrations/program/io/matched_names.h"
 #include "integrations/program/io/nearest_name.h"
 #include "integrations/program/io/npy_writer.h"
@@ -46,10 +47,16 @@ uint32_t mesh_index(const PosedScene& scene, const std::string& name) {
 /// A file that grows with the frames.
 struct ArrayFile {
   ArrayFile(const FarmOutput& what, const std::string& file)
-      : output(what), path(file), bytes(file) {}
+      : output(what), path(file), bytes(file, &content) {}
+
+  DoneFile commit() {
+    bytes.commit();
+    return {path, bytes.size(), content.text()};
+  }
 
   const FarmOutput& output;
   std::string path;
+  Fingerprint content;
   Output bytes;
   std::unique_ptr<EvalWriter> joints;  // or vertices:
   uint32_t mesh = 0;
@@ -98,24 +105,25 @@ void add_frame(PosedScene& scene, uint64_t frame, ArrayFile& file) {
        "the result is not a finite number", "give smaller controls; they are usually in 0..1");
 }
 
-void write_whole(const std::string& path, const std::string& bytes) {
+DoneFile write_whole(const std::string& path, const std::string& bytes) {
   make_folder_of(path);
-  Output output(path);
+  Fingerprint content;
+  Output output(path, &content);
   output.write(bytes);
   output.commit();
+  return {path, output.size(), content.text()};
 }
 
 }  // namespace
 
-Frame BoundTake::frame(uint64_t number) const {
-  Frame frame;
+void BoundTake::read(uint64_t number, Frame& frame) const {
+  frame.raw.clear();
   const float* values = take.values.data() + number * take.names.size();
   for (size_t c = 0; c < controls.size(); ++c) {
     for (const MienControlShare& share : controls[c]) {
       frame.raw.push_back({share.control, share.weight * values[c]});
     }
   }
-  return frame;
 }
 
 void FarmWorker::open_rig(uint32_t rig) {
@@ -174,10 +182,10 @@ void FarmWorker::open_take(uint32_t take) {
   take_ = take;
 }
 
-void FarmWorker::write_glb(const FarmOutput& output, const FarmTask& task,
-                           const std::string& path) {
-  std::vector<Frame> frames;
-  for (uint64_t f = 0; f < task.count; ++f) frames.push_back(bound_.frame(task.first + f));
+DoneFile FarmWorker::write_glb(const FarmOutput& output, const FarmTask& task,
+                               const std::string& path) {
+  std::vector<Frame> frames(task.count);
+  for (uint64_t f = 0; f < task.count; ++f) bound_.read(task.first + f, frames[f]);
   size_t index = 0;
   for (const FarmOutput& other : job_.outputs) {
     if (&other == &output) break;
@@ -188,7 +196,7 @@ void FarmWorker::write_glb(const FarmOutput& output, const FarmTask& task,
   quiet.quiet = true;
   animate_scene(*exported_, Frame(), frames, bound_.take.rate.hertz(), quiet, scene);
   add_materials(*exported_, "", {}, scene.scene, quiet);
-  write_whole(path, glb_bytes(scene.scene, output.glb));
+  return write_whole(path, glb_bytes(scene.scene, output.glb));
 }
 
 std::string FarmWorker::draw(const FarmOutput& output) {
@@ -201,7 +209,7 @@ std::string FarmWorker::draw(const FarmOutput& output) {
 }
 
 void FarmWorker::write_frames(const FarmTask& task, const Name& name,
-                              std::vector<std::string>& files) {
+                              std::vector<DoneFile>& files) {
   // Files of the whole task are open all the time, and get their names together at the end.
   std::vector<std::unique_ptr<ArrayFile>> whole;
   for (const FarmOutput& output : job_.outputs) {
@@ -209,40 +217,48 @@ void FarmWorker::write_frames(const FarmTask& task, const Name& name,
     if (!is_array || output.per_frame) continue;
     whole.push_back(begin_array(output, name(output, task.first), *scene_, task.count));
   }
+  Frame frame;
   for (uint64_t f = task.first; f < task.first + task.count; ++f) {
-    pose_scene(*scene_, bound_.frame(f));
+    bound_.read(f, frame);
+    pose_scene(*scene_, frame);
     for (const auto& file : whole) add_frame(*scene_, f, *file);
     for (const FarmOutput& output : job_.outputs) {
       if (!output.per_frame) continue;
       const std::string path = name(output, f);
       if (output.kind == FarmKind::kPng) {
-        write_whole(path, draw(output));
+        files.push_back(write_whole(path, draw(output)));
       } else {
         const std::unique_ptr<ArrayFile> file = begin_array(output, path, *scene_, 1);
         add_frame(*scene_, f, *file);
-        file->bytes.commit();
+        files.push_back(file->commit());
       }
-      files.push_back(path);
     }
   }
-  for (const auto& file : whole) {
-    file->bytes.commit();
-    files.push_back(file->path);
-  }
+  for (const auto& file : whole) files.push_back(file->commit());
 }
 
-std::vector<std::string> FarmWorker::run(const FarmTask& task, const Name& name) {
-  std::vector<std::string> files;
+DoneFile FarmWorker::solve(const FarmOutput& output, const FarmTask& task,
+                           const std::string& path) {
+  SolveCommand command = output.solve;
+  command.rig = job_.rigs[task.rig];
+  command.target.path = job_.takes[task.take];
+  if (job_.rate.known()) command.rate = rate_text(job_.rate);
+  command.output.path = path;
+  make_folder_of(path);
+  solve_file(command, session_);
+  std::error_code reason;
+  const uint64_t bytes = std::filesystem::file_size(path, reason);
+  if (reason) {
+    fail(kFile, "cannot read what was written", path, reason.message(), "see who removes it");
+  }
+  return {path, bytes, file_fingerprint(path)};
+}
+
+std::vector<DoneFile> FarmWorker::run(const FarmTask& task, const Name& name) {
+  std::vector<DoneFile> files;
   if (job_.solves()) {
     for (const FarmOutput& output : job_.outputs) {
-      SolveCommand command = output.solve;
-      command.rig = job_.rigs[task.rig];
-      command.target.path = job_.takes[task.take];
-      if (job_.rate.known()) command.rate = rate_text(job_.rate);
-      command.output.path = name(output, 0);
-      make_folder_of(command.output.path);
-      solve_file(command, session_);
-      files.push_back(command.output.path);
+      files.push_back(solve(output, task, name(output, 0)));
     }
     return files;
   }
@@ -257,8 +273,7 @@ std::vector<std::string> FarmWorker::run(const FarmTask& task, const Name& name)
   if (scene_) write_frames(known, name, files);
   for (const FarmOutput& output : job_.outputs) {
     if (output.kind != FarmKind::kGlb) continue;
-    files.push_back(name(output, known.first));
-    write_glb(output, known, files.back());
+    files.push_back(write_glb(output, known, name(output, known.first)));
   }
   return files;
 }

@@ -18,7 +18,15 @@ struct BoundTake {
   Take take;
   std::vector<std::vector<MienControlShare>> controls;  // of each channel
 
-  Frame frame(uint64_t number) const;
+  /// Sets the controls of `frame` alone, to those of frame `number` of the take.
+  void read(uint64_t number, Frame& frame) const;
+};
+
+/// A file that a task wrote, and what was written to it.
+struct DoneFile {
+  std::string path;
+  uint64_t bytes = 0;
+  std::string fingerprint;
 };
 
 /// Does tasks one after the other. Keeps one rig and one take open: that, and the frame in work, is its memory. A GLB
@@ -31,7 +39,7 @@ class FarmWorker {
   using Name = std::function<std::string(const FarmOutput& output, uint64_t frame)>;
 
   /// Returns the files that it wrote. Throws if anything fails; then only whole files are there.
-  std::vector<std::string> run(const FarmTask& task, const Name& name);
+  std::vector<DoneFile> run(const FarmTask& task, const Name& name);
 
   // What run() begins with, unless it is open: what the outputs need of the rig, then all frames of the take. Nothing
   // where takes are captured.
@@ -39,8 +47,9 @@ class FarmWorker {
   void open_take(uint32_t take);
 
  private:
-  void write_frames(const FarmTask& task, const Name& name, std::vector<std::string>& files);
-  void write_glb(const FarmOutput& output, const FarmTask& task, const std::string& path);
+  void write_frames(const FarmTask& task, const Name& name, std::vector<DoneFile>& files);
+  DoneFile write_glb(const FarmOutput& output, const FarmTask& task, const std::string& path);
+  DoneFile solve(const FarmOutput& output, const FarmTask& task, const std::string& path);
   std::string draw(const FarmOutput& output);
 
   const FarmJob& job_;

@@ -43,19 +43,6 @@ std::string record_folder(const FarmJob& job) {
   return (fs::path(job.folder) / (job.name + ".farm")).string();
 }
 
-std::vector<DoneFile> describe_files(const std::vector<std::string>& paths) {
-  std::vector<DoneFile> files;
-  for (const std::string& path : paths) {
-    std::error_code reason;
-    const uint64_t bytes = fs::file_size(path, reason);
-    if (reason) {
-      fail(kFile, "cannot read what was written", path, reason.message(), "see who removes it");
-    }
-    files.push_back({path, bytes, file_fingerprint(path)});
-  }
-  return files;
-}
-
 DoneTasks::DoneTasks(const FarmJob& job) {
   std::error_code reason;
   std::vector<fs::path> records;

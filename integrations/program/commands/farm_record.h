@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "integrations/program/commands/farm_job.h"
+#include "integrations/program/commands/farm_outputs.h"
 
 namespace mien::cli {
 
@@ -22,12 +22,6 @@ struct TaskInputs {
   }
 };
 
-struct DoneFile {
-  std::string path;
-  uint64_t bytes = 0;
-  std::string fingerprint;
-};
-
 struct DoneTask {
   TaskInputs inputs;
   std::vector<DoneFile> files;
@@ -35,9 +29,6 @@ struct DoneTask {
 
 /// JOB.farm
 std::string record_folder(const FarmJob& job);
-
-/// The files as they are on disk.
-std::vector<DoneFile> describe_files(const std::vector<std::string>& paths);
 
 /// All runs so far. Lines that a killed worker did not finish are left out.
 class DoneTasks {

@@ -1,11 +1,30 @@
 // SPDX-License-Identifier: MIT
 #include "integrations/program/io/npy_writer.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <string>
 
 namespace mien::cli {
+
+namespace {
+
+constexpr size_t kBlock = 64;
+
+/// Without a branch for each number, so that compilers use SIMD.
+bool is_finite_block(const float* numbers, size_t count) {
+  constexpr uint32_t kExponent = 0x7f800000;  // all of it set: infinite, or not a number
+  uint32_t bad = 0;
+  for (size_t i = 0; i < count; ++i) {
+    uint32_t bits;
+    std::memcpy(&bits, &numbers[i], 4);
+    bad |= uint32_t{(bits & kExponent) == kExponent};
+  }
+  return bad == 0;
+}
+
+}  // namespace
 
 void write_npy_header(const std::vector<uint64_t>& shape, Output& output) {
   std::string header = "{'descr': '<f4', 'fortran_order': False, 'shape': (";
@@ -23,9 +42,13 @@ void write_npy_header(const std::vector<uint64_t>& shape, Output& output) {
 }
 
 size_t write_npy_floats(const float* numbers, size_t count, Output& output) {
-  size_t finite = 0;
-  while (finite < count && std::isfinite(numbers[finite])) ++finite;
-  if (finite != count) return finite;
+  for (size_t first = 0; first < count; first += kBlock) {
+    const size_t end = std::min(count, first + kBlock);
+    if (is_finite_block(numbers + first, end - first)) continue;
+    return static_cast<size_t>(
+        std::find_if(numbers + first, numbers + end, [](float x) { return !std::isfinite(x); }) -
+        numbers);
+  }
 #if defined(__BYTE_ORDER__) && __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
   std::vector<unsigned char> bytes(count * 4);
   for (size_t i = 0; i < count; ++i) {

@@ -18,6 +18,7 @@
 #endif
 
 #include "integrations/program/io/failure.h"
+#include "integrations/program/io/fingerprint.h"
 
 namespace mien::cli {
 
@@ -137,7 +138,7 @@ void make_binary(FILE* stream) {
 
 }  // namespace
 
-Output::Output(const std::string& path) : path_(path) {
+Output::Output(const std::string& path, Fingerprint* content) : path_(path), content_(content) {
   if (path == "-") {
     stream_ = stdout;
     make_binary(stdout);
@@ -195,6 +196,7 @@ Output::~Output() {
 
 void Output::write(const void* bytes, size_t size) {
   if (size != 0 && std::fwrite(bytes, 1, size, stream_) != size) fail_write(errno);
+  if (content_) content_->add(bytes, size);
   size_ += size;
 }
 

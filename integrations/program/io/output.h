@@ -14,12 +14,15 @@
 
 namespace mien::cli {
 
+class Fingerprint;
+
 /// Writes to a temporary file in the folder of `path`, which commit() names so. Without commit() nothing
 /// stays behind: where the system has files without names the temporary file is one, so not even a
 /// killed process leaves it; elsewhere it goes with an interrupt. "-" and devices are written directly.
 class Output {
  public:
-  explicit Output(const std::string& path);
+  /// `content` may be null; it gets all bytes as they are written.
+  explicit Output(const std::string& path, Fingerprint* content = nullptr);
   ~Output();
   Output(const Output&) = delete;
   Output& operator=(const Output&) = delete;
@@ -42,6 +45,7 @@ class Output {
   std::string temporary_;  // what commit() renames; empty while the file has no name
   std::filesystem::perms permissions_ = std::filesystem::perms::unknown;  // of the file to replace
   FILE* stream_ = nullptr;
+  Fingerprint* content_;
   uint64_t size_ = 0;
 };
 

@@ -13,6 +13,7 @@ import signal
 import subprocess
 import sys
 import time
+import unittest
 import xml.etree.ElementTree as ElementTree
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..", "tests", "support"))
@@ -89,12 +90,36 @@ class FarmTest(ProgramTest):
         self.assertEqual(tree("images"), tree("image_cut"))
 
     def test_results_are_those_of_eval_and_of_baked_rigs(self):
-        self.ok("farm", job("plain", [JOINTS], rigs=["ada.dna"]))
-        self.ok("farm", job("baked", [JOINTS], rigs=["ada.rig"]))
+        self.ok("farm", job("plain", [JOINTS], rigs=["ada.dna"], isa="best"))
+        self.ok("farm", job("baked", [JOINTS], rigs=["ada.rig"], isa="best"))
         self.assertEqual(tree("plain"), tree("baked"))
         self.ok("clip", "export", path("line_2.clip"), "-o", path("line_2.json"))
         self.ok("eval", path("ada.dna"), "--input", path("line_2.json"), "-o", path("line_2.npy"))
         self.assertEqual(read("plain/ada/line_2.npy"), read("line_2.npy"))
+
+    def test_files_are_the_same_on_other_machines(self):
+        outputs = [JOINTS, VERTICES, GLB, PNG]
+        takes = ["line_0.csv"]
+        self.ok("farm", job("here", outputs, takes=takes))
+        # The variable is what a machine without other instruction sets would choose.
+        self.ok("farm", job("elsewhere", outputs, takes=takes), env={"MIEN_ISA": "scalar"})
+        self.assertEqual(tree("here"), tree("elsewhere"))
+        self.ok("farm", job("scalar", outputs, takes=takes, isa="scalar"))
+        self.assertEqual(tree("here"), tree("scalar"))
+        if b"fma" not in (read("/proc/cpuinfo") if os.path.exists("/proc/cpuinfo") else b""):
+            self.skipTest("NOT TESTED: that the fastest kernels give other bits; this CPU has no FMA")
+        self.ok("farm", job("fastest", outputs, takes=takes, isa="best"))
+        self.assertNotEqual(tree("here"), tree("fastest"))
+
+    @unittest.skipUnless(shutil.which("qemu-x86_64"), "NOT TESTED: a farm with an older CPU; there is no qemu-x86_64")
+    def test_files_are_the_same_on_an_older_cpu(self):
+        outputs = [JOINTS, VERTICES, GLB, PNG]
+        self.ok("farm", job("new_cpu", outputs, rigs=["bob.dna"], takes=["line_0.csv"]))
+        older = job("old_cpu", outputs, rigs=["bob.dna"], takes=["line_0.csv"])
+        done = subprocess.run(["qemu-x86_64", "-cpu", "Nehalem", program.mien, "farm", older], capture_output=True,
+                              check=False, timeout=120)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(tree("new_cpu"), tree("old_cpu"))
 
     def test_takes_are_resampled(self):
         self.ok("farm", job("rate", [JOINTS], rigs=["ada.dna"], takes=["line_1.csv", "line_2.clip"], rate=60))
