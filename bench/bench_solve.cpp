@@ -2,7 +2,9 @@
 // Solves of generated motion at 60 frames per second, each frame from the one before: time per frame, iterations,
 // and how well joints or vertices are met; and what central differences would cost in place of one gradient.
 //
-//     ./build/release/bench/bench_solve [frames]
+// With a head from a file, in centimeters, also landmarks with noise: how far its surface is from the true one.
+//
+//     ./build/release/bench/bench_solve [frames [HEAD.dna]]
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -40,12 +42,16 @@ struct Rig {
   MienMutableFloatView raw = {};
   MienFloatView joints = {}, positions = {};
 
-  explicit Rig(uint32_t preset) {
+  static MienDna* generate(uint32_t preset) {
     MienGenerateDesc generate = mien_generate_desc_default();
     generate.preset = preset;
     generate.seed = 1;
+    MienDna* dna = nullptr;
+    if (mien_dna_generate(&generate, &dna, nullptr) != MIEN_OK) std::exit(1);
+    return dna;
+  }
+  explicit Rig(MienDna* owned) : dna(owned) {
     const bool made =
-        mien_dna_generate(&generate, &dna, nullptr) == MIEN_OK &&
         mien_rig_create(dna, nullptr, &rig, nullptr) == MIEN_OK &&
         mien_instance_create(rig, nullptr, &instance, nullptr) == MIEN_OK &&
         mien_deformer_create(dna, rig, nullptr, &deformer, nullptr) == MIEN_OK &&
@@ -74,8 +80,7 @@ struct Rig {
 };
 
 /// `every`: of how many vertices one is a target; 0: joints are.
-void run(const char* name, uint32_t preset, uint32_t every, int frames) {
-  Rig rig(preset);
+void run(const char* name, Rig&& rig, uint32_t every, int frames) {
   std::vector<MienSolvePoint> points;
   MienFitDesc desc = mien_fit_desc_default();
   if (every != 0) {
@@ -150,12 +155,141 @@ void run(const char* name, uint32_t preset, uint32_t every, int frames) {
   mien_fit_destroy(fit);
 }
 
+/// Positions that controls move by more than 0.02, evenly chosen.
+std::vector<MienSolvePoint> choose_landmarks(Rig& rig, size_t count) {
+  rig.deform(std::vector<float>(rig.raw.count));
+  const std::vector<float> rest(rig.positions.data, rig.positions.data + rig.positions.count);
+  std::vector<uint8_t> moves(rest.size() / 3);
+  for (size_t c = 0; c < rig.raw.count; ++c) {
+    std::vector<float> raw(rig.raw.count);
+    raw[c] = 1;
+    rig.deform(raw);
+    for (size_t i = 0; i < rest.size(); ++i) {
+      moves[i / 3] |= std::fabs(rig.positions.data[i] - rest[i]) > 0.02f;
+    }
+  }
+  std::vector<uint32_t> moved;
+  for (uint32_t i = 0; i < moves.size(); ++i) {
+    if (moves[i]) moved.push_back(i);
+  }
+  std::vector<MienSolvePoint> points;
+  for (size_t i = 0; i < count; ++i) {
+    const uint32_t p = moved[i * moved.size() / count];
+    points.push_back({0, {p, p, p}, {1, 0, 0}});
+  }
+  return points;
+}
+
+/// 60 in front of the middle of the landmarks: the axes of the rig are x to the left, y up, z to the front.
+MienFitCamera place_camera(const Rig& rig, const std::vector<MienSolvePoint>& points) {
+  MienFitCamera camera = {{1500, 1500}, {320, 240}, {1, 0, 0, 0, -1, 0, 0, 0, -1}, {0, 0, 60}};
+  for (const MienSolvePoint& point : points) {
+    for (size_t k = 0; k < 3; ++k) {
+      camera.translation[k] -= camera.rotation[4 * k] *
+                               rig.positions.data[size_t{point.positions[0]} * 3 + k] /
+                               static_cast<float>(points.size());
+    }
+  }
+  return camera;
+}
+
+enum class See { kSpace, kCamera, kUnknownCamera };
+
+/// Landmarks with noise of a standard deviation of 0.05 (0.5 mm) in space, or of a pixel.
+void run_landmarks(const char* name, MienDna* dna, size_t count, See see, int frames) {
+  Rig rig(dna);
+  const std::vector<MienSolvePoint> points = choose_landmarks(rig, count);
+  MienFitDesc desc = mien_fit_desc_default();
+  desc.deformer = rig.deformer;
+  desc.points = points.data();
+  desc.point_count = points.size();
+  MienFit* fit = nullptr;
+  if (mien_fit_create(rig.rig, &desc, &fit, nullptr) != MIEN_OK) std::exit(1);
+  rig.deform(std::vector<float>(rig.raw.count));
+  const MienFitCamera known = place_camera(rig, points);
+  MienFitCamera camera = known;
+  if (see == See::kUnknownCamera) std::fill(camera.rotation, camera.rotation + 9, 0.0f);
+  mien::Random random = mien::Random::from_seed(7, 1);
+  const double noise = see == See::kSpace ? 0.05 : 1;
+  const auto noisy = [&](double v) {
+    return static_cast<float>(v + noise * std::sqrt(3.0) * random.between(-1, 1));
+  };
+  std::vector<float> found(rig.raw.count), before, targets;
+  double time = 0, apart = 0, rest_apart = 0, iterations = 0;
+  rig.deform(found);
+  const std::vector<float> rest(rig.positions.data, rig.positions.data + rig.positions.count);
+  for (int f = 0; f < frames; ++f) {
+    rig.deform(motion(rig.raw.count, f / 60.0));
+    const std::vector<float> truth(rig.positions.data, rig.positions.data + rig.positions.count);
+    targets.clear();
+    for (const MienSolvePoint& point : points) {
+      const float* p = truth.data() + size_t{point.positions[0]} * 3;
+      double at[3];
+      for (size_t k = 0; k < 3; ++k) at[k] = known.rotation[4 * k] * p[k] + known.translation[k];
+      for (size_t k = 0; k < (see == See::kSpace ? 3u : 2u); ++k) {
+        targets.push_back(noisy(
+            see == See::kSpace ? double{p[k]} : known.focal[k] * at[k] / at[2] + known.center[k]));
+      }
+    }
+    MienFitFrame frame = mien_fit_frame_default();
+    (see == See::kSpace ? frame.points : frame.images) = targets.data();
+    frame.camera = &camera;
+    frame.rigid = see == See::kUnknownCamera;
+    // Controls are some 0.3, and change by some 0.05 from frame to frame.
+    frame.prior_weight = static_cast<float>(noise * noise / (0.3 * 0.3));
+    frame.smooth_weight = f == 0 ? 0 : static_cast<float>(noise * noise / (0.05 * 0.05));
+    frame.start = f == 0 ? nullptr : before.data();
+    MienFitResult result = mien_fit_result_default();
+    const std::clock_t start = std::clock();
+    if (mien_fit_solve(fit, &frame, found.data(), &result) != MIEN_OK) std::exit(1);
+    if (f != 0) time += seconds_since(start);
+    iterations += result.iterations;
+    std::copy(result.rotation, result.rotation + 9, camera.rotation);
+    std::copy(result.translation, result.translation + 3, camera.translation);
+    before = found;
+    rig.deform(found);
+    for (size_t i = 0; i < truth.size(); i += 3) {
+      double here = 0, there = 0;
+      for (size_t k = i; k < i + 3; ++k) {
+        here += std::pow(double{rig.positions.data[k]} - truth[k], 2);
+        there += std::pow(double{rest[k]} - truth[k], 2);
+      }
+      apart += std::sqrt(here);
+      rest_apart += std::sqrt(there);
+    }
+  }
+  const double all = static_cast<double>(frames) * static_cast<double>(rest.size() / 3);
+  std::printf(
+      "%-34s %5zu targets  %7.3f ms a frame, %4.1f iterations  surface off by %.2f mm on average "
+      "(at rest %.2f mm)\n",
+      name, count, time / (frames - 1) * 1e3, iterations / frames, apart / all * 10,
+      rest_apart / all * 10);
+  mien_fit_destroy(fit);
+}
+
+MienDna* open_head(const char* path) {
+  MienDna* dna = nullptr;
+  MienError error = mien_error_default();
+  if (mien_dna_open_file(path, nullptr, &dna, &error) != MIEN_OK) {
+    std::fprintf(stderr, "%s\n", error.message);
+    std::exit(1);
+  }
+  return dna;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   const int frames = argc > 1 ? std::max(std::atoi(argv[1]), 2) : 300;
-  run("joints, large head", MIEN_PRESET_LARGE, 0, frames);
-  run("all vertices, head", MIEN_PRESET_HEAD, 1, frames / 4 + 2);
-  run("every 12th vertex, head", MIEN_PRESET_HEAD, 12, frames / 4 + 2);
+  const auto generated = [](uint32_t preset) { return Rig(Rig::generate(preset)); };
+  run("joints, large head", generated(MIEN_PRESET_LARGE), 0, frames);
+  run("all vertices, head", generated(MIEN_PRESET_HEAD), 1, frames / 4 + 2);
+  run("every 12th vertex, head", generated(MIEN_PRESET_HEAD), 12, frames / 4 + 2);
+  if (argc < 3) return 0;
+  run("all vertices, file", Rig(open_head(argv[2])), 1, frames / 4 + 2);
+  run("every 40th vertex, file", Rig(open_head(argv[2])), 40, frames / 4 + 2);
+  run_landmarks("478 landmarks, 0.5 mm of noise", open_head(argv[2]), 478, See::kSpace, frames);
+  run_landmarks("68 landmarks in images, 1 pixel", open_head(argv[2]), 68, See::kCamera, frames);
+  run_landmarks("the same, camera unknown", open_head(argv[2]), 68, See::kUnknownCamera, frames);
   return 0;
 }

@@ -12,7 +12,7 @@ using namespace mien::capi;
 namespace {
 
 constexpr uint32_t kDefaultIterations = 50;
-constexpr double kEnoughDecrease = 1e-9;  // of the cost
+constexpr double kEnoughDecrease = 1e-6;  // of the cost: far below what noise is worth
 constexpr double kEnoughOfFirst = 1e-10;  // of the cost at the start
 constexpr double kEnoughStep = 1e-6;      // of a control
 constexpr double kRounding = 4e-7;        // of the largest coordinate: floats have no more digits
