@@ -10,7 +10,9 @@
 
 #include "author/mesh/mirror_places.h"
 #include "author/place/extra_joints.h"
+#include "runtime/load/dna/format/dna_writer.h"
 #include "tests/support/mesh_source.h"
+#include "tests/support/played_rig.h"
 #include "tests/support/posed_skeleton.h"
 #include "tests/support/real_meshes.h"
 
@@ -193,6 +195,52 @@ TEST_P(Skeleton, TheJawTurnedAloneOpensTheMouth) {
     others += s != open && turn_of(rig().dna, jaw, s) > 0.5 * place.jaw_angle;
   }
   EXPECT_LE(others, mesh().shapes.count / 8) << "brows and lids leave the jaw alone";
+}
+
+/// The word of a joint's name: "Cheek" for "FACIAL_L_Cheek12".
+std::string region_of(const Bone& bone) {
+  std::string name(bone.name.data, bone.name.count);
+  if (bone.kind == BoneKind::kFacial) name = name.substr(name.rfind('_') + 1);
+  return name.substr(0, name.find_first_of("0123456789"));
+}
+
+TEST_P(Skeleton, TheFileFollowsTheShapesInEveryRegion) {
+  std::vector<uint8_t> bytes(dna::encoded_size(rig().dna, {}));
+  dna::encode(rig().dna, {}, bytes.data());
+  Played played(bytes);
+  struct Sum {
+    double squares = 0, energy = 0;
+  };
+  std::map<std::string, Sum> regions;  // of the heaviest joint
+  const SkinWeights& w = rig().weights;
+  double energy = 0;
+  for (uint32_t s = 0; s < mesh().shapes.count; ++s) {
+    played.set(s);
+    const std::vector<Vec3> points = played.deform(0);
+    for (uint32_t v = 0; v < points.size(); ++v) {
+      Sum& sum = regions[region_of(rig().placement.bones[w.joints[size_t{v} * w.m]])];
+      const Vec3 d = as_vec3(mesh().shapes[s].displacements[v]);
+      const Vec3 off = mesh().frame.to_internal(points[v]) - mesh().positions[v] - d;
+      sum.squares += dot(off, off);
+      sum.energy += dot(d, d);
+      energy += dot(d, d);
+    }
+  }
+  printf("%s: error of", GetParam());
+  for (const auto& [name, sum] : regions) {
+    if (sum.energy < 0.005 * energy) continue;
+    const double error = std::sqrt(sum.squares / sum.energy);
+    printf(" %s %.1f %%", name.c_str(), 100 * error);
+    // Blend shapes leave out offsets below a length, which is more of the short motions there.
+    const bool moves_far = name == "Mouth" || name == "Chin" || name == "Jaw" || name == "jaw";
+    EXPECT_LT(error, moves_far ? 0.06 : 0.15) << name;
+  }
+  size_t skin = 0;
+  for (const uint8_t is_skin : mesh().is_skin) skin += is_skin;
+  const double mask = static_cast<double>(rig().placement.mask.count) / static_cast<double>(skin);
+  printf("; the mask is %.0f %% of the skin\n", 100 * mask);
+  EXPECT_GT(mask, 0.3);
+  EXPECT_LT(mask, 0.9);
 }
 
 TEST_P(Skeleton, FacialJointsHangBelowWhatCarriesThem) {
