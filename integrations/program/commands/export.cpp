@@ -40,7 +40,8 @@ struct ExportOptions {
   std::string textures;  // folder
   bool link_textures = false;
   OutputFile residuals;
-  bool correctives = false, point_cache = false;
+  bool correctives = false, point_cache = false, skeleton = false;
+  bool bakes_unasked = false;  // as nothing was said: without the table of errors
 
   bool moves() const { return !animation.empty() || !clip.empty(); }
 };
@@ -151,6 +152,13 @@ void check_combination(const ExportOptions& options, Format format) {
   }
   if (!options.names.empty() && options.bake.empty()) {
     fail_usage("--names " + options.names, "nothing is baked", "add --bake arkit");
+  }
+  if (options.skeleton && (!options.bake.empty() || format == Format::kVrm)) {
+    fail_usage("--skeleton", "baked expressions are instead of the joints that move a face",
+               "leave out --skeleton or --bake, or write a .glb file");
+  }
+  if (options.skeleton && format == Format::kObj) {
+    fail_usage("--skeleton", "an OBJ file has no joints", "write a .glb file");
   }
   if (!options.residuals.path.empty() && options.bake.empty()) {
     fail_usage("--residuals", "nothing is baked", "add --bake arkit");
@@ -342,8 +350,9 @@ std::string baked_bytes(ExportedRig& face, const Frame& still, const std::vector
   const std::string bytes = scene_bytes(face, scene.scene, format, rate, attached, encoded, session,
                                         format == Format::kVrm ? &vrm : nullptr);
   FILE* const to = options.output.path == "-" ? stderr : stdout;
-  if (!session.quiet) print_bake_report(report, to);
-  if (!session.quiet && encoded.glb.quantize) {
+  const bool tells = !session.quiet && !options.bakes_unasked;
+  if (tells) print_bake_report(report, to);
+  if (tells && encoded.glb.quantize) {
     std::fprintf(to, "stored in integers: off by %.4f mm more, at most\n",
                  gltf::quantization_error(scene.scene) * 1000);
   }
@@ -395,6 +404,28 @@ Materials obj_materials(const ExportedRig& face, const ExportOptions& options,
   return materials_of(face, options.textures, meshes, session);
 }
 
+/// Whether a file of which nothing is said holds whole expressions: a GLB in neutral, of a rig with all that
+/// viewers know. Poses and animations are exact with joints alone.
+bool bakes_by_default(const ExportedRig& face, Format format, const ExportOptions& options,
+                      const Session& session) {
+  if (format != Format::kGlb || !options.bake.empty() || options.skeleton || options.moves() ||
+      !options.settings.empty() || options.lod == "all") {
+    return false;
+  }
+  MatchedNames names(face.rig.get(), NamesFile(), kCannotExport);
+  size_t lacking = 0;
+  const gltf::ExpressionSet arkit = gltf::expression_set("arkit", gltf::MouthClose::kAlone);
+  for (const gltf::Expression& expression : arkit) {
+    if (!names.find(expression.name).found()) ++lacking;
+  }
+  if (lacking == 0) {
+    note(session, face.file.shown +
+                      ": the 52 expressions of ARKit become morph targets; --bake "
+                      "chooses others, --skeleton keeps all joints");
+  }
+  return lacking == 0;
+}
+
 void run(ExportOptions options, const Session& session) {
   const Format format = parse_format(options);
   double rate = frames_per_second(options);
@@ -428,6 +459,10 @@ void run(ExportOptions options, const Session& session) {
       fail(kInvalid, "cannot use frames",
            shown_name(options.clip.empty() ? options.animation : options.clip), "there are none",
            "give at least one frame");
+    }
+    if (bakes_by_default(face, format, options, session)) {
+      options.bakes_unasked = true;
+      options.bake = "arkit";
     }
     std::string bytes;
     if (format == Format::kObj) {
@@ -531,9 +566,13 @@ Command add_export_command(CLI::App& app, const Session& session) {
           "Write whole expressions as morph targets, with only the bones of head, neck\n"
           "and eyes: arkit (52), visemes (15 of Oculus), visemes22 (cloud voices), unified\n"
           "(Unified Expressions), vrm (presets of VRM 1.0), emotions, or a JSON file;\n"
-          "several with commas. A .vrm file has vrm if nothing is named. Prints\n"
-          "the error compared with the full rig")
+          "several with commas. If nothing is named, a .vrm file has vrm, and a .glb file\n"
+          "in neutral arkit if the rig has all 52. Prints the error compared with the full\n"
+          "rig")
       ->type_name("SET");
+  command->add_flag("--skeleton", options->skeleton,
+                    "Keep all joints; the morph targets are the blend shape channels. It is the\n"
+                    "default where nothing is baked");
   command
       ->add_option("--names", options->names,
                    "With --bake: JSON with meanings of names on this rig, before those that Mien\n"
@@ -552,9 +591,14 @@ Command add_export_command(CLI::App& app, const Session& session) {
                    "or from an open jaw, as captured data use it: jaw")
       ->type_name("WAY");
   command->footer(
-      "A GLB holds the skeleton, the skin and the blend shape channels as morph targets, but not\n"
-      "the rig logic that drives them. --set chooses the pose in which it opens, --animation adds\n"
-      "an animation. Units are meters, y is up, the face looks toward +z. Materials are those\n"
+      "A GLB in neutral has a morph target for each ARKit expression, ready for sliders. Where "
+      "the\n"
+      "rig lacks some, and with --skeleton, --set, --animation or --clip, it has all joints and "
+      "the\n"
+      "blend shape channels, but not the rig logic that drives them: a pose or an animation is "
+      "then\n"
+      "exact. --set chooses the pose in which it opens. Units are meters, y is up, the face looks "
+      "toward +z. Materials are those\n"
       "of RIG.materials.json beside RIG.dna, with its textures; otherwise they are chosen by mesh\n"
       "name. A set of your own for --bake: {\"smile\": {\"mouthSmileLeft\": 1, ...}, ...}; a\n"
       "difference is {\"plus\": {...}, \"minus\": {...}}. --lod all puts each LOD into its own "
@@ -562,6 +606,7 @@ Command add_export_command(CLI::App& app, const Session& session) {
       "materials of an OBJ file are written to a file of the same name that ends in .mtl.\n\n"
       "Examples:\n"
       "  mien export head.dna -o head.glb\n"
+      "  mien export head.dna -o joints.glb --skeleton\n"
       "  mien export head.dna -o smile.obj --set mouthSmileLeft=1\n"
       "  mien export head.dna -o talk.glb --animation frames.json --fps 60\n"
       "  mien export head.dna -o arkit.glb --bake arkit --lod 2\n"

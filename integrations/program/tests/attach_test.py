@@ -154,7 +154,8 @@ class Attach(ProgramTest):
             self.assertIn("hair follows " + self.base, done.stderr)
             self.assertIn(b"hair", read(out))
         # Not only baked: by skin weights and the blend shapes of the rig.
-        self.ok("export", path("head.dna"), "-o", path("rig.glb"), "--lod", "4", "--attach", card, "--quiet")
+        self.ok("export", path("head.dna"), "-o", path("rig.glb"), "--lod", "4", "--attach", card, "--quiet",
+                "--skeleton")
         self.assertIn("hair", File("rig.glb").meshes)
 
     def test_fewer_morphs(self):

@@ -10,7 +10,7 @@ import re
 
 from exported import ExportTest, distance, makes_heads, say, set_up, size_of, skip
 from glb import Glb
-from program import main, make, path, read
+from program import USAGE, main, make, path, read, write
 
 
 def setUpModule():
@@ -37,18 +37,41 @@ class ProceduralHead(ExportTest):
     def test_small_by_default_and_as_good(self):
         """What the README says: 6 MB at most, and what is left out cannot be seen. glTF without extensions."""
         rig, largest = path("head.dna"), 0
-        self.ok("export", rig, "-o", path("default.glb"), "-q", "--force")
+        self.ok("export", rig, "-o", path("default.glb"), "--skeleton", "-q", "--force")
         size = os.path.getsize(path("default.glb"))
         self.assertLess(size, 6e6)
         self.assertNotIn("extensionsUsed", Glb(read("default.glb")).json)
         for seed in range(3):
             settings, _ = self.random_pose(rig, seed)
-            small, exact = (Glb(self.ok("export", rig, "-o", "-", *options, *settings).stdout)
+            small, exact = (Glb(self.ok("export", rig, "-o", "-", "--skeleton", *options, *settings).stdout)
                             for options in ([], ["--exact"]))
             for number in exact.mesh_nodes(0):
                 largest = max(largest, max(map(distance, small.deformed(number), exact.deformed(number))))
         say("procedural head: %.2f MB, off by %.2f mm at most" % (size / 1e6, largest * 1000))
         self.assertLess(largest, 0.2e-3)
+
+    def test_whole_expressions_if_nothing_is_said(self):
+        """Sliders of a viewer move it as it is: the file of --bake arkit, without its table; joints where they are asked for."""
+        rig = path("head.dna")
+        done = self.ok("export", rig, "-o", path("plain.glb"), "--lod", "6")
+        self.assertIn("52 expressions of ARKit", done.stderr)
+        self.assertEqual(done.stdout, b"")
+        self.ok("export", rig, "-o", path("asked.glb"), "--lod", "6", "--bake", "arkit")
+        self.assertEqual(read("plain.glb"), read("asked.glb"))
+        joints = Glb(self.ok("export", rig, "-o", "-", "--lod", "6", "--skeleton").stdout)
+        posed = Glb(self.ok("export", rig, "-o", "-", "--lod", "6", "--set", "jawOpen=1").stdout)
+        moving = Glb(self.ok("export", rig, "-o", "-", "--lod", "6", "--animation", write(
+            "still.json", '{"frames": [{}]}')).stdout)
+        bones = [len(file.json["skins"][0]["joints"]) for file in (joints, posed, moving, Glb(read("plain.glb")))]
+        self.assertEqual(bones[:3], [bones[0]] * 3)
+        self.assertGreater(bones[0], 4 * bones[3])
+        # A rig that lacks some expressions keeps what would be lost.
+        make("gen", "-o", path("small.dna"), "--preset", "small")
+        done = self.ok("export", path("small.dna"), "-o", path("few.glb"))
+        self.assertNotIn("ARKit", done.stderr)
+        self.assertEqual(read("few.glb"), self.ok("export", path("small.dna"), "-o", "-", "--skeleton").stdout)
+        for wrong in (("x.glb", "--bake", "arkit"), ("x.vrm",), ("x.obj",)):
+            self.fails(USAGE, "export", rig, "-o", path(wrong[0]), "--skeleton", *wrong[1:], says="--skeleton")
 
     def test_baked_and_small_by_default(self):
         """Below 6 MB, in integers that move no vertex by more than a hundred-thousandth of the size."""

@@ -39,7 +39,7 @@ class Readers(ExportTest):
             "twelve": [rig, "--influences", "12"], "pose": [rig, *self.random_pose(rig, 9)[0]],
             "moving": [rig, "--animation", frames], "still": [rig, "--animation", write(
                 "still.json", '{"frames": [{}]}')],
-            "medium": [path("medium.dna")], "large": [path("large.dna"), "--lod", "2"],
+            "medium": [path("medium.dna")], "large": [path("large.dna"), "--lod", "2", "--skeleton"],
             "baked": [path("large.dna"), "--bake", "arkit", "--lod", "7"],
         }
         count = 1 + max(self.obj(path("tiny.dna")).groups["head_lod0_mesh"]["vertex"].values())
@@ -47,7 +47,7 @@ class Readers(ExportTest):
         jobs["colored"] = [write("colored.dna", with_descriptor(read("tiny.dna"), 0, (1, 2, 4), colors))]
         if makes_heads():
             self.ok("demo-head", "-o", path("head.dna"))
-            jobs["head"] = [path("head.dna")]
+            jobs["head"] = [path("head.dna"), "--skeleton"]
             jobs["head_baked"] = [path("head.dna"), "--bake", "arkit", "--correctives", "--quantize", "--lod", "4"]
         for name, rig in golden_rigs.rigs().items():
             jobs["golden_" + name] = [rig, "--lod", "all"]

@@ -74,7 +74,9 @@ def size_of(points):
 
 class ExportTest(ProgramTest):
     def glb(self, rig, *options, **more):
-        """With all influences and moves, unless the options say otherwise."""
+        """With all joints, influences and moves, unless the options say otherwise."""
+        if "--bake" not in options:
+            options += ("--skeleton",)
         if not {"--influences", "--bake"} & set(options):
             options += ("--influences", "12")
         if "--quantize" not in options:

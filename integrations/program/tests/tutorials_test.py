@@ -103,7 +103,7 @@ class Tutorials(unittest.TestCase):
         self.assertLess(after, 0.5 * before)
 
     def test_viewers(self):
-        self.follow("viewers", ["head.glb", "arkit.glb", "smile.obj", "smile.mtl"])
+        self.follow("viewers", ["head.glb", "joints.glb", "smile.obj", "smile.mtl"])
 
     def test_engine_loop(self):
         self.needs_compiler()

@@ -51,8 +51,8 @@ export class FaceObject extends Group {
   dispose(): void;
 }
 
-/** Drives a GLB file by the names of its joints and targets: one that `mien export` wrote of the same rig. Open
- * the rig with { system: "gltf" }. */
+/** Drives a GLB file by the names of its joints and targets: one that `mien export --skeleton` wrote of the same rig.
+ * Open the rig with { system: "gltf" }. */
 export class GltfFace {
   constructor(object: Object3D, rig: Rig);
   readonly rig: Rig;

@@ -303,8 +303,8 @@ export class FaceObject extends Group {
   }
 }
 
-/** Drives a GLB file that `mien export` wrote, or another one with these names, in the units of glTF: open the
- * rig with { system: "gltf" }. */
+/** Drives a GLB file that `mien export --skeleton` wrote, or another one with these names, in the units of glTF: open
+ * the rig with { system: "gltf" }. */
 export class GltfFace {
   #bones = [];
   #targets = [];

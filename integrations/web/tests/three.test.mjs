@@ -126,7 +126,7 @@ test("LODs follow the distance of the camera", options, () => {
 test("an exported GLB that the loader of three.js reads is driven by the names of its joints", options, async () => {
   const [file, glb] = [join(work, "head.dna"), join(work, "head.glb")];
   writeFileSync(file, dna.write());
-  program(["export", file, "-o", glb, "--lod", "2", "--quiet"]);
+  program(["export", file, "-o", glb, "--skeleton", "--lod", "2", "--quiet"]);
   const { buffer, byteOffset, length } = readFileSync(glb);
   const { scene } = await new GLTFLoader().parseAsync(buffer.slice(byteOffset, byteOffset + length), "");
   const rig = await mien.openRig(readFileSync(file), { system: "gltf" });
