@@ -95,7 +95,7 @@ void SkinMaker::make_ear() {
               ear_.outward * (height * size);
     // In front the rim ends in the cheek, with a flap before the bowl.
     const double in_front = smooth_step(-0.1, -0.75, c) * smooth_step(0.75, 0.35, s);
-    const double flap = 0.27 * in_front * bump(s, step[0], -0.12, 0.74, 0.30, 0.13);
+    const double flap = 0.17 * in_front * bump(s, step[0], -0.12, 0.74, 0.30, 0.13);
     const double least = step[2] * (step[2] > 0 ? mix(1, 0.2, in_front) : 1) + flap;
     at.x = std::max(at.x, from.closed.x + least * size);
     const double left = 1 - (r + 1.0) / (rings + 1);

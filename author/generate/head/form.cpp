@@ -215,13 +215,13 @@ double Form::relief(double x, double y) const {
       {0.30 + p.brow_ridge, 4.3, 2.85, 1.3, 0.80},     // and above the outer corner of the eye
       {0.10 + 0.5 * p.brow_ridge, 0, 2.5, 1.1, 0.8},   // glabella
       {-0.20, 1.80 * wing, -3.6, 0.26, 0.55},          // behind the wing of the nose
-      {0.24 + 0.34 * p.cheek, 4.7, -1.55, 1.6, 1.15},  // cheekbones
+      {0.20 + 0.34 * p.cheek, 4.7, -1.65, 1.7, 1.35},  // cheekbones
       {0.24, 3.1, -2.4, 1.3, 1.1},                     // apple of the cheek
       {-0.16, 2.7, -0.95, 1.0, 0.35},  // from the inner corner of the eye to the cheek
       {-0.08 - 0.36 * p.cheek, 4.5, -5.0, 1.3, 1.5},    // hollow of the cheek
       {0.50 + 0.74 * p.muzzle, 0, -5.7, 2.6, 1.9},      // muzzle
       {-0.06 - 0.24 * p.age, 2.25, -4.35, 0.30, 0.85},  // from nose to mouth
-      {-0.24, 2.68, -6.05, 0.34, 0.42},                 // corners of the mouth
+      {-0.28, 2.60, -6.05, 0.32, 0.38},                 // corners of the mouth
       {0.06, 3.2, -6.3, 0.7, 0.9},                      // and the muscles that meet beside them
       {0.45 * p.weight, 4.3, -5.2, 1.6, 1.9},           // fat of the cheeks
       {0.30 * p.weight, 3.0, -8.6, 1.8, 1.2},           // and of the jaw
@@ -250,7 +250,7 @@ double Form::side_relief(double z, double y) const {
   };
   const double lean = 0.5 * person_.cheek;
   const Bump bumps[] = {
-      {0.16 + 0.4 * lean, 2.8, -1.1, 2.3, 1.05},  // arch of the cheekbone
+      {0.13 + 0.4 * lean, 2.8, -1.2, 2.3, 1.30},  // arch of the cheekbone
       {-0.12 - 0.4 * lean, 2.9, -4.3, 2.0, 1.4},  // below it
       {0.34, 0.2, -6.9, 1.4, 1.2},                // angle of the jaw, with the muscle on it
       {-0.22, 3.8, 2.5, 1.9, 1.5},                // temple

@@ -317,11 +317,12 @@ void HairMaker::make_strand(const Strand& strand, double wide, double shade) {
 /// Single hairs along the line: in front they grow out of it, in the back they hang over it.
 void HairMaker::make_border() {
   const uint32_t count = lod_ == 0 ? 700 : lod_ == 1 ? 320 : 140;
-  const double wide = lod_ == 0 ? 0.014 : lod_ == 1 ? 0.03 : 0.05;
+  const double wide = lod_ == 0 ? 0.012 : lod_ == 1 ? 0.03 : 0.05;
   for (uint32_t i = 0; i < count; ++i) {
     const double around = mix(-kPi, kPi, (i + 0.5 + 0.45 * scatter(i + 9000)) / count);
     const double share = std::abs(around) / kPi;
     // None over the ears, nor where hair hangs.
+    if (sculpted() && share > 0.30 && share < 0.60) continue;
     if (style_.hang < 0 ? share > 0.30 : share > 0.47 && share < 0.555) continue;
     const double jitter = scatter(i + 10000), size = 1 + 0.35 * scatter(i + 11000);
     const double side = around < kPart ? -1 : 1;

@@ -4,6 +4,7 @@
 
 namespace mien::head {
 
+using author::exact_pow;
 using author::exact_sine;
 using author::kPi;
 using author::mix;
@@ -36,8 +37,10 @@ void SkinMaker::make_nostril() {
     Vertex v = out_.vertices[from];
     v.closed = middle + (v.closed - middle) * step[0] + Vec3{0, step[1], -step[2]};
     v.position = v.closed;
-    v.u = mix(middle_u, v.u, step[0]);
-    v.v = mix(middle_v, v.v, step[0]);
+    // The texture has few texels there: what is deep takes those of the middle.
+    const double share = exact_pow(step[0], 6);
+    v.u = mix(middle_u, v.u, share);
+    v.v = mix(middle_v, v.v, share);
     v.color = mix(form_.skin_color(v.look, v.look.y, 0), dark, step[3]);
     return out_.vertices.add(v);
   };
