@@ -244,6 +244,20 @@ if(NOT CMAKE_CROSSCOMPILING)
   target_link_libraries(godot_test PRIVATE mien_author)
   add_test(NAME godot_test COMMAND godot_test ${CMAKE_CURRENT_BINARY_DIR})
   set_tests_properties(godot_test PROPERTIES LABELS abi TIMEOUT 120)
+  # The class for Godot 3, run by its editor and a script.
+  add_library(mien_godot3 MODULE EXCLUDE_FROM_ALL ${integrations}/godot/face.c ${integrations}/godot/godot3/mien_face.c)
+  set_target_properties(mien_godot3 PROPERTIES BUILD_WITH_INSTALL_RPATH ON INSTALL_RPATH "$ORIGIN")
+  target_link_libraries(mien_godot3 PRIVATE mien)
+  find_program(MIEN_GODOT3 godot3-server)
+  if(MIEN_GODOT3 AND NOT MIEN_SANITIZE)
+    set_target_properties(mien_godot3 PROPERTIES EXCLUDE_FROM_ALL OFF)
+    add_test(NAME godot3_test COMMAND ${MIEN_PYTHON} ${integrations}/godot/tests/godot3_test.py
+      $<TARGET_FILE:mien_godot3> $<TARGET_FILE:mien>)
+    set_tests_properties(godot3_test PROPERTIES LABELS full TIMEOUT 200 SKIP_RETURN_CODE 77
+      ENVIRONMENT "${python_environment}")
+  else()
+    message(STATUS "NOT TESTED: the class for Godot 3; it needs godot3-server and no sanitizers")
+  endif()
 endif()
 
 # ---- Unreal Engine ---------------------------------------------------------------------------------
