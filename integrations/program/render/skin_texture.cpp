@@ -120,8 +120,8 @@ void SkinMap::draw(const uint32_t* corners) {
   }
   const float twice = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]);
   const Vec3 n = cross(p[1] - p[0], p[2] - p[0]);
-  // About 2000 texels are a square centimeter; thin triangles between parts of the texture have far more.
-  constexpr float kMostTexels = 60000;
+  // About 800 texels are a square centimeter; thin triangles between parts of the texture have far more.
+  constexpr float kMostTexels = 24000;
   if (twice == 0 || std::fabs(twice) > kMostTexels * std::sqrt(dot(n, n))) return;
   const auto low = [](float a, float b, float d) { return int(std::floor(std::min({a, b, d}))); };
   const auto high = [](float a, float b, float d) { return int(std::ceil(std::max({a, b, d}))); };
@@ -177,10 +177,10 @@ SkinMap::Detail SkinMap::detail(float u, float v, const Texel& texel) const {
   const Vec3 p = texel.place;
   if (v < layout_.inner_below) return {0.003f * noise(p * 6), {1, 1, 1}, 0.38f};
   if (v < layout_.cloth_below) {
-    // Threads over and under each other.
-    const float x = u * float(width_) * 0.7f, y = v * float(height_) * 0.9f;
-    return {0.010f * std::sin(x) * std::sin(y) + 0.004f * noise(p * 3),
-            Vec3{1, 1, 1} * (1 + 0.05f * std::sin(x) * std::sin(y) + 0.04f * noise(p * 2)), 0.92f};
+    // Threads would be finer than a pixel of most pictures, and make patterns of their own there.
+    const float fine = noise(p * 9);
+    return {0.006f * fine + 0.004f * noise(p * 3),
+            Vec3{1, 1, 1} * (1 + 0.03f * fine + 0.04f * noise(p * 2)), 0.92f};
   }
   const float lips = lips_at(u, v, texel), skin = 1 - lips;
   // Pores are a third of a millimeter wide and a millimeter and more apart; between them runs a net of fine creases.

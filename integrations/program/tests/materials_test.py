@@ -76,7 +76,7 @@ class GeneratedHead(MaterialsTest):
         skin, = sidecar["materials"]
         self.assertEqual(skin["textures"], {"base_color": "made/skin_basecolor.png", "normal": "made/skin_normal.png",
                                             "roughness": "made/skin_roughness.png"})
-        for kind, size in (("basecolor", (2048, 1024)), ("normal", (2048, 1024)), ("roughness", (1024, 512))):
+        for kind, size in (("basecolor", (1280, 640)), ("normal", (1280, 640)), ("roughness", (640, 320))):
             self.assertEqual(struct.unpack(">II", read("made/skin_%s.png" % kind)[16:24]), size)
         self.ok("demo-head", "-o", path("plain.dna"), "-q")
         pictures = {}
