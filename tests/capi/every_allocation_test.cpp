@@ -355,7 +355,16 @@ std::vector<Call> calls_of_solving(const World& w) {
   desc.control_count = 2;
   desc.points = &kPoint;
   desc.point_count = 1;
-  return {{"mien_fit_create", makes(mien_fit_destroy, desc, mien_fit_create, w.rig.object)}};
+  static constexpr float kPositions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
+  static constexpr uint32_t kTriangles[] = {0, 1, 2, 2, 1, 3};
+  auto surface = w.desc<MienFitSurfaceDesc>();
+  surface.positions = kPositions;
+  surface.position_count = 4;
+  surface.triangles = kTriangles;
+  surface.triangle_count = 2;
+  return {{"mien_fit_create", makes(mien_fit_destroy, desc, mien_fit_create, w.rig.object)},
+          {"mien_fit_surface_create",
+           makes(mien_fit_surface_destroy, surface, mien_fit_surface_create)}};
 }
 
 std::vector<Call> calls_of_mixes(const World& w) {
