@@ -104,9 +104,9 @@ def main():
         programs["Go"] = golang(args.go, "evaluate", Path(compiled.name))
         mixing["Go"] = golang(args.go, "mix", Path(compiled.name))
 
-    code = (HERE / "evaluate.c").read_text(encoding="utf-8").split("\n", 1)[1]
-    if code not in (HERE.parent / "README.md").read_text(encoding="utf-8"):
-        sys.exit("the example of README.md is not evaluate.c")
+    readme = (HERE.parent / "README.md").read_text(encoding="utf-8")
+    if readme.split("```c\n")[1].split("```")[0] not in (HERE / "evaluate.c").read_text(encoding="utf-8"):
+        sys.exit("the example of README.md is not from evaluate.c")
     failures = mixes_differ(mixing)
     with tempfile.TemporaryDirectory() as directory:
         broken = Path(directory) / "broken.dna"
