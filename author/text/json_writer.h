@@ -49,12 +49,34 @@ class JsonWriter {
   }
   void value(const char* text) { value(std::string_view(text)); }
   void value(bool truth) { word(truth ? "true" : "false"); }
-  void value(uint64_t number) { whole(number); }
-  void value(int64_t number) { whole(number); }
-  void value(uint32_t number) { whole(number); }
-  void value(int32_t number) { whole(number); }
+  template <class Whole, class = std::enable_if_t<std::is_integral_v<Whole>>>
+  void value(Whole number) {
+    separate();
+    char digits[24];
+    finish_digits(digits, std::to_chars(digits, digits + sizeof(digits), number).ptr);
+  }
   void null() { word("null"); }
 
+  /// With nine significant digits at most.
+  void rounded(double number) {
+    separate();
+    char digits[40];
+#if defined(__EMSCRIPTEN__)  // it has one locale only
+    finish_digits(digits, digits + snprintf(digits, sizeof(digits), "%.9g", number));
+#else
+    finish_digits(
+        digits,
+        std::to_chars(digits, digits + sizeof(digits), number, std::chars_format::general, 9).ptr);
+#endif
+  }
+
+  template <class T>
+  void member(std::string_view name, const T& content) {
+    key(name);
+    value(content);
+  }
+
+#if !defined(__EMSCRIPTEN__)  // its library has no std::to_chars() of floats
   /// In fixed notation.
   void fixed(double number, int decimals) {
     separate();
@@ -63,27 +85,9 @@ class JsonWriter {
                                         std::chars_format::fixed, decimals)
                               .ptr);
   }
-  /// With nine significant digits at most.
-  void rounded(double number) {
-    separate();
-    char digits[40];
-#if defined(__EMSCRIPTEN__)  // its library has no std::to_chars() of floats, and one locale only
-    finish_digits(digits, digits + snprintf(digits, sizeof(digits), "%.9g", number));
-#else
-    finish_digits(
-        digits,
-        std::to_chars(digits, digits + sizeof(digits), number, std::chars_format::general, 9).ptr);
-#endif
-  }
   /// With the fewest digits that give the number back, as a double or as a float.
   void shortest(double number) { digits_of(number); }
   void shortest_float(float number) { digits_of(number); }
-
-  template <class T>
-  void member(std::string_view name, const T& content) {
-    key(name);
-    value(content);
-  }
 
   /// An array. Stops at the first number that is not finite and returns its index, else `count`.
   size_t floats(const float* numbers, size_t count) {
@@ -100,6 +104,7 @@ class JsonWriter {
     text_.append("]");
     return count;
   }
+#endif
 
  private:
   struct Level {
@@ -149,13 +154,7 @@ class JsonWriter {
     text_.append({digits, static_cast<size_t>(end - digits)});
   }
 
-  template <class Whole>
-  void whole(Whole number) {
-    separate();
-    char digits[24];
-    finish_digits(digits, std::to_chars(digits, digits + sizeof(digits), number).ptr);
-  }
-
+#if !defined(__EMSCRIPTEN__)
   template <class Number>
   void digits_of(Number number) {
     // Without a point readers take it for an integer, which has no sign at zero.
@@ -164,6 +163,7 @@ class JsonWriter {
     char digits[32];
     finish_digits(digits, std::to_chars(digits, digits + sizeof(digits), number).ptr);
   }
+#endif
 
   void string(std::string_view text) {
     text_.append("\"");
