@@ -240,7 +240,8 @@ endif()
 
 # The extension with a host that plays Godot.
 if(NOT CMAKE_CROSSCOMPILING)
-  add_executable(godot_test ${integrations}/godot/mien_face_3d.c ${integrations}/godot/tests/host.c)
+  add_executable(godot_test ${integrations}/godot/face.c ${integrations}/godot/mien_face_3d.c
+    ${integrations}/godot/tests/host.c)
   target_link_libraries(godot_test PRIVATE mien_author)
   add_test(NAME godot_test COMMAND godot_test ${CMAKE_CURRENT_BINARY_DIR})
   set_tests_properties(godot_test PROPERTIES LABELS abi TIMEOUT 120)

@@ -4,10 +4,10 @@
  *
  * The functions of Skeleton3D and MeshInstance3D are called by name, so no numbers of a version are compiled in. */
 #include <mien.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "face.h"
 #include "gdextension.h"
 
 #if defined(_WIN32)
@@ -58,101 +58,27 @@ typedef struct {
   int64_t* indices;
 } Targets;
 
+/* A node: its character, and what it drives. */
 typedef struct {
-  MienBaked* baked; /* or the file was DNA */
-  MienRig* rig;
-  MienDeformer* deformer; /* NULL without geometry */
-  MienInstance* instance;
-  MienDeformerInstance* pose;
-  float* transforms; /* ten of each joint */
-  uint32_t joint_count, channel_count;
+  Face face;
   Targets targets[TARGETS];
   GdStringName find_bone, set_position, set_rotation, set_scale, find_shape, set_shape;
-} Face;
+} Node;
 
-static void close_face(Face* face) {
-  mien_deformer_instance_destroy(face->pose);
-  mien_instance_destroy(face->instance);
-  mien_deformer_destroy(face->deformer);
-  mien_rig_destroy(face->rig);
-  mien_baked_close(face->baked);
-  free(face->transforms);
-  for (int t = 0; t < TARGETS; ++t) free(face->targets[t].indices);
-  memset(face->targets, 0, sizeof face->targets);
-  face->baked = NULL;
-  face->rig = NULL;
-  face->deformer = NULL;
-  face->instance = NULL;
-  face->pose = NULL;
-  face->transforms = NULL;
+static void close_node(Node* node) {
+  face_close(&node->face);
+  for (int t = 0; t < TARGETS; ++t) free(node->targets[t].indices);
+  memset(node->targets, 0, sizeof node->targets);
 }
 
-static MienStatus open_dna(Face* face, const char* path, MienError* error) {
-  MienDnaDesc desc = mien_dna_desc_default();
-  MienCoordinateSystem system = mien_coordinate_system_default();
-  MienStatus status = mien_coordinate_system_find("godot", &system);
-  desc.system = &system;
-  MienDna* dna = NULL;
-  if (status == MIEN_OK) status = mien_dna_open_file(path, &desc, &dna, error);
-  if (status == MIEN_OK) status = mien_rig_create(dna, NULL, &face->rig, error);
-  if (status == MIEN_OK) {
-    /* A file may have no geometry: then only values are driven. */
-    const MienStatus meshes = mien_deformer_create(dna, face->rig, NULL, &face->deformer, error);
-    if (meshes == MIEN_ERROR_MEMORY) status = meshes;
-  }
-  mien_dna_close(dna);
-  return status;
-}
-
-static MienStatus open_baked(Face* face, const char* path, MienError* error) {
-  MienStatus status = mien_baked_open_file(path, NULL, &face->baked, error);
-  if (status != MIEN_OK) return status;
-  status = mien_rig_from_baked(face->baked, NULL, &face->rig, error);
-  MienBakedInfo info = mien_baked_info_default();
-  if (status == MIEN_OK) status = mien_baked_info(face->baked, &info);
-  if (status == MIEN_OK && info.deformer_bytes != 0) {
-    status = mien_deformer_from_baked(face->baked, face->rig, NULL, &face->deformer, error);
-  }
-  return status;
-}
-
-static int64_t open_face(Face* face, const char* path) {
-  close_face(face);
+static int64_t open_node(Node* node, const char* path) {
+  close_node(node);
   MienError error = mien_error_default();
-  const size_t length = strlen(path);
-  const int is_dna = length > 4 && strcmp(path + length - 4, ".dna") == 0;
-  MienStatus status = is_dna ? open_dna(face, path, &error) : open_baked(face, path, &error);
-  if (status == MIEN_OK) status = mien_instance_create(face->rig, NULL, &face->instance, &error);
-  if (status == MIEN_OK) status = mien_rig_count(face->rig, MIEN_KIND_JOINT, &face->joint_count);
-  if (status == MIEN_OK)
-    status = mien_rig_count(face->rig, MIEN_KIND_BLEND_SHAPE_CHANNEL, &face->channel_count);
-  if (status == MIEN_OK && face->deformer) {
-    status = mien_deformer_instance_create(face->deformer, NULL, &face->pose, &error);
-    face->transforms = calloc(face->joint_count ? face->joint_count : 1, 10 * sizeof(float));
-    if (status == MIEN_OK && !face->transforms) status = MIEN_ERROR_MEMORY;
-  }
-  if (status == MIEN_OK) return MIEN_OK;
-  gd.print_error(error.message[0] ? error.message : mien_status_name(status), "MienFace3D.open",
-                 __FILE__, __LINE__, 0);
-  close_face(face);
+  const MienStatus status = face_open(&node->face, path, &error);
+  if (status != MIEN_OK)
+    gd.print_error(error.message[0] ? error.message : mien_status_name(status), "MienFace3D.open",
+                   __FILE__, __LINE__, 0);
   return status;
-}
-
-static uint8_t set_control(Face* face, const char* name, double value) {
-  uint32_t index = 0;
-  MienMutableFloatView controls;
-  if (!face->instance) return 0;
-  if (mien_rig_find(face->rig, MIEN_KIND_RAW_CONTROL, name, &index) != MIEN_OK) return 0;
-  if (mien_instance_raw_controls(face->instance, &controls) != MIEN_OK || index >= controls.count)
-    return 0;
-  controls.data[index] = (float)value;
-  return 1;
-}
-
-static uint8_t evaluate(Face* face, int64_t lod) {
-  if (!face->instance || lod < 0 || lod > UINT32_MAX) return 0;
-  if (mien_rig_evaluate(face->rig, face->instance, (uint32_t)lod) != MIEN_OK) return 0;
-  return !face->pose || mien_deformer_instance_update(face->pose, face->instance) == MIEN_OK;
 }
 
 /* Calls a method of an object. Frees the arguments, of which each is a value of a type. */
@@ -173,7 +99,7 @@ static int64_t call_object(GdObject object, const GdStringName* method, GdVarian
 }
 
 /* Finds what has the names of a kind in an object, unless that was done. */
-static const int64_t* find_targets(Face* face, Targets* targets, GdObject object, uint32_t kind,
+static const int64_t* find_targets(Node* node, Targets* targets, GdObject object, uint32_t kind,
                                    uint32_t count, const GdStringName* find,
                                    int32_t argument_type) {
   if (targets->indices && targets->object == object) return targets->indices;
@@ -185,7 +111,8 @@ static const int64_t* find_targets(Face* face, Targets* targets, GdObject object
     MienStringView name;
     char text[512];
     targets->indices[i] = -1;
-    if (mien_rig_name(face->rig, kind, i, &name) != MIEN_OK || name.count >= sizeof text) continue;
+    if (mien_rig_name(node->face.rig, kind, i, &name) != MIEN_OK || name.count >= sizeof text)
+      continue;
     memcpy(text, name.data, name.count);
     text[name.count] = 0;
     GdString string;
@@ -206,39 +133,37 @@ static void set_bone(GdObject skeleton, const GdStringName* method, int64_t bone
   call_object(skeleton, method, arguments, 2);
 }
 
-static uint8_t drive_skeleton(Face* face, GdObject skeleton) {
-  if (!face->pose || !skeleton) return 0;
-  const int64_t* bones = find_targets(face, &face->targets[SKELETON], skeleton, MIEN_KIND_JOINT,
-                                      face->joint_count, &face->find_bone, GD_STRING);
+static uint8_t drive_skeleton(Node* node, GdObject skeleton) {
+  if (!node->face.pose || !skeleton) return 0;
+  const int64_t* bones = find_targets(node, &node->targets[SKELETON], skeleton, MIEN_KIND_JOINT,
+                                      node->face.joint_count, &node->find_bone, GD_STRING);
   if (!bones) return 0;
-  const size_t count = (size_t)10 * face->joint_count;
-  if (mien_deformer_instance_local_transforms(face->pose, face->transforms, count) != MIEN_OK)
-    return 0;
-  for (uint32_t j = 0; j < face->joint_count; ++j) {
+  if (!face_read_transforms(&node->face)) return 0;
+  for (uint32_t j = 0; j < node->face.joint_count; ++j) {
     if (bones[j] < 0) continue;
-    float* t = face->transforms + (size_t)10 * j;
-    set_bone(skeleton, &face->set_position, bones[j], GD_VECTOR3, t);
-    set_bone(skeleton, &face->set_rotation, bones[j], GD_QUATERNION, t + 3);
-    set_bone(skeleton, &face->set_scale, bones[j], GD_VECTOR3, t + 7);
+    float* t = node->face.transforms + (size_t)10 * j;
+    set_bone(skeleton, &node->set_position, bones[j], GD_VECTOR3, t);
+    set_bone(skeleton, &node->set_rotation, bones[j], GD_QUATERNION, t + 3);
+    set_bone(skeleton, &node->set_scale, bones[j], GD_VECTOR3, t + 7);
   }
   return 1;
 }
 
-static uint8_t drive_mesh(Face* face, GdObject mesh) {
+static uint8_t drive_mesh(Node* node, GdObject mesh) {
   MienFloatView weights;
-  if (!face->instance || !mesh) return 0;
+  if (!node->face.instance || !mesh) return 0;
   const int64_t* shapes =
-      find_targets(face, &face->targets[MESH], mesh, MIEN_KIND_BLEND_SHAPE_CHANNEL,
-                   face->channel_count, &face->find_shape, GD_STRING);
-  if (!shapes || mien_instance_blend_shapes(face->instance, &weights) != MIEN_OK) return 0;
-  for (uint32_t c = 0; c < face->channel_count && c < weights.count; ++c) {
+      find_targets(node, &node->targets[MESH], mesh, MIEN_KIND_BLEND_SHAPE_CHANNEL,
+                   node->face.channel_count, &node->find_shape, GD_STRING);
+  if (!shapes || mien_instance_blend_shapes(node->face.instance, &weights) != MIEN_OK) return 0;
+  for (uint32_t c = 0; c < node->face.channel_count && c < weights.count; ++c) {
     if (shapes[c] < 0) continue;
     int64_t shape = shapes[c];
     double weight = (double)weights.data[c];
     GdVariant arguments[2];
     gd.from[GD_INT](&arguments[0], &shape);
     gd.from[GD_FLOAT](&arguments[1], &weight);
-    call_object(mesh, &face->set_shape, arguments, 2);
+    call_object(mesh, &node->set_shape, arguments, 2);
   }
   return 1;
 }
@@ -267,7 +192,7 @@ static Method methods[METHODS] = {
 
 /* Arguments point to values of the types. */
 static void ptrcall(void* userdata, void* instance, const void* const* arguments, void* result) {
-  Face* face = instance;
+  Node* node = instance;
   const int method = (int)((const Method*)userdata - methods);
   char text[4096] = "";
   if (methods[method].arguments[0].type == GD_STRING) {
@@ -275,15 +200,17 @@ static void ptrcall(void* userdata, void* instance, const void* const* arguments
     text[length < 0 ? 0 : length < (int64_t)sizeof text ? length : (int64_t)sizeof text - 1] = 0;
   }
   switch (method) {
-    case OPEN: *(int64_t*)result = open_face(face, text); break;
+    case OPEN: *(int64_t*)result = open_node(node, text); break;
     case SET_CONTROL:
-      *(uint8_t*)result = set_control(face, text, *(const double*)arguments[1]);
+      *(uint8_t*)result = face_set_control(&node->face, text, *(const double*)arguments[1]);
       break;
-    case EVALUATE: *(uint8_t*)result = evaluate(face, *(const int64_t*)arguments[0]); break;
+    case EVALUATE:
+      *(uint8_t*)result = face_evaluate(&node->face, *(const int64_t*)arguments[0]);
+      break;
     case DRIVE_SKELETON:
-      *(uint8_t*)result = drive_skeleton(face, *(const GdObject*)arguments[0]);
+      *(uint8_t*)result = drive_skeleton(node, *(const GdObject*)arguments[0]);
       break;
-    default: *(uint8_t*)result = drive_mesh(face, *(const GdObject*)arguments[0]); break;
+    default: *(uint8_t*)result = drive_mesh(node, *(const GdObject*)arguments[0]); break;
   }
 }
 
@@ -321,22 +248,22 @@ static void call(void* userdata, void* instance, const GdVariant* const* argumen
 
 static GdObject create_instance(void* userdata) {
   (void)userdata;
-  Face* face = calloc(1, sizeof *face);
-  if (!face) return NULL;
-  face->find_bone = name_of("find_bone");
-  face->set_position = name_of("set_bone_pose_position");
-  face->set_rotation = name_of("set_bone_pose_rotation");
-  face->set_scale = name_of("set_bone_pose_scale");
-  face->find_shape = name_of("find_blend_shape_by_name");
-  face->set_shape = name_of("set_blend_shape_value");
+  Node* node = calloc(1, sizeof *node);
+  if (!node) return NULL;
+  node->find_bone = name_of("find_bone");
+  node->set_position = name_of("set_bone_pose_position");
+  node->set_rotation = name_of("set_bone_pose_rotation");
+  node->set_scale = name_of("set_bone_pose_scale");
+  node->find_shape = name_of("find_blend_shape_by_name");
+  node->set_shape = name_of("set_blend_shape_value");
   GdObject object = gd.classdb_construct_object(&parent_name);
-  gd.object_set_instance(object, &class_name, face);
+  gd.object_set_instance(object, &class_name, node);
   return object;
 }
 
 static void free_instance(void* userdata, void* instance) {
   (void)userdata;
-  close_face(instance);
+  close_node(instance);
   free(instance);
 }
 
