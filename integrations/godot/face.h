@@ -12,8 +12,7 @@ typedef struct {
   MienDeformer* deformer; /* NULL without geometry */
   MienInstance* instance;
   MienDeformerInstance* pose;
-  float*
-      transforms; /* ten of each joint: translation, quaternion x y z w, scale; NULL without geometry */
+  float* transforms; /* [joint][10]: translation, quaternion x y z w, scale; or NULL */
   uint32_t joint_count, channel_count;
 } Face;
 

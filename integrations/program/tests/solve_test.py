@@ -136,6 +136,48 @@ class Kinds(SolveTest):
         self.fails(INVALID, "solve", path(TINY), write("wrong.glb", b"glTF" + bytes(40)), "--kind", "joints", "-o",
                    path("no.json"), says="wrong.glb")
 
+    def test_animations_that_ask_for_much_or_are_wrong(self):
+        times = struct.pack("<2000f", *range(2000))
+        binary = times + bytes(24000)
+
+        def animated(edit=lambda root: None):
+            channel = {"sampler": 0, "target": {"node": 0, "path": "translation"}}
+            root = {"asset": {"version": "2.0"}, "nodes": [{"name": "head"}], "buffers": [{"byteLength": len(binary)}],
+                    "bufferViews": [{"buffer": 0, "byteLength": 8000},
+                                    {"buffer": 0, "byteOffset": 8000, "byteLength": 24000}],
+                    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 2000, "type": "SCALAR"},
+                                  {"bufferView": 1, "componentType": 5126, "count": 2000, "type": "VEC3"}],
+                    "animations": [{"samplers": [{"input": 0, "output": 1}], "channels": [channel]}]}
+            edit(root)
+            text = json.dumps(root).encode()
+            text += b" " * (-len(text) % 4)
+            return (struct.pack("<4sII", b"glTF", 2, 28 + len(text) + len(binary)) +
+                    struct.pack("<II", len(text), 0x4E4F534A) + text +
+                    struct.pack("<II", len(binary), 0x004E4942) + binary)
+
+        def change(**members):
+            def edit(root):
+                animation = root["animations"][0]
+                for name, value in members.items():
+                    if name in animation["samplers"][0] or name == "interpolation":
+                        animation["samplers"][0][name] = value
+                    else:
+                        animation["channels"][0][name] = value
+            return edit
+
+        def again_and_again(root):
+            root["animations"][0]["channels"] *= 4000
+
+        for edit, says in ((again_and_again, "the same data too often"),
+                           (change(input=1), "SCALAR"), (change(output=0), "VEC3"), (change(sampler=1), "sampler 1"),
+                           (change(interpolation="CUBICSPLINE"), "cubic splines"), (change(target=1), "a channel is wrong"),
+                           (change(target={"node": 7, "path": "scale"}), "node 7"),
+                           (lambda root: root["accessors"][1].update(count=1999), "number of values"),
+                           (lambda root: root["bufferViews"][0].update(byteOffset=8000), "do not ascend"),
+                           (lambda root: root["nodes"][0].update(scale=[1, 1]), "scale of a node")):
+            source = write("hostile.glb", animated(edit))
+            self.fails(INVALID, "solve", path(HEAD), source, "--kind", "joints", "-o", path("no.json"), says=says)
+
     def test_a_surface_of_another_topology(self):
         mesh, points = self.obj(POSE)
         self.ok("export", path(HEAD), "-o", path("posed.obj"), "--lod", "0",
