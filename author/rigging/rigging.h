@@ -35,7 +35,7 @@ struct RiggingOptions {
   uint32_t influences = 8;
   double lod_triangles = 0.5;  // share of the LOD before it that each LOD keeps
   bool residual_targets = true;
-  bool metahuman_names = false;  // of bones that are placed
+  bool metahuman_names = false;  // of bones that are placed and controls that are added
   Name name = {"head", 4};
   Span<const OwnLandmark> landmarks;
   Span<const OwnBone> bones;  // empty: placed

@@ -181,8 +181,10 @@ enum MienAuthorFlags {
     MIEN_AUTHOR_AREA_DENSITY = 8,     /* weight positions by the area around them: for scans */
     MIEN_AUTHOR_NO_TARGETS = 16,      /* no blend shape targets for the motion that joints cannot produce */
     MIEN_AUTHOR_GROUP_IN_SPACE = 32,  /* group by distance in space, not in depth: for comparison */
-    MIEN_AUTHOR_METAHUMAN_NAMES = 64  /* use the bone names of MetaHuman heads where they have a
-                                         counterpart: neck_01, FACIAL_C_Jaw; not for the caller's bones */
+    MIEN_AUTHOR_METAHUMAN_NAMES = 64  /* name bones that are placed and controls that are added as in
+                                         MetaHuman heads where they have a counterpart: neck_01,
+                                         FACIAL_C_Jaw, CTRL_expressions.jawOpen. The caller's bones and
+                                         shapes keep their names */
 };
 
 /* How to rig a mesh. bones, weights, depth_groups, mask, lod_joints, bone_groups, bone_motions and

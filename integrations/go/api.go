@@ -713,7 +713,7 @@ const AuthorFlagsNoTargets AuthorFlags = 16
 // group by distance in space, not in depth: for comparison
 const AuthorFlagsGroupInSpace AuthorFlags = 32
 
-// use the bone names of MetaHuman heads where they have a counterpart: neck_01, FACIAL_C_Jaw; not for the caller's bones
+// name bones that are placed and controls that are added as in MetaHuman heads where they have a counterpart: neck_01, FACIAL_C_Jaw, CTRL_expressions.jawOpen. The caller's bones and shapes keep their names
 const AuthorFlagsMetahumanNames AuthorFlags = 64
 
 // How positions of one mesh are found on another.

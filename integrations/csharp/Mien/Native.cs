@@ -571,7 +571,7 @@ namespace Mien {
     NoTargets = 16,
     /// <summary>group by distance in space, not in depth: for comparison</summary>
     GroupInSpace = 32,
-    /// <summary>use the bone names of MetaHuman heads where they have a counterpart: neck_01, FACIAL_C_Jaw; not for the caller's bones</summary>
+    /// <summary>name bones that are placed and controls that are added as in MetaHuman heads where they have a counterpart: neck_01, FACIAL_C_Jaw, CTRL_expressions.jawOpen. The caller's bones and shapes keep their names</summary>
     MetahumanNames = 64,
   }
 

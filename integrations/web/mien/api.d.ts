@@ -684,7 +684,7 @@ export declare const AuthorFlags: {
   /** group by distance in space, not in depth: for comparison */
   readonly GROUP_IN_SPACE: 32;
   /**
-   * use the bone names of MetaHuman heads where they have a counterpart: neck_01, FACIAL_C_Jaw; not for the caller's bones
+   * name bones that are placed and controls that are added as in MetaHuman heads where they have a counterpart: neck_01, FACIAL_C_Jaw, CTRL_expressions.jawOpen. The caller's bones and shapes keep their names
    */
   readonly METAHUMAN_NAMES: 64;
 };

@@ -517,8 +517,9 @@ pub const MIEN_AUTHOR_AREA_DENSITY: u32 = 8;
 pub const MIEN_AUTHOR_NO_TARGETS: u32 = 16;
 /// Group by distance in space, not in depth: for comparison.
 pub const MIEN_AUTHOR_GROUP_IN_SPACE: u32 = 32;
-/// Use the bone names of MetaHuman heads where they have a counterpart: `neck_01`, FACIAL\_C\_Jaw;
-/// not for the caller's bones.
+/// Name bones that are placed and controls that are added as in MetaHuman heads where they have a
+/// counterpart: `neck_01`, FACIAL\_C\_Jaw, CTRL\_expressions.jawOpen. The caller's bones and
+/// shapes keep their names.
 pub const MIEN_AUTHOR_METAHUMAN_NAMES: u32 = 64;
 
 // enum MienMatch

@@ -1064,8 +1064,9 @@ impl AuthorFlags {
     pub const NO_TARGETS: Self = Self(16);
     /// Group by distance in space, not in depth: for comparison.
     pub const GROUP_IN_SPACE: Self = Self(32);
-    /// Use the bone names of MetaHuman heads where they have a counterpart: `neck_01`,
-    /// FACIAL\_C\_Jaw; not for the caller's bones.
+    /// Name bones that are placed and controls that are added as in MetaHuman heads where they
+    /// have a counterpart: `neck_01`, FACIAL\_C\_Jaw, CTRL\_expressions.jawOpen. The caller's
+    /// bones and shapes keep their names.
     pub const METAHUMAN_NAMES: Self = Self(64);
 }
 
