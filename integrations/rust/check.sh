@@ -95,7 +95,7 @@ check_tests() {
   local expected component features printed
   expected=$("$build/tests/example_c")
   rm -rf "$build/rust/installed"
-  for component in mien_runtime mien_author_runtime mien_development; do
+  for component in mien_runtime mien_author_runtime mien_solve_runtime mien_development; do
     cmake --install "$build" --prefix "$build/rust/installed" --component $component >/dev/null
   done
   PKG_CONFIG_PATH=$(dirname "$(find "$build/rust/installed" -name mien.pc)")

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-//! Finds libmien and libmien-author: built here with the feature `vendored`, else in `MIEN_LIB_DIR` if that
+//! Finds libmien, libmien-author and libmien-solve: built here with the feature `vendored`, else in `MIEN_LIB_DIR` if that
 //! is set, else by pkg-config. Documentation is made without them.
 //!
 //! Crates that depend on this one directly learn from `DEP_MIEN_LIB_DIR` where they are, if that is no
@@ -10,7 +10,7 @@ use std::path::Path;
 use std::process::{exit, Command};
 
 /// In the order in which linkers need them.
-const LIBRARIES: [&str; 2] = ["mien-author", "mien"];
+const LIBRARIES: [&str; 3] = ["mien-solve", "mien-author", "mien"];
 
 fn main() {
     for variable in ["MIEN_LIB_DIR", "MIEN_STATIC", "PKG_CONFIG", "PKG_CONFIG_PATH"] {
@@ -62,8 +62,9 @@ fn build_vendored() -> String {
         "-DMIEN_BUILD_TESTS=OFF",
         "-DMIEN_BUILD_BENCH=OFF",
     ]);
-    run(&["--build", &build, "--parallel", "--target", "mien_author_static"]);
-    for room in ["author", "capi", "runtime", "simd"] {
+    let targets = ["mien_author_static", "mien_solve_static"];
+    run(&["--build", &build, "--parallel", "--target", targets[0], targets[1]]);
+    for room in ["author", "capi", "runtime", "simd", "solve"] {
         println!("cargo:rerun-if-changed={}/{}", sources, room);
     }
     format!("{}/lib", build)
@@ -100,7 +101,7 @@ fn link_directory(directory: &str, statically: bool) {
 fn link_by_pkg_config(statically: bool) {
     let program = env::var("PKG_CONFIG").unwrap_or_else(|_| "pkg-config".into());
     let ask = |arguments: &[&str]| {
-        let output = Command::new(&program).args(arguments).arg("mien-author >= 0.1").output();
+        let output = Command::new(&program).args(arguments).output();
         match output {
             Ok(output) if output.status.success() => {
                 String::from_utf8_lossy(&output.stdout).trim().to_string()
@@ -109,11 +110,12 @@ fn link_by_pkg_config(statically: bool) {
             Err(error) => fail(&format!("{} cannot be run: {}", program, error)),
         }
     };
+    let flags = ask(&["--libs-only-L", "mien-author >= 0.1", "mien-solve >= 0.1"]);
     if statically {
-        link_statically(&ask(&["--variable=libdir"]));
+        link_statically(&ask(&["--variable=libdir", "mien-solve"]));
         return;
     }
-    for flag in ask(&["--libs-only-L"]).split_whitespace() {
+    for flag in flags.split_whitespace() {
         let directory = flag.trim_start_matches("-L");
         println!("cargo:rustc-link-search=native={}", directory);
         println!("cargo:lib_dir={}", directory);

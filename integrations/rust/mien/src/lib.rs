@@ -61,6 +61,7 @@ mod deformer_instance;
 mod dna;
 mod document;
 mod error;
+mod fit;
 mod instance;
 mod mix;
 mod mixer;
@@ -86,6 +87,7 @@ pub use deformer_instance::{DeformerInstance, DeformerInstanceOptions};
 pub use dna::{Dna, GenerateOptions, OpenOptions, WriteOptions};
 pub use document::{ControlError, Document, Placement, ProjectOptions};
 pub use error::{Error, Result};
+pub use fit::{reduce_keys, Fit, FitCamera, FitFrame, FitOptions, FitPoint, FitResult, FitSurface};
 pub use generated::*;
 pub use instance::Instance;
 pub use mix::{
@@ -185,6 +187,16 @@ pub fn version() -> (u32, u32, u32) {
 /// ```compile_fail,E0499
 /// fn twice(batch: &mut mien::Batch, face: &mut mien::Instance) {
 ///     batch.evaluate([&mut *face, &mut *face], 0).unwrap();
+/// }
+/// ```
+///
+/// A surface that is gone while a frame has it:
+///
+/// ```compile_fail,E0505
+/// fn solve(fit: &mut mien::Fit, surface: mien::FitSurface, out: &mut [f32]) {
+///     let frame = mien::FitFrame { surface: Some(&surface), ..Default::default() };
+///     drop(surface);
+///     fit.solve(&frame, out).unwrap();
 /// }
 /// ```
 ///

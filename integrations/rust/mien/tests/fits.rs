@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: MIT
+//! Fits: known controls come back; wrong arguments are errors; any order of drops, threads, panics.
+
+use mien::{
+    reduce_keys, Allocator, Deformer, Dna, Fit, FitCamera, FitFrame, FitOptions, FitPoint,
+    FitStatus, FitSurface, Instance, Kind, Normals, Preset, Rig, Status,
+};
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::panic::{catch_unwind, AssertUnwindSafe};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::Arc;
+
+fn made() -> (Rig, Deformer) {
+    let dna = Dna::generate(Preset::SMALL).unwrap();
+    let rig = Rig::new(&dna).unwrap();
+    let deformer = Deformer::new(&dna, &rig).unwrap();
+    (rig, deformer)
+}
+
+fn posed(rig: &Rig) -> Instance {
+    let mut face = rig.instance().unwrap();
+    for (i, value) in face.raw_controls_mut().iter_mut().enumerate() {
+        *value = if i % 4 == 0 { 0.4 } else { 0.0 };
+    }
+    face.evaluate(0).unwrap();
+    face
+}
+
+fn positions(deformer: &Deformer, face: &Instance) -> Vec<[f32; 3]> {
+    let mut pose = deformer.instance().unwrap();
+    pose.update(face).unwrap();
+    pose.deform(0, Normals::NONE).unwrap();
+    pose.positions(0).unwrap().to_vec()
+}
+
+fn extent(positions: &[[f32; 3]]) -> f64 {
+    let xs = positions.iter().map(|p| p[0]);
+    f64::from(xs.clone().fold(f32::MIN, f32::max) - xs.fold(f32::MAX, f32::min))
+}
+
+fn every_position(count: usize) -> Vec<FitPoint> {
+    (0..count).map(FitPoint::from).collect()
+}
+
+fn fails<T>(status: Status, result: mien::Result<T>) {
+    assert_eq!(result.err().map(|error| error.status()), Some(status));
+}
+
+#[test]
+fn joints_give_their_controls() {
+    let (rig, _) = made();
+    let face = posed(&rig);
+    let mut fit = Fit::new(&rig).unwrap();
+    let observed = fit.observability().unwrap();
+    let mut found = vec![0.0; face.raw_controls().len()];
+    let frame = FitFrame { joints: Some(face.joints()), max_iterations: 200, ..Default::default() };
+    let result = fit.solve(&frame, &mut found).unwrap();
+    assert!(result.joint_residual < 0.01 && result.joint_worst >= result.joint_residual);
+    let known = observed.iter().filter(|share| **share >= 0.05).count();
+    assert!(known > found.len() / 2);
+    for (i, value) in found.iter().enumerate() {
+        assert!(observed[i] < 0.05 || (value - face.raw_controls()[i]).abs() < 0.01, "{i}");
+    }
+    // No data: the start.
+    let start = vec![0.25; found.len()];
+    let nothing = FitFrame { start: Some(&start), ..Default::default() };
+    assert_eq!(fit.solve(&nothing, &mut found).unwrap().status, FitStatus::NO_DATA);
+    assert_eq!(found, start);
+}
+
+#[test]
+fn points_and_images_and_surfaces() {
+    let (rig, deformer) = made();
+    let mesh = deformer.mesh(0).unwrap();
+    let points = every_position(mesh.positions.len());
+    let target = positions(&deformer, &posed(&rig));
+    let size = extent(&target);
+    let options = FitOptions { deformer: Some(&deformer), points: &points, ..Default::default() };
+    let mut fit = options.create(&rig).unwrap();
+    let mut found = vec![0.0; rig.count(Kind::RAW_CONTROL)];
+
+    // A target that lies elsewhere, with a point that is missing.
+    let mut moved: Vec<[f32; 3]> = target.iter().map(|p| [p[0] + 1.0, p[1] + 2.0, p[2]]).collect();
+    moved[7] = [f32::NAN; 3];
+    let frame =
+        FitFrame { points: Some(&moved), rigid: true, max_iterations: 200, ..Default::default() };
+    let result = fit.solve(&frame, &mut found).unwrap();
+    assert_eq!(result.missing_points, 1);
+    assert!(result.point_residual < 0.02 * size && result.point_worst < size);
+
+    // The rest, as a camera sees it.
+    let camera = FitCamera {
+        focal: [500.0; 2],
+        center: [320.0, 240.0],
+        rotation: [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0],
+        translation: [0.0, 0.0, 10.0 * size as f32],
+    };
+    let seen = |p: &[f32; 3]| {
+        let z = p[2] + camera.translation[2];
+        [500.0 * p[0] / z + 320.0, 500.0 * p[1] / z + 240.0]
+    };
+    let images: Vec<[f32; 2]> = mesh.positions.iter().map(seen).collect();
+    let frame = FitFrame { images: Some(&images), camera: Some(&camera), ..Default::default() };
+    let result = fit.solve(&frame, &mut found).unwrap();
+    assert!(result.point_residual < 0.5 && result.focal == camera.focal);
+
+    // The target as a surface, whose triangles are of positions.
+    let corner = |v: u32| mesh.vertex_position_indices[v as usize];
+    let triangles: Vec<[u32; 3]> = mesh.triangles.iter().map(|t| t.map(corner)).collect();
+    let surface = FitSurface::new(&target, &triangles).unwrap();
+    let frame = FitFrame {
+        surface: Some(&surface),
+        surface_reach: size as f32,
+        start: Some(&posed(&rig).raw_controls().to_vec()),
+        ..Default::default()
+    };
+    let result = fit.solve(&frame, &mut found).unwrap();
+    assert!(result.point_residual < 1e-3 * size, "{}", result.point_residual);
+}
+
+#[test]
+fn wrong_arguments_are_errors() {
+    let (rig, deformer) = made();
+    let raw = rig.count(Kind::RAW_CONTROL);
+    let face = posed(&rig);
+    let with = |options: FitOptions<'_>| options.create(&rig);
+    let base = FitOptions::default();
+    let point = [FitPoint::from(0)];
+    fails(Status::LOD, with(FitOptions { lod: 99, ..base }));
+    fails(Status::INDEX, with(FitOptions { controls: Some(&[raw as u32]), ..base }));
+    fails(Status::INVALID_ARGUMENT, with(FitOptions { controls: Some(&[3, 1]), ..base }));
+    fails(Status::INVALID_ARGUMENT, with(FitOptions { lower: Some(&[0.0]), ..base }));
+    fails(Status::INVALID_ARGUMENT, with(FitOptions { upper: Some(&[]), ..base }));
+    fails(Status::INVALID_ARGUMENT, with(FitOptions { joint_weights: Some(&[1.0]), ..base }));
+    fails(Status::INDEX, with(FitOptions { symmetric: &[[0, raw as u32]], ..base }));
+    assert!(with(FitOptions { points: &point, ..base }).is_err());
+    let far = [FitPoint { positions: [usize::MAX, 0, 0], weights: [1.0, 0.0, 0.0] }];
+    let deformer = Some(&deformer);
+    fails(Status::INDEX, with(FitOptions { deformer, points: &far, ..base }));
+    fails(Status::INDEX, with(FitOptions { deformer, points: &point, mesh: 99, ..base }));
+
+    let mut fit = with(FitOptions { deformer, points: &point, ..base }).unwrap();
+    let mut out = vec![0.0; raw];
+    let empty = FitFrame::default();
+    let two = [[0.0; 3]; 2];
+    let wrong = Status::INVALID_ARGUMENT;
+    let lengths = [
+        FitFrame { joints: Some(&face.joints()[1..]), ..empty },
+        FitFrame { points: Some(&two), ..empty },
+        FitFrame { images: Some(&[]), ..empty },
+        FitFrame { point_weights: Some(&[1.0, 1.0]), ..empty },
+        FitFrame { start: Some(&[0.0]), ..empty },
+        FitFrame { prior: Some(&[]), ..empty },
+        FitFrame { points: Some(&two[..1]), sparse_weight: -1.0, ..empty },
+        FitFrame { points: Some(&two[..1]), smooth_weight: f32::NAN, ..empty },
+    ];
+    for frame in &lengths {
+        fails(wrong, fit.solve(frame, &mut out));
+    }
+    let images = FitFrame { images: Some(&[[0.0; 2]]), ..empty };
+    fails(Status::NULL_ARGUMENT, fit.solve(&images, &mut out));
+    fails(wrong, fit.solve(&empty, &mut out[1..]));
+
+    let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    fails(Status::INDEX, FitSurface::new(&corners, &[[0, 1, 3]]));
+    fails(wrong, FitSurface::new(&corners, &[]));
+    fails(wrong, FitSurface::new(&[[f32::NAN; 3]; 3], &[[0, 1, 2]]));
+}
+
+#[test]
+fn a_solve_can_be_stopped() {
+    let (rig, _) = made();
+    let face = posed(&rig);
+    let mut fit = Fit::new(&rig).unwrap();
+    let mut out = vec![0.0; face.raw_controls().len()];
+    let frame = FitFrame { joints: Some(face.joints()), ..Default::default() };
+    let mut asked = 0;
+    let result = fit.solve_until(&frame, &mut out, || {
+        asked += 1;
+        asked > 1
+    });
+    assert_eq!(result.unwrap().status, FitStatus::CANCELED);
+    assert_eq!(asked, 2);
+    // A panic comes out, and the fit can be used again.
+    let panic = catch_unwind(AssertUnwindSafe(|| {
+        let _ = fit.solve_until(&frame, &mut out, || panic!("stop"));
+    }));
+    assert!(panic.is_err());
+    assert_eq!(fit.solve(&frame, &mut out).unwrap().status, FitStatus::CONVERGED);
+}
+
+#[derive(Clone, Default)]
+struct Counted(Arc<AtomicUsize>);
+
+// SAFETY: as the system allocator.
+unsafe impl GlobalAlloc for Counted {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        self.0.fetch_add(1, Ordering::Relaxed);
+        unsafe { System.alloc(layout) }
+    }
+    unsafe fn dealloc(&self, block: *mut u8, layout: Layout) {
+        self.0.fetch_sub(1, Ordering::Relaxed);
+        unsafe { System.dealloc(block, layout) }
+    }
+}
+
+#[test]
+fn fits_outlive_what_they_were_made_of() {
+    let live = Counted::default();
+    let memory = Allocator::new(live.clone());
+    let (mut fit, target) = {
+        let (rig, deformer) = made();
+        let target = positions(&deformer, &posed(&rig));
+        let options = FitOptions {
+            deformer: Some(&deformer),
+            points: &every_position(target.len()),
+            allocator: Some(&memory),
+            ..Default::default()
+        };
+        (options.create(&rig).unwrap(), target)
+    };
+    let surface = FitSurface::new_in(&target, &[[0, 1, 2]], &memory).unwrap();
+    drop(memory);
+    assert!(live.0.load(Ordering::Relaxed) >= 2);
+    let mut out = vec![0.0; fit.rig().count(Kind::RAW_CONTROL)];
+    // On another thread, with what does not move.
+    std::thread::scope(|scope| {
+        scope.spawn(|| {
+            let frame = FitFrame { points: Some(&target), ..Default::default() };
+            fit.solve(&frame, &mut out).unwrap();
+        });
+    });
+    assert!(out.iter().any(|value| *value > 0.1));
+    drop((fit, surface));
+    assert_eq!(live.0.load(Ordering::Relaxed), 0);
+}
+
+#[test]
+fn keys_of_a_curve() {
+    let curve = [0.0, 0.25, 0.5, 0.75, 1.0, 0.5, 0.0];
+    assert_eq!(reduce_keys(&curve, 0.001).unwrap(), [0, 4, 6]);
+    assert_eq!(reduce_keys(&[], 0.1).unwrap(), []);
+    fails(Status::INVALID_ARGUMENT, reduce_keys(&curve, -1.0));
+    fails(Status::INVALID_ARGUMENT, reduce_keys(&[f32::NAN], 0.1));
+}
