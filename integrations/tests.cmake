@@ -37,13 +37,13 @@ endif()
 
 add_test(NAME api_bindings
   COMMAND Python3::Interpreter ${integrations}/api/check_bindings.py --self-test)
-set_tests_properties(api_bindings PROPERTIES LABELS guard)
+add_test(NAME api_generated
+  COMMAND Python3::Interpreter ${integrations}/api/generate.py --check all)
+add_test(NAME api_templates
+  COMMAND Python3::Interpreter ${integrations}/api/generate_test.py)
+set_tests_properties(api_bindings api_generated api_templates PROPERTIES LABELS guard)
 
 # ---- Python -----------------------------------------------------------------------------------------
-
-add_test(NAME python_api
-  COMMAND Python3::Interpreter ${integrations}/python/generate_api.py --check)
-set_tests_properties(python_api PROPERTIES LABELS guard)
 
 # The tests want an interpreter with NumPy; the first Python on the path may be one without.
 set(MIEN_PYTHON "" CACHE FILEPATH "Python with NumPy, for the tests of the package")
@@ -182,18 +182,10 @@ else()
   message(STATUS "NOT TESTED: types of the Python package; there is no mypy")
 endif()
 
-# ---- Rust -------------------------------------------------------------------------------------------
-
-# The crates themselves are tested by rust/check.sh, which ./dev test calls where there is a cargo.
-add_test(NAME rust_api
-  COMMAND Python3::Interpreter ${integrations}/rust/generate_api.py --check)
-set_tests_properties(rust_api PROPERTIES LABELS guard)
+# Rust: rust/check.sh tests the crates; ./dev test calls it where there is a cargo.
 
 # ---- Lua --------------------------------------------------------------------------------------------
 
-add_test(NAME lua_api
-  COMMAND Python3::Interpreter ${integrations}/lua/generate_api.py --check)
-set_tests_properties(lua_api PROPERTIES LABELS guard)
 if(MIEN_SANITIZE OR CMAKE_CROSSCOMPILING)
   # LuaJIT is neither built with sanitizers nor for other machines.
 elseif(MIEN_LUAJIT)
@@ -208,9 +200,6 @@ endif()
 
 # ---- C# ---------------------------------------------------------------------------------------------
 
-add_test(NAME csharp_api
-  COMMAND Python3::Interpreter ${integrations}/csharp/generate_api.py --check)
-set_tests_properties(csharp_api PROPERTIES LABELS guard)
 add_test(NAME csharp_project COMMAND Python3::Interpreter ${integrations}/csharp/tests/project_test.py)
 set_tests_properties(csharp_project PROPERTIES LABELS guard)
 if(MIEN_SANITIZE OR CMAKE_CROSSCOMPILING)
@@ -277,9 +266,6 @@ endif()
 
 # ---- Go ---------------------------------------------------------------------------------------------
 
-add_test(NAME go_api
-  COMMAND Python3::Interpreter ${integrations}/go/generate_api.py --check)
-set_tests_properties(go_api PROPERTIES LABELS guard)
 if(MIEN_SANITIZE OR CMAKE_CROSSCOMPILING)
   # Go is neither built with these sanitizers nor for other machines.
 elseif(MIEN_GO)
@@ -292,9 +278,4 @@ else()
   message(STATUS "NOT TESTED: the Go binding; there is no go")
 endif()
 
-# ---- JavaScript -------------------------------------------------------------------------------------
-
-# The package itself is tested by web/tests, which ./dev test runs where there is an emcc.
-add_test(NAME web_api
-  COMMAND Python3::Interpreter ${integrations}/web/generate_api.py --check)
-set_tests_properties(web_api PROPERTIES LABELS guard)
+# JavaScript: web/tests test the package; ./dev test runs them where there is an emcc.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Written by generate_api.py from mien.h. Do not edit.
+// Code generated from integrations/api/mien_api.json by generate.py; run ./dev api. DO NOT EDIT.
 
 use crate::{c_char, c_void, size_of, zeroed, Opaque};
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Written by generate_api.py from mien.h. Do not edit.
+// Code generated from integrations/api/mien_api.json by generate.py; run ./dev api. DO NOT EDIT.
 //! The compiler lays out every struct as the C compiler does.
 #![cfg(target_pointer_width = "64")]
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Written by generate_api.py from mien.h. Do not edit.
+// Code generated from integrations/api/mien_api.json by generate.py; run ./dev api. DO NOT EDIT.
 
 use crate::convert::{flags, numbers, offset, text};
 use mien_sys as sys;
@@ -1792,7 +1792,7 @@ macro_rules! errors {
     (mien_dna_open_file) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
          - [`Status::LOD`](crate::Status::LOD) if it has none of the requested LODs\n\
-         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if memory runs out\n\
          - [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) if this build of libmien opens baked files only\n\
          - [`Status::FILE_OPEN`](crate::Status::FILE_OPEN) if the file cannot be read\n\
          - [`Status::FILE_READ`](crate::Status::FILE_READ) if the file cannot be read\n\
@@ -1807,7 +1807,7 @@ macro_rules! errors {
     (mien_dna_open_memory) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
          - [`Status::LOD`](crate::Status::LOD) if it has none of the requested LODs\n\
-         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if memory runs out\n\
          - [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) if this build of libmien opens baked files only\n\
          - [`Status::DNA_SIGNATURE`](crate::Status::DNA_SIGNATURE) if it is not a DNA file of generation 2\n\
          - [`Status::DNA_VERSION`](crate::Status::DNA_VERSION) if it is not a DNA file of generation 2\n\
@@ -1820,7 +1820,7 @@ macro_rules! errors {
     (mien_dna_open_stream) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
          - [`Status::LOD`](crate::Status::LOD) if it has none of the requested LODs\n\
-         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if memory runs out\n\
          - [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) if this build of libmien opens baked files only\n\
          - [`Status::FILE_READ`](crate::Status::FILE_READ) if the file cannot be read\n\
          - [`Status::DNA_SIGNATURE`](crate::Status::DNA_SIGNATURE) if it is not a DNA file of generation 2\n\
@@ -1909,7 +1909,7 @@ macro_rules! errors {
     };
     (mien_dna_write_memory) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
-         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if memory runs out\n\
          - [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) if this build of libmien opens baked files only\n\
          - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if the file could not be opened in the requested version\n\
          - [`Status::DNA_REFERENCE`](crate::Status::DNA_REFERENCE) if the file could not be opened in the requested version\n\
@@ -1919,14 +1919,14 @@ macro_rules! errors {
     };
     (mien_dna_validate_file) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
-         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if memory runs out\n\
          - [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) if this build of libmien opens baked files only\n\
          - [`Status::FILE_OPEN`](crate::Status::FILE_OPEN) if the file cannot be read\n\
          - [`Status::FILE_READ`](crate::Status::FILE_READ) if the file cannot be read"
     };
     (mien_dna_validate_memory) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
-         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if memory runs out\n\
          - [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) if this build of libmien opens baked files only"
     };
     (mien_report_counts) => {
@@ -1939,7 +1939,7 @@ macro_rules! errors {
     (mien_rig_create) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
          - [`Status::ISA`](crate::Status::ISA) if the requested instruction set is not available\n\
-         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if memory runs out\n\
          - [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) if this build of libmien opens baked files only\n\
          - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if the rig is too large\n\
          - [`Status::DNA_LAYER`](crate::Status::DNA_LAYER) if `dna` was opened without its behavior\n\
@@ -1987,7 +1987,7 @@ macro_rules! errors {
     };
     (mien_instance_create) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
-         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory"
+         - [`Status::MEMORY`](crate::Status::MEMORY) if memory runs out"
     };
     (mien_instance_reset) => {
         "- none with valid arguments"
@@ -2042,7 +2042,7 @@ macro_rules! errors {
     };
     (mien_batch_create) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
-         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory"
+         - [`Status::MEMORY`](crate::Status::MEMORY) if memory runs out"
     };
     (mien_batch_bytes) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range"
@@ -2071,7 +2071,7 @@ macro_rules! errors {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
          - [`Status::MISMATCH`](crate::Status::MISMATCH) if the number or the names of joints, channels or meshes differ from those of the rig\n\
          - [`Status::ISA`](crate::Status::ISA) if the requested instruction set is not available\n\
-         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if memory runs out\n\
          - [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) if this build of libmien opens baked files only\n\
          - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if a position has more than 65535 influences\n\
          - [`Status::DNA_LAYER`](crate::Status::DNA_LAYER) if `dna` was opened without `Layers::GEOMETRY`\n\
@@ -2098,7 +2098,7 @@ macro_rules! errors {
     };
     (mien_deformer_instance_create) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
-         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory"
+         - [`Status::MEMORY`](crate::Status::MEMORY) if memory runs out"
     };
     (mien_deformer_instance_update) => {
         "- [`Status::MISMATCH`](crate::Status::MISMATCH) if `instance` belongs to a rig other than that of the deformer"
@@ -2148,7 +2148,7 @@ macro_rules! errors {
     (mien_derivatives_create) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
          - [`Status::MISMATCH`](crate::Status::MISMATCH) if the deformer is not of the rig\n\
-         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory"
+         - [`Status::MEMORY`](crate::Status::MEMORY) if memory runs out"
     };
     (mien_derivatives_bytes) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
@@ -2185,7 +2185,7 @@ macro_rules! errors {
     };
     (mien_baked_open_file) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
-         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if memory runs out\n\
          - [`Status::FILE_OPEN`](crate::Status::FILE_OPEN) if the file cannot be read\n\
          - [`Status::FILE_READ`](crate::Status::FILE_READ) if the file cannot be read\n\
          - [`Status::BAKED_SIGNATURE`](crate::Status::BAKED_SIGNATURE) if its header is not valid\n\
@@ -2196,7 +2196,7 @@ macro_rules! errors {
     };
     (mien_baked_open_memory) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
-         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if memory runs out\n\
          - [`Status::BAKED_SIGNATURE`](crate::Status::BAKED_SIGNATURE) if its header is not valid\n\
          - [`Status::BAKED_VERSION`](crate::Status::BAKED_VERSION) if its header is not valid\n\
          - [`Status::BAKED_TRUNCATED`](crate::Status::BAKED_TRUNCATED) if its header is not valid\n\
@@ -2205,7 +2205,7 @@ macro_rules! errors {
     };
     (mien_baked_open_stream) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
-         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if memory runs out\n\
          - [`Status::FILE_READ`](crate::Status::FILE_READ) if the file cannot be read\n\
          - [`Status::BAKED_SIGNATURE`](crate::Status::BAKED_SIGNATURE) if its header is not valid\n\
          - [`Status::BAKED_VERSION`](crate::Status::BAKED_VERSION) if its header is not valid\n\
@@ -2219,7 +2219,7 @@ macro_rules! errors {
     (mien_rig_from_baked) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
          - [`Status::ISA`](crate::Status::ISA) if the requested instruction set is not available\n\
-         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if memory runs out\n\
          - [`Status::BAKED_VERSION`](crate::Status::BAKED_VERSION) if its rig cannot be used\n\
          - [`Status::BAKED_STRUCTURE`](crate::Status::BAKED_STRUCTURE) if its rig cannot be used\n\
          - [`Status::BAKED_PART`](crate::Status::BAKED_PART) if the file has no rig"
@@ -2228,7 +2228,7 @@ macro_rules! errors {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
          - [`Status::MISMATCH`](crate::Status::MISMATCH) if `rig` was not created from `baked`\n\
          - [`Status::ISA`](crate::Status::ISA) if the requested instruction set is not available\n\
-         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if memory runs out\n\
          - [`Status::BAKED_VERSION`](crate::Status::BAKED_VERSION) if its deformer cannot be used\n\
          - [`Status::BAKED_STRUCTURE`](crate::Status::BAKED_STRUCTURE) if its deformer cannot be used\n\
          - [`Status::BAKED_PART`](crate::Status::BAKED_PART) if the file has no deformer"
@@ -2236,13 +2236,13 @@ macro_rules! errors {
     (mien_clip_build) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
          - [`Status::NAME`](crate::Status::NAME) if a name is empty or occurs twice\n\
-         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if memory runs out\n\
          - [`Status::CLIP_VALUE`](crate::Status::CLIP_VALUE) if a value is not finite (the message names frame and channel)\n\
          - [`Status::CLIP_LIMIT`](crate::Status::CLIP_LIMIT) if there are too many frames, channels or bytes"
     };
     (mien_clip_open_file) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
-         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if memory runs out\n\
          - [`Status::FILE_OPEN`](crate::Status::FILE_OPEN) if the file cannot be read\n\
          - [`Status::FILE_READ`](crate::Status::FILE_READ) if the file cannot be read\n\
          - [`Status::CLIP_SIGNATURE`](crate::Status::CLIP_SIGNATURE) if it is not a valid clip\n\
@@ -2252,7 +2252,7 @@ macro_rules! errors {
     };
     (mien_clip_open_memory) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
-         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if memory runs out\n\
          - [`Status::CLIP_SIGNATURE`](crate::Status::CLIP_SIGNATURE) if it is not a valid clip\n\
          - [`Status::CLIP_VERSION`](crate::Status::CLIP_VERSION) if it is not a valid clip\n\
          - [`Status::CLIP_TRUNCATED`](crate::Status::CLIP_TRUNCATED) if it is not a valid clip\n\
@@ -2260,7 +2260,7 @@ macro_rules! errors {
     };
     (mien_clip_open_stream) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
-         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if memory runs out\n\
          - [`Status::FILE_READ`](crate::Status::FILE_READ) if the file cannot be read\n\
          - [`Status::CLIP_SIGNATURE`](crate::Status::CLIP_SIGNATURE) if it is not a valid clip\n\
          - [`Status::CLIP_VERSION`](crate::Status::CLIP_VERSION) if it is not a valid clip\n\
@@ -2300,7 +2300,7 @@ macro_rules! errors {
     };
     (mien_clip_player_create) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
-         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory"
+         - [`Status::MEMORY`](crate::Status::MEMORY) if memory runs out"
     };
     (mien_clip_player_info) => {
         "- none with valid arguments"
@@ -2322,7 +2322,7 @@ macro_rules! errors {
     };
     (mien_clip_binding_create) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if a weight is not finite\n\
-         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if memory runs out\n\
          - [`Status::CLIP_LIMIT`](crate::Status::CLIP_LIMIT) if channels drive more than 4095 GUI controls"
     };
     (mien_arkit_matrix) => {
@@ -2343,13 +2343,13 @@ macro_rules! errors {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if a field of `desc` is out of range; the message names it\n\
          - [`Status::MISMATCH`](crate::Status::MISMATCH) if the deformer or the gaze is for another rig\n\
          - [`Status::INDEX`](crate::Status::INDEX) if a landmark names a mesh, position or joint that does not exist\n\
-         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if memory runs out\n\
          - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if guards are measured and raw controls times joints exceed 2^22"
     };
     (mien_mix_open_file) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
          - [`Status::NAME`](crate::Status::NAME) if the rig lacks controls; the message names them\n\
-         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if memory runs out\n\
          - [`Status::FILE_OPEN`](crate::Status::FILE_OPEN) if the file cannot be read\n\
          - [`Status::FILE_READ`](crate::Status::FILE_READ) if the file cannot be read\n\
          - [`Status::MIX_SIGNATURE`](crate::Status::MIX_SIGNATURE) if it is not a valid mix\n\
@@ -2361,7 +2361,7 @@ macro_rules! errors {
     (mien_mix_open_memory) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
          - [`Status::NAME`](crate::Status::NAME) if the rig lacks controls; the message names them\n\
-         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if memory runs out\n\
          - [`Status::MIX_SIGNATURE`](crate::Status::MIX_SIGNATURE) if it is not a valid mix\n\
          - [`Status::MIX_VERSION`](crate::Status::MIX_VERSION) if it is not a valid mix\n\
          - [`Status::MIX_TRUNCATED`](crate::Status::MIX_TRUNCATED) if it is not a valid mix\n\
@@ -2376,12 +2376,12 @@ macro_rules! errors {
     (mien_mix_write_memory) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
          - [`Status::NAME`](crate::Status::NAME) if `mien_mix_write_file()` would fail with them\n\
-         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory"
+         - [`Status::MEMORY`](crate::Status::MEMORY) if memory runs out"
     };
     (mien_mix_write_text) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
          - [`Status::NAME`](crate::Status::NAME) if `mien_mix_write_file()` would fail with them\n\
-         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory"
+         - [`Status::MEMORY`](crate::Status::MEMORY) if memory runs out"
     };
     (mien_mix_info) => {
         "- none with valid arguments"
@@ -2408,7 +2408,7 @@ macro_rules! errors {
     (mien_gaze_create) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if no raw control turns an eye monotonically in one of the four directions\n\
          - [`Status::NAME`](crate::Status::NAME) if there are no such joints\n\
-         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory"
+         - [`Status::MEMORY`](crate::Status::MEMORY) if memory runs out"
     };
     (mien_gaze_info) => {
         "- none with valid arguments"
@@ -2419,7 +2419,7 @@ macro_rules! errors {
     };
     (mien_mixer_create) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
-         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory"
+         - [`Status::MEMORY`](crate::Status::MEMORY) if memory runs out"
     };
     (mien_mixer_play) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if a time, speed or enum value is out of range or a delta clip would play in a layer that overrides\n\
@@ -2497,14 +2497,14 @@ macro_rules! errors {
     (mien_solver_stack_create) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if a number is out of range, or if a solver reads a joint that a later one moves; the message names both\n\
          - [`Status::INDEX`](crate::Status::INDEX) if a joint or curve does not exist\n\
-         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory"
+         - [`Status::MEMORY`](crate::Status::MEMORY) if memory runs out"
     };
     (mien_solver_stack_info) => {
         "- none with valid arguments"
     };
     (mien_solver_state_create) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
-         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory"
+         - [`Status::MEMORY`](crate::Status::MEMORY) if memory runs out"
     };
     (mien_solver_state_step) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `ticks` or the LOD is out of range\n\
@@ -2531,12 +2531,12 @@ macro_rules! errors {
     };
     (mien_dna_generate) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
-         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if memory runs out\n\
          - [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) if this build of libmien opens baked files only"
     };
     (mien_author_rig) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
-         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if memory runs out\n\
          - [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) if this build of libmien opens baked files only\n\
          - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if the file would be too large\n\
          - [`Status::AUTHOR_MESH`](crate::Status::AUTHOR_MESH) if the arrays of the mesh or of the caller's results contradict each other\n\
@@ -2548,7 +2548,7 @@ macro_rules! errors {
     };
     (mien_document_create) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
-         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if memory runs out\n\
          - [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) if this build of libmien opens baked files only\n\
          - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if the loaded part would not open by itself\n\
          - [`Status::DNA_REFERENCE`](crate::Status::DNA_REFERENCE) if the loaded part would not open by itself\n\
@@ -2558,7 +2558,7 @@ macro_rules! errors {
     };
     (mien_document_open_file) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
-         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if memory runs out\n\
          - [`Status::FILE_OPEN`](crate::Status::FILE_OPEN) if the file cannot be read\n\
          - [`Status::FILE_READ`](crate::Status::FILE_READ) if the file cannot be read\n\
          - [`Status::DNA_SIGNATURE`](crate::Status::DNA_SIGNATURE) if it is not a DNA file of generation 2\n\
@@ -2855,7 +2855,7 @@ macro_rules! errors {
     };
     (mien_document_to_dna) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
-         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if memory runs out\n\
          - [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) if this build of libmien opens baked files only\n\
          - [`Status::DNA_TRUNCATED`](crate::Status::DNA_TRUNCATED) if the document is not a valid file; the message names the first invalid field, `mien_document_validate()` lists them all\n\
          - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if the document is not a valid file; the message names the first invalid field, `mien_document_validate()` lists them all\n\
@@ -2883,7 +2883,7 @@ macro_rules! errors {
     };
     (mien_document_write_memory) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
-         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if memory runs out\n\
          - [`Status::DNA_STRUCTURE`](crate::Status::DNA_STRUCTURE) if the document is not a valid file, or would not be one in the requested version\n\
          - [`Status::DNA_REFERENCE`](crate::Status::DNA_REFERENCE) if the document is not a valid file, or would not be one in the requested version\n\
          - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if the file would exceed 4 GiB\n\
@@ -2891,7 +2891,7 @@ macro_rules! errors {
     };
     (mien_document_validate) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
-         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if memory runs out\n\
          - [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) if this build of libmien opens baked files only\n\
          - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if the file would exceed 4 GiB"
     };
@@ -2900,12 +2900,12 @@ macro_rules! errors {
          - [`Status::MISMATCH`](crate::Status::MISMATCH) if the deformer belongs to another rig\n\
          - [`Status::INDEX`](crate::Status::INDEX) if a control, position or mesh does not exist\n\
          - [`Status::LOD`](crate::Status::LOD) if the rig has no such LOD\n\
-         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory"
+         - [`Status::MEMORY`](crate::Status::MEMORY) if memory runs out"
     };
     (mien_fit_surface_create) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if there are no triangles, or a coordinate is not finite\n\
          - [`Status::INDEX`](crate::Status::INDEX) if a position does not exist\n\
-         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory"
+         - [`Status::MEMORY`](crate::Status::MEMORY) if memory runs out"
     };
     (mien_fit_solve) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if two of these are given, or a weight, a control or a number of the camera is not finite, or a weight is negative"
