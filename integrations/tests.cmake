@@ -229,9 +229,12 @@ endif()
 
 # The extension with a host that plays Godot.
 if(NOT CMAKE_CROSSCOMPILING)
-  add_executable(godot_test ${integrations}/godot/face.c ${integrations}/godot/mien_face_3d.c
-    ${integrations}/godot/tests/host.c)
-  target_link_libraries(godot_test PRIVATE mien_author)
+  set(godot4 extension face godot importer mien_face_3d node surface tests/host tests/host_classes tests/host_methods
+    tests/host_values)
+  list(TRANSFORM godot4 PREPEND ${integrations}/godot/)
+  list(TRANSFORM godot4 APPEND .c)
+  add_executable(godot_test ${godot4})
+  target_link_libraries(godot_test PRIVATE mien_author m)
   add_test(NAME godot_test COMMAND godot_test ${CMAKE_CURRENT_BINARY_DIR})
   set_tests_properties(godot_test PROPERTIES LABELS abi TIMEOUT 120)
   # The class for Godot 3, run by its editor and a script.

@@ -15,13 +15,76 @@ void face_close(Face* face) {
   memset(face, 0, sizeof *face);
 }
 
+static int ends_with(const char* path, const char* end) {
+  const size_t length = strlen(path), part = strlen(end);
+  return length > part && strcmp(path + length - part, end) == 0;
+}
+
+/* The bytes of a file, to be freed; NULL on failure. */
+static unsigned char* read_file(const char* path, size_t* out_size, MienStatus* out_status) {
+  FILE* file = fopen(path, "rb");
+  *out_status = MIEN_ERROR_FILE_OPEN;
+  if (!file) return NULL;
+  unsigned char* bytes = NULL;
+  *out_status = MIEN_ERROR_FILE_READ;
+  const long size = fseek(file, 0, SEEK_END) == 0 ? ftell(file) : -1;
+  if (size >= 0 && fseek(file, 0, SEEK_SET) == 0) {
+    *out_size = (size_t)size;
+    bytes = malloc(*out_size + 1);
+    *out_status = bytes ? MIEN_OK : MIEN_ERROR_MEMORY;
+  }
+  if (bytes && fread(bytes, 1, *out_size, file) != *out_size) {
+    free(bytes);
+    bytes = NULL;
+    *out_status = MIEN_ERROR_FILE_READ;
+  }
+  fclose(file);
+  return bytes;
+}
+
+/* Opens the first DNA in an asset: it begins with the signature and generation 2, and bytes behind it are ignored. Only
+ * the first kStarts places that begin so are tried, or else a hostile file could take long. Free `out_bytes` with free()
+ * after closing the DNA. */
+static MienStatus open_asset(const char* path, const MienDnaDesc* desc, unsigned char** out_bytes,
+                             MienDna** out_dna, MienError* error) {
+  enum { kStarts = 64 };
+  static const unsigned char kStart[] = {'D', 'N', 'A', 0, 2};
+  size_t size = 0;
+  MienStatus status;
+  unsigned char* bytes = read_file(path, &size, &status);
+  *out_bytes = bytes;
+  if (!bytes) {
+    error->status = status;
+    snprintf(error->message, sizeof error->message, "cannot read %.200s", path);
+    return status;
+  }
+  error->status = status = MIEN_ERROR_DNA_SIGNATURE;
+  snprintf(error->message, sizeof error->message, "no uncompressed DNA in %.180s", path);
+  int tried = 0;
+  for (size_t at = 0; at + sizeof kStart <= size && tried < kStarts; ++at) {
+    if (memcmp(bytes + at, kStart, sizeof kStart) != 0) continue;
+    ++tried;
+    status = mien_dna_open_memory(bytes + at, size - at, desc, out_dna, error);
+    if (status == MIEN_OK || status == MIEN_ERROR_MEMORY) break;
+  }
+  return status;
+}
+
+static int is_dna(const char* path) {
+  return ends_with(path, ".dna") || ends_with(path, ".uasset");
+}
+
 static MienStatus open_dna(Face* face, const char* path, MienError* error) {
   MienDnaDesc desc = mien_dna_desc_default();
   MienCoordinateSystem system = mien_coordinate_system_default();
   MienStatus status = mien_coordinate_system_find("godot", &system);
   desc.system = &system;
   MienDna* dna = NULL;
-  if (status == MIEN_OK) status = mien_dna_open_file(path, &desc, &dna, error);
+  unsigned char* bytes = NULL;
+  if (status == MIEN_OK) {
+    status = ends_with(path, ".dna") ? mien_dna_open_file(path, &desc, &dna, error)
+                                     : open_asset(path, &desc, &bytes, &dna, error);
+  }
   if (status == MIEN_OK) status = mien_rig_create(dna, NULL, &face->rig, error);
   if (status == MIEN_OK) {
     /* A file may have no geometry: then only values are driven. */
@@ -29,6 +92,7 @@ static MienStatus open_dna(Face* face, const char* path, MienError* error) {
     if (meshes == MIEN_ERROR_MEMORY) status = meshes;
   }
   mien_dna_close(dna);
+  free(bytes);
   return status;
 }
 
@@ -40,11 +104,6 @@ static MienStatus use_baked(Face* face, MienError* error) {
   if (status == MIEN_OK && info.deformer_bytes != 0)
     status = mien_deformer_from_baked(face->baked, face->rig, NULL, &face->deformer, error);
   return status;
-}
-
-static int is_dna(const char* path) {
-  const size_t length = strlen(path);
-  return length > 4 && strcmp(path + length - 4, ".dna") == 0;
 }
 
 static MienStatus open_rig(Face* face, const char* path, MienError* error) {

@@ -16,8 +16,8 @@ typedef struct {
   uint32_t joint_count, channel_count;
 } Face;
 
-/* Opens a DNA file, in the axes and units of Godot, or a baked file, which is told by its name: "*.dna" is DNA. What was
- * open is closed, also on failure. `error` is required. */
+/* Opens a file, which is told by its name: of "*.dna" the DNA and of "*.uasset" the first DNA in it, both in the axes and
+ * units of Godot; any other is a baked file. What was open is closed, also on failure. `error` is required. */
 MienStatus face_open(Face* face, const char* path, MienError* error);
 
 /* The same from the bytes of a baked file, which are copied. */
@@ -25,8 +25,8 @@ MienStatus face_open_bytes(Face* face, const void* bytes, size_t size, MienError
 
 void face_close(Face* face);
 
-/* Bakes a DNA file with its geometry, in the axes and units of Godot; a baked file is checked and read as it is. Free
- * `out_bytes` with free(). */
+/* Bakes a file with its geometry, opened as by face_open(); a baked file is checked and read as it is. Free `out_bytes`
+ * with free(). */
 MienStatus face_bake(const char* path, void** out_bytes, size_t* out_size, MienError* error);
 
 /* Sets a raw control by its name. Returns 0 if there is none. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * The part of Godot's extension interface (4.2 and later, builds with single precision) that the class uses. Its functions
+ * The part of Godot's extension interface (4.2 and later, builds with single precision) that the classes use. Its functions
  * are asked for by name; names, structs and numbers are those of the interface. */
 #ifndef MIEN_GODOT_GDEXTENSION_H
 #define MIEN_GODOT_GDEXTENSION_H
@@ -16,6 +16,9 @@ typedef struct {
 typedef struct {
   void* opaque;
 } GdString;
+typedef struct {
+  void* opaque[2];
+} GdPackedArray; /* of any type of element */
 typedef void* GdObject;
 
 enum {
@@ -27,26 +30,28 @@ enum {
   GD_VECTOR3 = 9,
   GD_QUATERNION = 15,
   GD_STRING_NAME = 21,
-  GD_OBJECT = 24
+  GD_NODE_PATH = 22,
+  GD_RID = 23,
+  GD_OBJECT = 24,
+  GD_DICTIONARY = 27,
+  GD_ARRAY = 28,
+  GD_PACKED_BYTES = 29,
+  GD_PACKED_INT32 = 30,
+  GD_PACKED_STRINGS = 34,
+  GD_PACKED_VECTOR2 = 35,
+  GD_PACKED_VECTOR3 = 36,
+  GD_TYPE_COUNT = 38
 };
-enum { GD_METHOD_NORMAL = 1, GD_USAGE_DEFAULT = 6 };
+enum { GD_METHOD_NORMAL = 1 };
+enum { GD_USAGE_NONE = 0, GD_USAGE_STORAGE = 2, GD_USAGE_EDITOR = 4, GD_USAGE_DEFAULT = 6 };
+enum { GD_HINT_RANGE = 1, GD_HINT_RESOURCE_TYPE = 17, GD_HINT_NODE_PATH_TYPES = 26 };
 enum { GD_CALL_OK = 0, GD_CALL_INVALID_ARGUMENT = 2, GD_CALL_TOO_MANY = 3, GD_CALL_TOO_FEW = 4 };
-enum { GD_LEVEL_SCENE = 2 };
+enum { GD_LEVEL_SCENE = 2, GD_LEVEL_EDITOR = 3 };
 
 typedef struct {
   int32_t error; /* GD_CALL_... */
   int32_t argument, expected;
 } GdCallError;
-
-typedef struct {
-  uint8_t is_virtual, is_abstract, is_exposed;
-  void *set, *get, *get_property_list, *free_property_list, *property_can_revert,
-      *property_get_revert, *validate_property, *notification, *to_string, *reference, *unreference;
-  GdObject (*create_instance)(void* class_userdata);
-  void (*free_instance)(void* class_userdata, void* instance);
-  void *recreate_instance, *get_virtual, *get_virtual_call_data, *call_virtual_with_data, *get_rid,
-      *class_userdata;
-} GdClassInfo2;
 
 typedef struct {
   int32_t type; /* GD_... */
@@ -55,6 +60,24 @@ typedef struct {
   GdString* hint_string;
   uint32_t usage;
 } GdPropertyInfo;
+
+/* Runs a virtual method: arguments point to values, `result` to an empty one. */
+typedef void (*GdVirtual)(void* instance, const void* const* arguments, void* result);
+
+typedef struct {
+  uint8_t is_virtual, is_abstract, is_exposed;
+  uint8_t (*set)(void* instance, const GdStringName* name, const GdVariant* value);
+  uint8_t (*get)(void* instance, const GdStringName* name, GdVariant* result);
+  const GdPropertyInfo* (*get_property_list)(void* instance, uint32_t* count);
+  void (*free_property_list)(void* instance, const GdPropertyInfo* list);
+  void *property_can_revert, *property_get_revert, *validate_property, *notification, *to_string,
+      *reference, *unreference;
+  GdObject (*create_instance)(void* class_userdata);
+  void (*free_instance)(void* class_userdata, void* instance);
+  void* recreate_instance;
+  GdVirtual (*get_virtual)(void* class_userdata, const GdStringName* name);
+  void *get_virtual_call_data, *call_virtual_with_data, *get_rid, *class_userdata;
+} GdClassInfo2;
 
 typedef struct {
   GdStringName* name;

@@ -77,6 +77,7 @@ def main(library, libmien):
             rig = mien.Rig(dna)
             deformer = mien.Deformer(dna, rig)
             rig.bake(project / "baked.rig", deformer)
+        (project / "asset.uasset").write_bytes(bytes(100) + (project / "head.dna").read_bytes() + bytes(100))
         (project / "broken.dna").write_bytes((project / "head.dna").read_bytes()[:1000])
         face, pose = rig.instance(), deformer.instance()
         controls = {name: 0.25 + 0.5 * (index % 2) for index, name in enumerate(list(face)[:12])}

@@ -1,417 +1,539 @@
 /* SPDX-License-Identifier: MIT
- * Plays Godot: implements the functions that the extension asks for, registers the class, makes a node of it, calls its
- * methods as GDScript does, and compares what a skeleton and a mesh got with the library. Counts strings, variants and
- * nodes, none of which may be left. */
-#undef NDEBUG
-#include <assert.h>
-#include <mien.h>
+ * Runs the extension for Godot 4 in a host that plays Godot: the editor imports files; a node takes a rig, controls and
+ * nodes to drive as properties, and by methods as GDScript calls them. What a skeleton, blend shapes and vertex buffers got
+ * is what the library computes. No value, object or reference may be left.
+ *
+ *     godot_test FOLDER */
+#include "host.h"
+
+#include <math.h>
 #include <mien_author.h>
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
-#include "../gdextension.h"
+uint8_t mien_godot_init(GdGetProcAddress get, void* owner, GdInitialization* initialization);
 
-uint8_t mien_godot_init(GdGetProcAddress get, void* library, GdInitialization* initialization);
+/* The same rig with the library alone, in Godot's axes. */
+static MienDna* dna;
+static MienRig* rig;
+static MienDeformer* deformer;
+static MienInstance* instance;
+static MienDeformerInstance* pose;
+static char dna_path[1200], rig_path[1200], asset_path[1200], broken_path[1200];
 
-/* ---- values: a variant is its type, then the value; a string is a pointer to its bytes ------------- */
-
-static int strings, variants, errors;
-
-typedef struct {
-  char kind; /* 's'keleton, 'm'esh or 'n'ode */
-  int count;
-  const char* names[512];
-  float values[512][10];
-  void* face;
-} Object;
-
-static char* copy_text(const char* text) {
-  char* copy = malloc(strlen(text) + 1);
-  assert(copy);
-  strcpy(copy, text);
-  ++strings;
-  return copy;
-}
-static void string_name_new(GdStringName* out, const char* text, uint8_t is_static) {
-  assert(is_static);
-  out->opaque = (void*)(uintptr_t)text;
-}
-static void string_new(GdString* out, const char* text) { out->opaque = copy_text(text); }
-static void string_destroy(void* string) {
-  free(((GdString*)string)->opaque);
-  --strings;
-}
-static int64_t string_to_utf8(const GdString* string, char* out, int64_t size) {
-  const size_t length = strlen(string->opaque);
-  memcpy(out, string->opaque, length < (size_t)size ? length : (size_t)size);
-  return (int64_t)length;
-}
-static size_t size_of(int32_t type) {
-  return type == GD_BOOL ? 1 : type == GD_VECTOR3 ? 12 : type == GD_QUATERNION ? 16 : 8;
-}
-static void make(GdVariant* out, int32_t type, const void* value) {
-  ++variants;
-  memset(out, 0xee, sizeof *out);
-  out->opaque[0] = (uint64_t)type;
-  if (type != GD_STRING) {
-    memcpy(&out->opaque[1], value, size_of(type));
-    return;
-  }
-  char* copy = copy_text(((const GdString*)value)->opaque);
-  memcpy(&out->opaque[1], &copy, sizeof copy);
-}
-static void take(void* out, int32_t type, const GdVariant* variant) {
-  assert((int32_t)variant->opaque[0] == type || (type == GD_FLOAT && variant->opaque[0] == GD_INT));
-  if (type == GD_FLOAT && variant->opaque[0] == GD_INT) {
-    *(double*)out = (double)(int64_t)variant->opaque[1];
-  } else if (type == GD_STRING) {
-    char* text;
-    memcpy(&text, &variant->opaque[1], sizeof text);
-    string_new(out, text);
-  } else {
-    memcpy(out, &variant->opaque[1], size_of(type));
-  }
-}
-#define TYPES(X) \
-  X(GD_BOOL) X(GD_INT) X(GD_FLOAT) X(GD_STRING) X(GD_VECTOR3) X(GD_QUATERNION) X(GD_OBJECT)
-#define CONVERSIONS(type)                                                          \
-  static void from_##type(GdVariant* out, void* value) { make(out, type, value); } \
-  static void to_##type(void* out, const GdVariant* variant) { take(out, type, variant); }
-TYPES(CONVERSIONS)
-static GdFunction get_from(int32_t type) {
-#define FROM(t) \
-  if (type == t) return (GdFunction)from_##t;
-  TYPES(FROM)
-  return NULL;
-}
-static GdFunction get_to(int32_t type) {
-#define TO(t) \
-  if (type == t) return (GdFunction)to_##t;
-  TYPES(TO)
-  return NULL;
-}
-static GdFunction get_destructor(int32_t type) {
-  assert(type == GD_STRING);
-  return (GdFunction)string_destroy;
-}
-static void variant_destroy(GdVariant* variant) {
-  if (variant->opaque[0] == GD_STRING) {
-    GdString string;
-    memcpy(&string, &variant->opaque[1], sizeof string);
-    string_destroy(&string);
-  }
-  if (variant->opaque[0] != GD_NIL) --variants;
-}
-static int32_t variant_type(const GdVariant* variant) { return (int32_t)variant->opaque[0]; }
-
-/* ---- Skeleton3D and MeshInstance3D, as far as they are called -------------------------------------- */
-
-static void variant_call(GdVariant* self, const GdStringName* method,
-                         const GdVariant* const* arguments, int64_t count, GdVariant* result,
-                         GdCallError* error) {
-  Object* object;
-  const char* name = method->opaque;
-  take(&object, GD_OBJECT, self);
-  memset(result, 0, sizeof *result);
-  error->error = GD_CALL_OK;
-  const int is_skeleton = object->kind == 's';
-  if (!strcmp(name, is_skeleton ? "find_bone" : "find_blend_shape_by_name")) {
-    GdString text;
-    int64_t found = -1;
-    assert(count == 1);
-    take(&text, GD_STRING, arguments[0]);
-    for (int i = 0; i < object->count; ++i) {
-      if (!strcmp(object->names[i], text.opaque)) found = i;
-    }
-    string_destroy(&text);
-    make(result, GD_INT, &found);
-    return;
-  }
-  int64_t index;
-  assert(count == 2);
-  take(&index, GD_INT, arguments[0]);
-  assert(index >= 0 && index < object->count);
-  float* values = object->values[index];
-  if (is_skeleton && !strcmp(name, "set_bone_pose_position")) {
-    take(values, GD_VECTOR3, arguments[1]);
-  } else if (is_skeleton && !strcmp(name, "set_bone_pose_rotation")) {
-    take(values + 3, GD_QUATERNION, arguments[1]);
-  } else if (is_skeleton && !strcmp(name, "set_bone_pose_scale")) {
-    take(values + 7, GD_VECTOR3, arguments[1]);
-  } else {
-    double weight;
-    assert(!is_skeleton && !strcmp(name, "set_blend_shape_value"));
-    take(&weight, GD_FLOAT, arguments[1]);
-    values[0] = (float)weight;
-  }
+static void write_bytes(const char* path, const void* bytes, size_t size) {
+  FILE* file = fopen(path, "wb");
+  assert(file && fwrite(bytes, 1, size, file) == size && fclose(file) == 0);
 }
 
-/* ---- classes --------------------------------------------------------------------------------------- */
-
-static int library;
-static GdClassInfo2 class_info;
-static struct {
-  char name[32];
-  GdMethodInfo info;
-  int32_t types[2], result;
-} methods[16];
-static int method_count, is_registered;
-
-static GdObject construct(const GdStringName* name) {
-  assert(!strcmp(name->opaque, "Node3D"));
-  Object* object = calloc(1, sizeof *object);
-  assert(object);
-  object->kind = 'n';
-  return object;
-}
-static void set_instance(GdObject object, const GdStringName* name, void* instance) {
-  assert(!strcmp(name->opaque, "MienFace3D"));
-  ((Object*)object)->face = instance;
-}
-static void register_class(void* owner, const GdStringName* name, const GdStringName* parent,
-                           const GdClassInfo2* info) {
-  assert(owner == &library && !strcmp(name->opaque, "MienFace3D") &&
-         !strcmp(parent->opaque, "Node3D"));
-  assert(info->is_exposed && !info->is_virtual && !info->is_abstract);
-  class_info = *info;
-  is_registered = 1;
-}
-static void register_method(void* owner, const GdStringName* name, const GdMethodInfo* info) {
-  assert(owner == &library && !strcmp(name->opaque, "MienFace3D") &&
-         info->flags == GD_METHOD_NORMAL);
-  assert(info->call && info->ptrcall && info->has_result && info->argument_count <= 2);
-  strcpy(methods[method_count].name, info->name->opaque);
-  methods[method_count].info = *info;
-  for (uint32_t i = 0; i < info->argument_count; ++i) {
-    methods[method_count].types[i] = info->arguments[i].type;
-    assert(*(const char*)info->arguments[i].name->opaque &&
-           info->arguments[i].usage == GD_USAGE_DEFAULT);
-  }
-  methods[method_count++].result = info->result->type;
-}
-static void unregister_class(void* owner, const GdStringName* name) {
-  assert(owner == &library && !strcmp(name->opaque, "MienFace3D"));
-  is_registered = 0;
-}
-static void print_error(const char* text, const char* function, const char* file, int32_t line,
-                        uint8_t notify) {
-  assert(*text && *function && *file && line > 0 && !notify);
-  ++errors;
-}
-
-static const char* missing; /* a function that this Godot does not have */
-
-static GdFunction get_proc_address(const char* name) {
-  static const struct {
-    const char* name;
-    GdFunction function;
-  } kFunctions[] = {
-      {"classdb_construct_object", (GdFunction)construct},
-      {"object_set_instance", (GdFunction)set_instance},
-      {"classdb_register_extension_class2", (GdFunction)register_class},
-      {"classdb_register_extension_class_method", (GdFunction)register_method},
-      {"classdb_unregister_extension_class", (GdFunction)unregister_class},
-      {"string_name_new_with_latin1_chars", (GdFunction)string_name_new},
-      {"string_new_with_utf8_chars", (GdFunction)string_new},
-      {"string_to_utf8_chars", (GdFunction)string_to_utf8},
-      {"variant_call", (GdFunction)variant_call},
-      {"variant_destroy", (GdFunction)variant_destroy},
-      {"variant_get_type", (GdFunction)variant_type},
-      {"variant_get_ptr_destructor", (GdFunction)get_destructor},
-      {"get_variant_from_type_constructor", (GdFunction)get_from},
-      {"get_variant_to_type_constructor", (GdFunction)get_to},
-      {"print_error", (GdFunction)print_error},
-  };
-  for (size_t i = 0; i < sizeof kFunctions / sizeof *kFunctions; ++i) {
-    if (!strcmp(kFunctions[i].name, name))
-      return missing && !strcmp(missing, name) ? NULL : kFunctions[i].function;
-  }
-  printf("the extension asks for %s\n", name);
-  return NULL;
-}
-
-/* ---- calls as GDScript makes them: with variants, or with pointers where types are known ----------- */
-
-static int64_t call(Object* node, const char* name, int with_pointers, const void* first,
-                    const void* second) {
-  const void* values[2] = {first, second};
-  for (int m = 0; m < method_count; ++m) {
-    if (strcmp(methods[m].name, name)) continue;
-    const GdMethodInfo* info = &methods[m].info;
-    int64_t number = 0;
-    if (with_pointers) {
-      info->ptrcall(info->method_userdata, node->face, values, &number);
-      return number;
-    }
-    GdVariant arguments[2], result = {{0}};
-    const GdVariant* list[2] = {&arguments[0], &arguments[1]};
-    GdCallError error = {0};
-    for (uint32_t i = 0; i < info->argument_count; ++i)
-      make(&arguments[i], methods[m].types[i], values[i]);
-    /* Too few arguments, and one of a wrong type, are refused. */
-    info->call(info->method_userdata, node->face, list, info->argument_count - 1, &result, &error);
-    assert(error.error == GD_CALL_TOO_FEW);
-    GdVariant wrong = {{GD_NIL}};
-    const GdVariant* wrong_list[2] = {&wrong, &arguments[1]};
-    info->call(info->method_userdata, node->face, wrong_list, info->argument_count, &result,
-               &error);
-    assert(error.error == GD_CALL_INVALID_ARGUMENT && error.argument == 0);
-    info->call(info->method_userdata, node->face, list, info->argument_count, &result, &error);
-    assert(error.error == GD_CALL_OK && variant_type(&result) == methods[m].result);
-    take(&number, methods[m].result, &result);
-    for (uint32_t i = 0; i < info->argument_count; ++i) variant_destroy(&arguments[i]);
-    variant_destroy(&result);
-    return number;
-  }
-  assert(!"no such method");
-  return 0;
-}
-
-static int64_t open_rig(Object* node, const char* path, int with_pointers) {
-  GdString text;
-  string_new(&text, path);
-  const int64_t status = call(node, "open", with_pointers, &text, NULL);
-  string_destroy(&text);
-  return status;
-}
-
-static const char* name_in(const MienRig* rig, uint32_t kind, uint32_t index) {
-  MienStringView view;
-  assert(mien_rig_name(rig, kind, index, &view) == MIEN_OK);
-  char* name =
-      copy_text("                                                                                ");
-  assert(view.count < strlen(name));
-  memcpy(name, view.data, view.count);
-  name[view.count] = 0;
-  return name;
-}
-
-static void name_all(Object* object, const MienRig* rig, uint32_t kind) {
-  uint32_t count;
-  assert(mien_rig_count(rig, kind, &count) == MIEN_OK && count > 2 && count < 512);
-  /* In another order, and without the last. */
-  for (uint32_t i = 0; i + 1 < count; ++i) object->names[i] = name_in(rig, kind, count - 2 - i);
-  object->count = (int)count - 1;
-}
-
-int main(int argc, char** argv) {
-  assert(argc == 2); /* a folder for files */
-  char dna_path[1024], rig_path[1024];
-  snprintf(dna_path, sizeof dna_path, "%s/godot_test.dna", argv[1]);
-  snprintf(rig_path, sizeof rig_path, "%s/godot_test.rig", argv[1]);
-
-  /* The same rig with the library alone, in Godot's axes. */
+static void make_files(void) {
+  snprintf(dna_path, sizeof dna_path, "%s/godot_test.dna", project_folder);
+  snprintf(rig_path, sizeof rig_path, "%s/godot_test.rig", project_folder);
+  snprintf(asset_path, sizeof asset_path, "%s/godot_test.uasset", project_folder);
+  snprintf(broken_path, sizeof broken_path, "%s/godot_test_broken.uasset", project_folder);
   MienGenerateDesc generate = mien_generate_desc_default();
   generate.preset = MIEN_PRESET_SMALL;
-  MienDna *made, *dna;
+  MienDna* made;
+  size_t size = 0;
   assert(mien_dna_generate(&generate, &made, NULL) == MIEN_OK);
   assert(mien_dna_write_file(made, dna_path, NULL, NULL) == MIEN_OK);
+  assert(mien_dna_write_memory(made, NULL, NULL, 0, &size, NULL) == MIEN_OK);
+  /* An asset: other bytes, among them the beginning of a DNA that is none, then the DNA, then others. */
+  unsigned char* bytes = calloc(size + 300, 1);
+  assert(bytes);
+  memcpy(bytes + 50, "DNA\0\2\0\1", 7);
+  assert(mien_dna_write_memory(made, NULL, bytes + 100, size, &size, NULL) == MIEN_OK);
+  memset(bytes + 100 + size, 0xcd, 200);
+  write_bytes(asset_path, bytes, size + 300);
+  write_bytes(broken_path, bytes, 90);
+  free(bytes);
   mien_dna_close(made);
   MienCoordinateSystem system = mien_coordinate_system_default();
   assert(mien_coordinate_system_find("godot", &system) == MIEN_OK);
   MienDnaDesc desc = mien_dna_desc_default();
   desc.system = &system;
   assert(mien_dna_open_file(dna_path, &desc, &dna, NULL) == MIEN_OK);
-  MienRig* rig;
-  MienDeformer* deformer;
-  MienInstance* instance;
-  MienDeformerInstance* pose;
   assert(mien_rig_create(dna, NULL, &rig, NULL) == MIEN_OK);
   assert(mien_deformer_create(dna, rig, NULL, &deformer, NULL) == MIEN_OK);
   assert(mien_instance_create(rig, NULL, &instance, NULL) == MIEN_OK);
   assert(mien_deformer_instance_create(deformer, NULL, &pose, NULL) == MIEN_OK);
   assert(mien_bake_file(rig, deformer, rig_path, NULL) == MIEN_OK);
+}
 
-  /* A Godot that lacks a function is refused. */
-  GdInitialization start;
-  missing = "variant_call";
-  assert(!mien_godot_init(get_proc_address, &library, &start));
-  missing = NULL;
-  assert(mien_godot_init(get_proc_address, &library, &start) &&
-         start.minimum_level == GD_LEVEL_SCENE);
-  for (int32_t level = 0; level < 4; ++level) {
-    start.initialize(start.userdata, level);
-    assert(is_registered == (level >= GD_LEVEL_SCENE));
-  }
-  assert(method_count == 5);
-  const int kept = strings; /* what the class keeps */
-
-  Object skeleton = {.kind = 's'}, mesh = {.kind = 'm'};
-  name_all(&skeleton, rig, MIEN_KIND_JOINT);
-  name_all(&mesh, rig, MIEN_KIND_BLEND_SHAPE_CHANNEL);
-  Object* node = class_info.create_instance(class_info.class_userdata);
-  assert(node && node->face);
-  Object *skeleton_object = &skeleton, *mesh_object = &mesh, *none = NULL;
-  int64_t lod = 0, no_lod = 99;
-  double value = 0.5;
-
-  /* Before a rig is open, and when it cannot be. */
-  assert(!call(node, "evaluate", 0, &lod, NULL) &&
-         !call(node, "drive_skeleton", 0, &skeleton_object, NULL));
-  assert(open_rig(node, "no such file.dna", 0) == MIEN_ERROR_FILE_OPEN && errors == 1);
-  assert(open_rig(node, "no such file.rig", 1) != MIEN_OK && errors == 2);
-
-  for (int way = 0; way < 2; ++way) { /* variants and DNA, pointers and baked */
-    assert(open_rig(node, way ? rig_path : dna_path, way) == MIEN_OK);
-    GdString wrong;
-    string_new(&wrong, "no such control");
-    assert(!call(node, "set_control", way, &wrong, &value) &&
-           !call(node, "evaluate", way, &no_lod, NULL));
-    string_destroy(&wrong);
-    assert(!call(node, "drive_skeleton", way, &none, NULL) &&
-           !call(node, "drive_mesh", way, &none, NULL));
-    MienMutableFloatView controls;
-    assert(mien_instance_raw_controls(instance, &controls) == MIEN_OK);
-    uint32_t raw_count, joint_count;
-    assert(mien_rig_count(rig, MIEN_KIND_RAW_CONTROL, &raw_count) == MIEN_OK);
-    assert(mien_rig_count(rig, MIEN_KIND_JOINT, &joint_count) == MIEN_OK);
-    for (int frame = 0; frame < 3; ++frame) {
-      for (uint32_t c = 0; c < raw_count; ++c) {
-        const double set = (double)((c * 7 + (uint32_t)frame * 3 + (uint32_t)way) % 11) / 10;
-        controls.data[c] = (float)set;
-        GdString name;
-        const char* text = name_in(rig, MIEN_KIND_RAW_CONTROL, c);
-        name.opaque = (void*)(uintptr_t)text;
-        assert(call(node, "set_control", way, &name, &set));
-        string_destroy(&name);
-      }
-      assert(call(node, "evaluate", way, &lod, NULL));
-      assert(call(node, "drive_skeleton", way, &skeleton_object, NULL));
-      assert(call(node, "drive_mesh", way, &mesh_object, NULL));
-      assert(mien_rig_evaluate(rig, instance, 0) == MIEN_OK);
-      assert(mien_deformer_instance_update(pose, instance) == MIEN_OK);
-      float transforms[512 * 10];
-      MienFloatView weights;
-      assert(mien_deformer_instance_local_transforms(pose, transforms, (size_t)10 * joint_count) ==
-             MIEN_OK);
-      assert(mien_instance_blend_shapes(instance, &weights) == MIEN_OK);
-      for (int i = 0; i < skeleton.count; ++i) {
-        assert(!memcmp(skeleton.values[i], transforms + 10 * (skeleton.count - 1 - i), 40));
-      }
-      int moved = 0;
-      for (int i = 0; i < mesh.count; ++i) {
-        assert(mesh.values[i][0] == weights.data[mesh.count - 1 - i]);
-        moved += mesh.values[i][0] != 0;
-      }
-      assert(moved != 0);
-    }
-  }
-
-  class_info.free_instance(class_info.class_userdata, node->face);
-  free(node);
-  start.deinitialize(start.userdata, GD_LEVEL_SCENE);
-  assert(!is_registered && variants == 0);
-  for (int i = 0; i < skeleton.count; ++i) free((void*)(uintptr_t)skeleton.names[i]);
-  for (int i = 0; i < mesh.count; ++i) free((void*)(uintptr_t)mesh.names[i]);
-  assert(strings - skeleton.count - mesh.count == kept);
+static void remove_files(void) {
+  remove(dna_path), remove(rig_path), remove(asset_path), remove(broken_path);
   mien_deformer_instance_destroy(pose);
   mien_instance_destroy(instance);
   mien_deformer_destroy(deformer);
   mien_rig_destroy(rig);
   mien_dna_close(dna);
-  remove(dna_path);
-  remove(rig_path);
-  puts("node, skeleton and mesh agree with the library");
+}
+
+static uint32_t count_of(uint32_t kind) {
+  uint32_t count;
+  assert(mien_rig_count(rig, kind, &count) == MIEN_OK);
+  return count;
+}
+
+static const char* name_in(uint32_t kind, uint32_t index) {
+  MienStringView view;
+  assert(mien_rig_name(rig, kind, index, &view) == MIEN_OK);
+  char* name = malloc(view.count + 1);
+  assert(name);
+  memcpy(name, view.data, view.count);
+  name[view.count] = 0;
+  return name;
+}
+
+/* ---- calls as GDScript makes them: with variants, or with pointers where types are known ------------- */
+
+static int64_t call(Object* node, const char* name, int with_pointers, const void* first,
+                    const void* second) {
+  const void* values[2] = {first, second};
+  const GdMethodInfo* info = find_method(node, name);
+  int64_t number = 0;
+  if (with_pointers) {
+    info->ptrcall(info->method_userdata, node->instance, values, &number);
+    return number;
+  }
+  GdVariant arguments[2], result = {{0}}, wrong = {{GD_NIL}};
+  const GdVariant *list[2] = {&arguments[0], &arguments[1]},
+                  *wrong_list[2] = {&wrong, &arguments[1]};
+  GdCallError error = {0, 0, 0};
+  const int64_t count = info->argument_count;
+  for (int64_t i = 0; i < count; ++i) make(&arguments[i], info->arguments[i].type, values[i]);
+  info->call(info->method_userdata, node->instance, list, count - 1, &result, &error);
+  assert(error.error == GD_CALL_TOO_FEW);
+  info->call(info->method_userdata, node->instance, wrong_list, count, &result, &error);
+  assert(error.error == GD_CALL_INVALID_ARGUMENT && error.argument == 0);
+  info->call(info->method_userdata, node->instance, list, count, &result, &error);
+  assert(error.error == GD_CALL_OK);
+  take(&number, info->result->type, &result);
+  for (int64_t i = 0; i < count; ++i) variant_destroy(&arguments[i]);
+  variant_destroy(&result);
+  return number;
+}
+
+static int64_t call_with_text(Object* node, const char* name, int with_pointers, const char* text,
+                              const void* second) {
+  GdString string;
+  string_new(&string, text);
+  const int64_t number = call(node, name, with_pointers, &string, second);
+  string_destroy(&string);
+  return number;
+}
+
+static uint8_t set_value(Object* node, const char* name, int32_t type, const void* value) {
+  GdVariant variant;
+  make(&variant, type, value);
+  const uint8_t is_set = set_property(node, name, &variant);
+  variant_destroy(&variant);
+  return is_set;
+}
+
+static void set_path(Object* node, const char* name, Object* target) {
+  char text[32];
+  GdString string;
+  snprintf(text, sizeof text, "%p", (void*)target);
+  string_new(&string, text);
+  assert(set_value(node, name, GD_NODE_PATH, &string));
+  string_destroy(&string);
+}
+
+/* ---- what the library computes ---------------------------------------------------------------------- */
+
+static float control_at(uint32_t control, uint32_t frame) {
+  return (float)((control * 7 + frame * 3) % 11) / 10;
+}
+
+static void evaluate_alone(uint32_t frame) {
+  MienMutableFloatView controls;
+  assert(mien_instance_raw_controls(instance, &controls) == MIEN_OK);
+  for (uint32_t c = 0; c < controls.count; ++c) controls.data[c] = control_at(c, frame);
+  assert(mien_rig_evaluate(rig, instance, 0) == MIEN_OK);
+  assert(mien_deformer_instance_update(pose, instance) == MIEN_OK);
+}
+
+static void compare_targets(const Object* skeleton, const Object* mesh) {
+  float transforms[MAX_TARGETS * 10];
+  MienFloatView weights;
+  assert(mien_deformer_instance_local_transforms(pose, transforms, sizeof transforms / 4) ==
+         MIEN_OK);
+  assert(mien_instance_blend_shapes(instance, &weights) == MIEN_OK);
+  for (int i = 0; i < skeleton->count; ++i)
+    assert(!memcmp(skeleton->values[i], transforms + 10 * (skeleton->count - 1 - i), 40));
+  int moved = 0;
+  for (int i = 0; i < mesh->count; ++i) {
+    assert(mesh->values[i][0] == weights.data[mesh->count - 1 - i]);
+    moved += mesh->values[i][0] != 0;
+  }
+  assert(moved != 0);
+}
+
+/* The direction that 2 x 16 bits stand for, on the octahedron. */
+static void decode_normal(const unsigned char* bits, double* out) {
+  uint16_t raw[2];
+  memcpy(raw, bits, 4);
+  const double x = raw[0] / 65535. * 2 - 1, y = raw[1] / 65535. * 2 - 1;
+  const double z = 1 - fabs(x) - fabs(y), fold = z < 0 ? -z : 0;
+  const double v[3] = {x + (x >= 0 ? -fold : fold), y + (y >= 0 ? -fold : fold), z};
+  const double length = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+  for (int k = 0; k < 3; ++k) out[k] = v[k] / length;
+}
+
+/* Faces are wound as Godot draws them, clockwise seen from outside, and v is counted from the top. */
+static void compare_surface(const Object* array_mesh, const MienMesh* neutral) {
+  double outward = 0;
+  assert(array_mesh->index_count == (size_t)3 * neutral->triangle_count);
+  for (size_t t = 0; t < array_mesh->index_count; t += 3) {
+    const float* corners[3];
+    for (size_t k = 0; k < 3; ++k) {
+      const int32_t vertex = array_mesh->indices[t + k];
+      corners[k] =
+          neutral->positions.data + (size_t)3 * neutral->vertex_position_indices.data[vertex];
+    }
+    const float* normal = neutral->normals.data + 3 * array_mesh->indices[t];
+    for (int k = 0; k < 3; ++k) {
+      const int a = (k + 1) % 3, b = (k + 2) % 3;
+      outward +=
+          (double)normal[k] *
+          ((double)(corners[1][a] - corners[0][a]) * (double)(corners[2][b] - corners[0][b]) -
+           (double)(corners[1][b] - corners[0][b]) * (double)(corners[2][a] - corners[0][a]));
+    }
+  }
+  assert(outward < 0);
+  for (size_t v = 0; v < neutral->vertex_count; ++v) {
+    assert(array_mesh->texture_coordinates[2 * v] == neutral->texture_coordinates.data[2 * v]);
+    assert(array_mesh->texture_coordinates[2 * v + 1] ==
+           1 - neutral->texture_coordinates.data[2 * v + 1]);
+  }
+}
+
+/* The vertex buffer of a MeshInstance3D has a mesh of the rig as it is deformed now. */
+static void compare_vertices(const Object* mesh_instance, uint32_t mesh) {
+  Object* array_mesh;
+  MienMesh neutral = mien_mesh_default();
+  MienFloatView positions, normals;
+  assert(mesh_instance->has_mesh);
+  take(&array_mesh, GD_OBJECT, &mesh_instance->mesh);
+  assert(mien_deformer_mesh(deformer, mesh, &neutral) == MIEN_OK);
+  assert(mien_deformer_instance_deform(pose, mesh, MIEN_NORMALS_DEFAULT, NULL) == MIEN_OK);
+  assert(mien_deformer_instance_positions(pose, mesh, &positions) == MIEN_OK);
+  assert(mien_deformer_instance_normals(pose, mesh, &normals) == MIEN_OK);
+  assert(array_mesh->vertex_count == neutral.vertex_count && array_mesh->update_count > 0);
+  compare_surface(array_mesh, &neutral);
+  int moved = 0;
+  for (uint32_t v = 0; v < neutral.vertex_count; ++v) {
+    const size_t p = neutral.vertex_position_indices.data[v];
+    double normal[3];
+    assert(!memcmp(array_mesh->buffer + (size_t)12 * v, positions.data + 3 * p, 12));
+    moved += memcmp(neutral.positions.data + 3 * p, positions.data + 3 * p, 12) != 0;
+    decode_normal(array_mesh->buffer + 12 * array_mesh->vertex_count + (size_t)4 * v, normal);
+    for (int k = 0; k < 3; ++k)
+      assert(fabs(normal[k] - (double)normals.data[(size_t)3 * v + (size_t)k]) < 2e-4);
+  }
+  assert(moved != 0);
+}
+
+/* In another order, and without the last. */
+static Object* make_target(const char* class_name, uint32_t kind) {
+  Object* object = construct(class_name);
+  const uint32_t count = count_of(kind);
+  assert(count > 2 && count < MAX_TARGETS);
+  for (uint32_t i = 0; i + 1 < count; ++i) object->names[i] = name_in(kind, count - 2 - i);
+  object->count = (int)count - 1;
+  return object;
+}
+
+static void free_target(Object* object) {
+  for (int i = 0; i < object->count; ++i) free((void*)(uintptr_t)object->names[i]);
+  free_object(object);
+}
+
+/* ---- methods ---------------------------------------------------------------------------------------- */
+
+static void test_methods(void) {
+  Object *node = construct("MienFace3D"), *none = NULL;
+  Object* skeleton = make_target("Skeleton3D", MIEN_KIND_JOINT);
+  Object* mesh = make_target("MeshInstance3D", MIEN_KIND_BLEND_SHAPE_CHANNEL);
+  const int64_t lod = 0, no_lod = 99;
+  const double half = 0.5;
+  errors = 0;
+  assert(!call(node, "evaluate", 0, &lod, NULL) &&
+         !call(node, "drive_skeleton", 0, &skeleton, NULL));
+  assert(call_with_text(node, "open", 0, "no such file.dna", NULL) == MIEN_ERROR_FILE_OPEN);
+  assert(call_with_text(node, "open", 1, "no such file.rig", NULL) != MIEN_OK);
+  assert(call_with_text(node, "open", 1, "no such file.uasset", NULL) == MIEN_ERROR_FILE_OPEN);
+  assert(call_with_text(node, "open", 1, broken_path, NULL) != MIEN_OK && errors == 4);
+
+  const char* const paths[] = {dna_path, rig_path, asset_path};
+  for (int way = 0; way < 3; ++way) { /* variants first, then pointers */
+    assert(call_with_text(node, "open", way, paths[way], NULL) == MIEN_OK);
+    assert(!call_with_text(node, "set_control", way, "no such control", &half));
+    assert(!call(node, "evaluate", way, &no_lod, NULL));
+    assert(!call(node, "drive_skeleton", way, &none, NULL) &&
+           !call(node, "drive_mesh", way, &none, NULL));
+    GdString first_mesh, no_mesh;
+    const char* name = name_in(MIEN_KIND_MESH, 0);
+    string_new(&first_mesh, name);
+    string_new(&no_mesh, "no such mesh");
+    free((void*)(uintptr_t)name);
+    for (uint32_t frame = 0; frame < 3; ++frame) {
+      for (uint32_t c = 0; c < count_of(MIEN_KIND_RAW_CONTROL); ++c) {
+        const double set = (double)control_at(c, frame + (uint32_t)way);
+        name = name_in(MIEN_KIND_RAW_CONTROL, c);
+        assert(call_with_text(node, "set_control", way, name, &set));
+        free((void*)(uintptr_t)name);
+      }
+      assert(call(node, "evaluate", way, &lod, NULL));
+      assert(call(node, "drive_skeleton", way, &skeleton, NULL));
+      assert(call(node, "drive_mesh", way, &mesh, NULL));
+      assert(call(node, "drive_vertices", way, &mesh, &first_mesh));
+      assert(!call(node, "drive_vertices", way, &mesh, &no_mesh));
+      evaluate_alone(frame + (uint32_t)way);
+      compare_targets(skeleton, mesh);
+      compare_vertices(mesh, 0);
+    }
+    string_destroy(&first_mesh);
+    string_destroy(&no_mesh);
+  }
+  free_object(node);
+  free_target(skeleton);
+  free_target(mesh);
+}
+
+/* ---- the importer ----------------------------------------------------------------------------------- */
+
+static void run(const Object* object, const char* name, const void* const* arguments,
+                void* result) {
+  const GdVirtual method = virtual_of(object, name);
+  assert(method);
+  method(object->instance, arguments, result);
+}
+
+static void expect_text(const Object* object, const char* name, const char* text) {
+  GdString string = {NULL};
+  const int64_t first = 0;
+  const void* const arguments[] = {&first};
+  run(object, name, arguments, &string);
+  assert(!strcmp(string.opaque, text));
+  string_destroy(&string);
+}
+
+static int64_t import_file(const char* name) {
+  GdString source, target;
+  int64_t error = -1;
+  const GdPackedArray options = {{NULL, NULL}};
+  char path[256];
+  snprintf(path, sizeof path, "res://%s", name);
+  string_new(&source, path);
+  string_new(&target, "res://.godot/imported/it");
+  const void* const arguments[] = {&source, &target, &options, &options, &options};
+  run(import_plugin, "_import", arguments, &error);
+  string_destroy(&source);
+  string_destroy(&target);
+  return error;
+}
+
+static Object* saved_rig(void) {
+  Object* resource;
+  assert(type_of(&saved) == GD_OBJECT && !strcmp(saved_path, "res://.godot/imported/it.res"));
+  take(&resource, GD_OBJECT, &saved);
+  assert(is_class(resource, "MienRig"));
+  return resource;
+}
+
+static void test_importer(Object* plugin) {
+  run(plugin, "_enter_tree", NULL, NULL);
+  assert(import_plugin && import_plugin->refs == 2); /* the editor's and the plug-in's */
+  expect_text(import_plugin, "_get_importer_name", "mien.rig");
+  expect_text(import_plugin, "_get_visible_name", "Mien Rig");
+  expect_text(import_plugin, "_get_save_extension", "res");
+  expect_text(import_plugin, "_get_resource_type", "MienRig");
+  expect_text(import_plugin, "_get_preset_name", "Default");
+  int64_t number = -1;
+  double priority = 0;
+  uint8_t truth = 0;
+  run(import_plugin, "_get_preset_count", NULL, &number);
+  assert(number == 1);
+  run(import_plugin, "_get_import_order", NULL, &number);
+  run(import_plugin, "_get_priority", NULL, &priority);
+  run(import_plugin, "_get_option_visibility", NULL, &truth);
+  assert(number == 0 && priority == 1 && truth == 1);
+  GdPackedArray list = {{NULL, NULL}}, options = {{NULL, NULL}};
+  run(import_plugin, "_get_recognized_extensions", NULL, &list);
+  run(import_plugin, "_get_import_options", NULL, &options);
+  const Block* extensions = list.opaque[0];
+  assert(extensions->count == 3 && !options.opaque[0]);
+  GdString second;
+  memcpy(&second, extensions->data + sizeof second, sizeof second);
+  assert(!strcmp(second.opaque, "uasset"));
+  packed_destroy(&list);
+  assert(!virtual_of(import_plugin, "_no_such_method"));
+
+  errors = 0;
+  assert(import_file("godot_test_broken.uasset") == 16 && import_file("none.dna") == 16 &&
+         errors == 2);
+  assert(type_of(&saved) == GD_NIL);
+  const char* const names[] = {"godot_test.uasset", "godot_test.rig", "godot_test.dna"};
+  for (int i = 0; i < 3; ++i) {
+    assert(import_file(names[i]) == 0);
+    Object* resource = saved_rig();
+    assert(resource->refs == 1); /* what was saved keeps it */
+    GdVariant bytes;
+    assert(get_property(resource, "baked", &bytes));
+    const Block* block = block_of(&bytes);
+    size_t size = 0;
+    assert(mien_bake_memory(rig, deformer, NULL, 0, &size, NULL) == MIEN_OK &&
+           block->count == size);
+    unsigned char* wanted = malloc(size);
+    assert(wanted && mien_bake_memory(rig, deformer, wanted, size, &size, NULL) == MIEN_OK);
+    assert(!memcmp(wanted, block->data, size));
+    free(wanted);
+    variant_destroy(&bytes);
+  }
+  run(plugin, "_exit_tree", NULL, NULL);
+  assert(!import_plugin);
+}
+
+/* ---- properties, as the editor and scenes set them --------------------------------------------------- */
+
+static double control_property(Object* node, uint32_t control, double set) {
+  char property[600];
+  GdVariant variant;
+  const char* name = name_in(MIEN_KIND_RAW_CONTROL, control);
+  snprintf(property, sizeof property, "controls/%s", name);
+  free((void*)(uintptr_t)name);
+  double value = set;
+  if (set >= 0) assert(set_value(node, property, GD_FLOAT, &value));
+  assert(get_property(node, property, &variant));
+  take(&value, GD_FLOAT, &variant);
+  variant_destroy(&variant);
+  return value;
+}
+
+/* Numbers of properties that are stored in scenes, and of all. */
+static uint32_t stored_properties(Object* node, uint32_t* out_all) {
+  const GdClassInfo2* info = class_info(node);
+  uint32_t stored = 0;
+  const GdPropertyInfo* list = info->get_property_list(node->instance, out_all);
+  assert(!strcmp(name_text(list[0].name), "rig")); /* opened before controls are set */
+  for (uint32_t p = 0; p < *out_all; ++p) stored += (list[p].usage & GD_USAGE_STORAGE) != 0;
+  info->free_property_list(node->instance, list);
+  return stored;
+}
+
+static void process(Object* node) {
+  const double delta = 1. / 60;
+  const void* const arguments[] = {&delta};
+  run(node, "_process", arguments, NULL);
+}
+
+static void test_preview(void) {
+  Object *node = construct("MienFace3D"), *resource = saved_rig(), *nothing = NULL;
+  Object* skeleton = make_target("Skeleton3D", MIEN_KIND_JOINT);
+  Object* mesh = make_target("MeshInstance3D", MIEN_KIND_BLEND_SHAPE_CHANNEL);
+  const uint32_t control_count = count_of(MIEN_KIND_RAW_CONTROL),
+                 mesh_count = count_of(MIEN_KIND_MESH);
+  uint32_t all = 0;
+  const uint8_t on = 1, off = 0;
+  const int64_t no_lod = 99, lod = 0;
+  const double half = 0.5;
+  errors = list_changes = 0;
+  process(node); /* without a rig */
+  assert(stored_properties(node, &all) == 5 && all == 5);
+  assert(!set_value(node, "no such property", GD_FLOAT, &half) &&
+         !set_value(node, "rig", GD_FLOAT, &half));
+  assert(set_value(node, "rig", GD_OBJECT, &resource) && list_changes == 1 && resource->refs == 2);
+  assert(stored_properties(node, &all) == 5 && all == 5 + control_count);
+  assert(!set_value(node, "controls/no such control", GD_FLOAT, &half));
+  set_path(node, "skeleton", skeleton);
+  set_path(node, "mesh", mesh);
+  for (uint32_t frame = 0; frame < 3; ++frame) {
+    if (frame == 1) assert(set_value(node, "show_geometry", GD_BOOL, &on));
+    for (uint32_t c = 0; c < control_count; ++c)
+      assert((float)control_property(node, c, (double)control_at(c, frame)) ==
+             control_at(c, frame));
+    process(node);
+    evaluate_alone(frame);
+    compare_targets(skeleton, mesh);
+    assert(node->child_count == 0 || frame > 0);
+  }
+  assert(stored_properties(node, &all) > 5); /* controls that are not 0 */
+
+  /* Meshes of its own: those of the LOD, as children that show the same. */
+  uint32_t shown = 0;
+  Object* child = NULL;
+  while (next_child(node, child)) {
+    child = next_child(node, child);
+    MienMesh neutral = mien_mesh_default();
+    while (mien_deformer_mesh(deformer, shown, &neutral) == MIEN_OK && !(neutral.lods & 1)) ++shown;
+    assert(shown < mesh_count);
+    compare_vertices(child, shown++);
+  }
+  assert(child && child->is_visible);
+
+  /* Nothing happens until something changes; then what changed shows. */
+  skeleton->values[0][0] = 1234;
+  process(node);
+  assert(skeleton->values[0][0] == 1234);
+  control_property(node, 0, 0.25);
+  process(node);
+  assert(skeleton->values[0][0] != 1234);
+  assert(set_value(node, "lod", GD_INT, &no_lod) && errors == 0);
+  process(node);
+  assert(errors == 1);
+  assert(set_value(node, "lod", GD_INT, &lod) && set_value(node, "show_geometry", GD_BOOL, &off));
+  end_frame();
+  assert(node->child_count == 0);
+  process(node);
+
+  /* A node that is gone, a resource that is no rig, and no rig again. */
+  set_path(node, "skeleton", NULL);
+  free_target(skeleton);
+  process(node);
+  Object* other = construct("MienFace3D");
+  assert(!set_value(node, "show_geometry", GD_OBJECT, &other) && errors == 1);
+  assert(set_value(node, "rig", GD_OBJECT, &other) && errors == 2 && resource->refs == 1);
+  process(node);
+  assert(set_value(node, "rig", GD_OBJECT, &nothing) && resource->refs == 1);
+  process(node);
+  assert(stored_properties(node, &all) == 5 && all == 5 && errors == 2);
+  free_object(other);
+  free_object(node);
+  free_target(mesh);
+}
+
+int main(int argc, char** argv) {
+  assert(argc == 2);
+  snprintf(project_folder, sizeof project_folder, "%s", argv[1]);
+  make_files();
+  GdInitialization start;
+  missing = "variant_call"; /* a Godot that lacks a function is refused */
+  assert(!mien_godot_init(get_proc_address, &library, &start));
+  missing = NULL;
+  assert(mien_godot_init(get_proc_address, &library, &start) &&
+         start.minimum_level == GD_LEVEL_SCENE);
+  const Alive before = alive;
+  for (int32_t level = GD_LEVEL_SCENE; level <= GD_LEVEL_EDITOR; ++level) {
+    start.initialize(start.userdata, level);
+    assert(class_count() == (level == GD_LEVEL_SCENE ? 2 : 4));
+  }
+  assert(method_count() == 6 && editor_plugin);
+  const Alive kept = alive; /* what the classes keep */
+
+  test_methods();
+  Object* plugin = construct(editor_plugin);
+  test_importer(plugin);
+  test_preview();
+  variant_destroy(&saved);
+  free_object(plugin);
+  assert(!memcmp(&alive, &kept, sizeof alive));
+
+  start.deinitialize(start.userdata, GD_LEVEL_EDITOR);
+  assert(!editor_plugin && class_count() == 2);
+  start.deinitialize(start.userdata, GD_LEVEL_SCENE);
+  assert(class_count() == 0 && !memcmp(&alive, &before, sizeof alive));
+  remove_files();
+  puts("importer, node, skeleton, blend shapes and vertex buffers agree with the library");
   return 0;
 }

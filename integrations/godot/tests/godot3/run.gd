@@ -76,6 +76,8 @@ func _init():
 	character.rig = load("res://baked.rig")
 	character.show_controls()
 	values.baked = numbers_of(skeleton)
+	var asset = load("res://asset.uasset")
+	expect(asset != null and asset.bytes == load("res://head.dna").bytes, "the DNA in an asset is imported")
 	expect(load("res://broken.dna") == null, "a broken file is not imported")
 
 	var face = character.face

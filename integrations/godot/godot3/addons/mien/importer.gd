@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Makes a MienRig of a DNA file, baked with its geometry in the axes and units of Godot, or of a file that is baked.
+# Makes a MienRig of a .dna or .uasset file, baked with its geometry in the axes and units of Godot, or of a baked file.
 tool
 extends EditorImportPlugin
 
@@ -13,7 +13,7 @@ func get_visible_name():
 	return "Mien rig"
 
 func get_recognized_extensions():
-	return ["dna", "rig"]
+	return ["dna", "uasset", "rig"]
 
 func get_save_extension():
 	return "res"
