@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: MIT
 """Runs the commands of the program on damaged files. `./dev fuzz --commands SECONDS` calls it.
 
-    commands.py PROGRAM SECONDS [--seed N] [--jobs N] [--only COMMAND,...] [--findings DIR]
+    commands.py PROGRAM SECONDS [--plain] [--seed N] [--jobs N] [--only COMMAND,...] [--findings DIR]
 
-PROGRAM is one with sanitizers. Each run damages one input of a command, now and then also an option.
+PROGRAM is one with sanitizers, or any other with --plain. Each run damages one input of a command, now and then also
+an option.
 What must hold: the exit code is 0 to 4; no sanitizer speaks, and no signal ends the program; messages
 hold no control characters; within a minute of CPU time and 2 GiB it is done; without success nothing is written, and
 nothing but the outputs ever is. The inputs and the command line of a finding are kept. Exits with 1 if
@@ -29,6 +30,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 import edit_scripts  # noqa: E402
 
 SCENE = pathlib.Path(__file__).resolve().parents[2] / "examples" / "scene.json"
+WRONG = ("Sanitizer", "runtime error", "out of memory", "internal error")  # in messages
 SECONDS_AT_MOST = 60  # of CPU time; by the clock ten times that
 ENVIRONMENT = dict(os.environ, ASAN_OPTIONS="allocator_may_return_null=1:hard_rss_limit_mb=2048",
                    UBSAN_OPTIONS="halt_on_error=1")
@@ -146,7 +148,7 @@ def damage_binary(rng, data, others):
     return bytes(data)
 
 
-def one_run(program, commands, inputs, seed, scratch, findings):
+def one_run(limits, program, commands, inputs, seed, scratch, findings):
     """The finding, or nothing."""
     rng = random.Random(seed)
     folder = pathlib.Path(tempfile.mkdtemp(dir=scratch))
@@ -180,7 +182,7 @@ def one_run(program, commands, inputs, seed, scratch, findings):
     before = {path.name for path in folder.iterdir()}
     what = ""
     try:
-        done = subprocess.run(["prlimit", f"--cpu={SECONDS_AT_MOST}", program, *arguments], cwd=folder,
+        done = subprocess.run(["prlimit", f"--cpu={SECONDS_AT_MOST}", *limits, program, *arguments], cwd=folder,
                               env=ENVIRONMENT, capture_output=True, timeout=10 * SECONDS_AT_MOST,
                               stdin=subprocess.DEVNULL, check=False)
     except subprocess.TimeoutExpired:
@@ -190,7 +192,7 @@ def one_run(program, commands, inputs, seed, scratch, findings):
         written = {path.name for path in folder.iterdir()} - before
         # Materials beside an OBJ file.
         surplus = written - outputs - {"out.mtl"}
-        if done.returncode not in range(5) or "Sanitizer" in errors or "runtime error" in errors:
+        if done.returncode not in range(5) or any(word in errors for word in WRONG):
             what = f"exit code {done.returncode}\n{errors}"
         elif re.search(r"[\0-\x08\x0b-\x1f\x7f]", errors):
             what = f"control characters in a message\n{errors!r}"
@@ -212,6 +214,7 @@ def main():
     parser = argparse.ArgumentParser(description="Runs the program on damaged files.")
     parser.add_argument("program", type=pathlib.Path)
     parser.add_argument("seconds", type=int)
+    parser.add_argument("--plain", action="store_true", help="the program has no sanitizers")
     parser.add_argument("--seed", type=int, default=int(time.time()))
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--only", default="", metavar="COMMAND,...", help="these commands of the program")
@@ -219,6 +222,7 @@ def main():
     options = parser.parse_args()
     program = options.program.resolve()
     options.findings.mkdir(parents=True, exist_ok=True)
+    limits = ["--as=2147483648"] if options.plain else []  # sanitizers have a limit of their own
     only = options.only.split(",") if options.only else [command.split()[0] for command in COMMANDS]
     commands = [command for command in COMMANDS if command.split()[0] in only]
     if not commands:
@@ -237,7 +241,7 @@ def main():
 
         def work():
             while time.monotonic() < end and len(found) < 20:
-                command, what = one_run(program, commands, inputs, next(seeds), scratch, options.findings)
+                command, what = one_run(limits, program, commands, inputs, next(seeds), scratch, options.findings)
                 runs[command] += 1
                 if what:
                     found.append(what)

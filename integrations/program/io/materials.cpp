@@ -24,7 +24,7 @@ constexpr const char* kMaterialsExample =
     R"(write {"materials": [{"name": "skin", "textures": {"base_color": "skin.png"}}], )"
     R"("meshes": {"head_lod0_mesh": "skin"}})";
 constexpr size_t kMaxFileBytes = size_t{16} << 20;
-constexpr size_t kMaxMaterials = 4096, kMaxNameBytes = 255, kMaxPathBytes = 4095;
+constexpr size_t kMaxMaterials = 4096;
 constexpr uint64_t kMaxTextureBytes = uint64_t{256} << 20;
 
 constexpr TextureKind kKinds[] = {TextureKind::kBaseColor, TextureKind::kNormal,

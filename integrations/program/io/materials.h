@@ -19,6 +19,8 @@ namespace mien::cli {
 
 enum class TextureKind { kBaseColor, kNormal, kRoughness };
 constexpr size_t kTextureKinds = 3;
+/// The longest names of materials and objects, and paths of textures, that are read.
+constexpr size_t kMaxNameBytes = 255, kMaxPathBytes = 4095;
 /// As the file and texture_folder.h name them: base_color, ...
 const char* texture_kind_name(TextureKind kind);
 

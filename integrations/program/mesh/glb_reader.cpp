@@ -25,7 +25,7 @@ constexpr size_t kMaxTargets = 4096;  // each takes memory for all positions
 // What looking at one of them takes, in numbers that are read in the same time.
 constexpr size_t kNodeNumbers = 128, kPrimitiveNumbers = 256, kTargetNumbers = 64;
 
-constexpr size_t kMaxPathBytes = 4095, kMaxMaterialName = 200;
+constexpr size_t kMaxMaterialName = 200;
 
 /// %20 is a space.
 std::string unescaped(const std::string& uri) {

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr size_t kMaxMaterials = 65536, kMaxNameBytes = 255, kMaxPathBytes = 4095;
+constexpr size_t kMaxMtlMaterials = 65536;
 
 /// Words that follow an option of a texture; -1 for what is no option.
 int option_words_of(std::string_view word) {
@@ -72,7 +72,7 @@ void read_mtl(const std::string& bytes, const std::string& path, MeshFile& mesh)
     if (keyword == "newmtl") {
       const std::string name = lines.name();
       if (name.size() > kMaxNameBytes) lines.fail("the name is longer than 255 bytes");
-      if (++count > kMaxMaterials) lines.fail("more than 65536 materials");
+      if (++count > kMaxMtlMaterials) lines.fail("more than 65536 materials");
       const auto found = wanted.find(name);
       unused = {};
       current = found == wanted.end() ? &unused : found->second;

@@ -16,7 +16,6 @@ namespace {
 constexpr size_t kMaxPositions = size_t{1} << 26;
 constexpr size_t kMaxFaceCorners = 65535;
 constexpr size_t kMaxLibraries = 64;
-constexpr size_t kMaxNameBytes = 255;  // an object's comes back with each of its groups
 
 /// A number of a position or UV, from 1 or from the end; -1 if there is none.
 int64_t read_index(std::string_view text, size_t count, const char* what, const TextLines& lines) {

@@ -55,8 +55,9 @@ class Help(ProgramTest):
             for line in text[text.index("Examples:"):].splitlines()[1:]:
                 if "CTRL_C_jaw" in line or "take" in line and command != "eval":
                     continue
-                # Some write other rigs of this name.
-                shutil.copy(path("head.dna"), work)
+                # Some write other rigs of this name. A tolerance is measured in many poses.
+                rig = "small.dna" if "--tolerance" in line else "head.dna"
+                shutil.copy(path(rig), os.path.join(work, "head.dna"))
                 line = line.strip().replace("mien ", '"$MIEN" ')
                 done = subprocess.run(["bash", "-c", line], cwd=work, capture_output=True, check=False,
                                       env={**os.environ, "MIEN": program.mien})
