@@ -262,14 +262,23 @@ endif()
 
 # The plugin against stubs of the engine's headers.
 if(NOT CMAKE_CROSSCOMPILING)
-  set(unreal ${integrations}/unreal/Mien/Source/MienFace)
-  add_executable(unreal_test ${unreal}/Private/AnimNode_Mien.cpp ${unreal}/Private/MienFaceComponent.cpp
-    ${unreal}/Private/MienModule.cpp ${integrations}/unreal/tests/host.cpp)
-  target_include_directories(unreal_test PRIVATE ${unreal}/Public ${integrations}/unreal/tests/stubs)
+  set(unreal ${integrations}/unreal/Mien/Source)
+  add_executable(unreal_test ${unreal}/MienFace/Private/AnimNode_Mien.cpp
+    ${unreal}/MienFace/Private/MienFaceComponent.cpp ${unreal}/MienFace/Private/MienModule.cpp
+    ${unreal}/MienFaceEditor/Private/AnimGraphNode_Mien.cpp ${unreal}/MienFaceEditor/Private/MienEditorModule.cpp
+    ${integrations}/unreal/tests/host.cpp)
+  target_include_directories(unreal_test PRIVATE ${unreal}/MienFace/Public ${unreal}/MienFaceEditor/Public
+    ${integrations}/unreal/tests/stubs)
   target_compile_options(unreal_test PRIVATE -frtti)
   target_link_libraries(unreal_test PRIVATE mien_author)
   add_test(NAME unreal_test COMMAND unreal_test ${CMAKE_CURRENT_BINARY_DIR})
   set_tests_properties(unreal_test PROPERTIES LABELS abi TIMEOUT 120)
+  if(MIEN_INSTALL AND NOT MIEN_SANITIZE)
+    add_test(NAME unreal_plugin_test
+      COMMAND Python3::Interpreter ${integrations}/unreal/tests/plugin_test.py ${PROJECT_BINARY_DIR}
+        "$<$<BOOL:${MIEN_MCS}>:${MIEN_MCS}>" "$<$<BOOL:${MIEN_MONO}>:${MIEN_MONO}>")
+    set_tests_properties(unreal_plugin_test PROPERTIES LABELS abi TIMEOUT 120)
+  endif()
 endif()
 
 # ---- Go ---------------------------------------------------------------------------------------------

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Runs component and animation node for some frames as an actor would, and compares with the library.
+// Runs component and animation node for some frames as an actor would, compares with the library, and reads what the
+// editor shows of the node.
 #undef NDEBUG
 #include <mien_author.h>
 
 #include <cassert>
 
+#include "AnimGraphNode_Mien.h"
 #include "AnimNode_Mien.h"
 #include "Animation/AnimInstanceProxy.h"
 #include "Components/SkeletalMeshComponent.h"
@@ -102,6 +104,40 @@ int main(int argc, char** argv) {
     }
     face.EndPlay(EEndPlayReason::Destroyed);
   }
+  {
+    // The component is destroyed before the node: the pose stays as it comes in.
+    FAnimNode_Mien node;
+    auto gone = std::make_unique<UMienFaceComponent>();
+    actor.Components = {&mesh, gone.get()};
+    gone->Owner = &actor;
+    gone->RigFile = baked.c_str();
+    gone->BeginPlay();
+    gone->TickComponent(0.1f, LEVELTICK_All, nullptr);
+    FAnimInstanceProxy proxy{&mesh};
+    node.Initialize_AnyThread({&proxy});
+    FPoseContext output;
+    output.Pose.Bones.Bones[gone->JointNames()[0]] = 0;
+    output.Pose.Transforms.resize(1);
+    output.Pose.Transforms[0].Translation.X = 4321;
+    node.Evaluate_AnyThread(output);
+    assert(output.Pose.Transforms[0].Translation.X != 4321);
+    output.Pose.Transforms[0].Translation.X = 1234;
+    gone->EndPlay(EEndPlayReason::Destroyed);
+    gone.reset();
+    node.Evaluate_AnyThread(output);
+    assert(output.Pose.Transforms[0].Translation.X == 1234);
+  }
+
+  // The node of animation graphs has an animation node, and says what it is.
+  const UAnimGraphNode_Mien graph_node;
+  const FAnimNode_Base& animation_node = graph_node.Node;
+  assert(dynamic_cast<const FAnimNode_Mien*>(&animation_node));
+  const UAnimGraphNode_Base& base = graph_node;
+  assert(base.GetNodeTitle(ENodeTitleType::ListView).ToString().text == "Mien");
+  assert(base.GetNodeCategory().text == "Animation|Mien" &&
+         !base.GetTooltipText().ToString().text.empty());
+  assert(base.GetNodeTitleColor().A == 1);
+
   mien_deformer_instance_destroy(pose);
   mien_instance_destroy(instance);
   mien_deformer_destroy(deformer);

@@ -6,11 +6,13 @@
 #include <cstdint>
 #include <cstdio>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <vector>
 
 #define MIENFACE_API
+#define MIENFACEEDITOR_API
 #define UCLASS(...)
 #define USTRUCT(...)
 #define UPROPERTY(...)
@@ -80,6 +82,23 @@ struct FTransform {
   FTransform() = default;
   FTransform(const FQuat& r, const FVector& t, const FVector& s)
       : Rotation(r), Translation(t), Scale3D(s) {}
+};
+
+/// Objects of the engine, and pointers that know whether theirs is gone.
+struct UObject {
+  const std::shared_ptr<bool> Lives = std::make_shared<bool>(true);
+  virtual ~UObject() = default;
+};
+template <class T>
+struct TWeakObjectPtr {
+  T* Object = nullptr;
+  std::weak_ptr<bool> Lives;
+  TWeakObjectPtr& operator=(T* object) {
+    Object = object;
+    Lives = object ? object->Lives : std::weak_ptr<bool>();
+    return *this;
+  }
+  T* Get() const { return Lives.expired() ? nullptr : Object; }
 };
 
 using FCriticalSection = std::mutex;

@@ -10,8 +10,16 @@ public class MienFace : ModuleRules {
     PublicDependencyModuleNames.AddRange(new string[] { "Core", "CoreUObject", "Engine" });
     string Root = Path.Combine(PluginDirectory, "ThirdParty", "mien");
     PublicSystemIncludePaths.Add(Path.Combine(Root, "include"));
-    bool IsWindows = Target.Platform == UnrealTargetPlatform.Win64;
-    PublicAdditionalLibraries.Add(Path.Combine(Root, "lib", IsWindows ? "mien.lib" : "libmien.so"));
-    RuntimeDependencies.Add(Path.Combine(Root, IsWindows ? "bin/mien.dll" : "lib/libmien.so.0"));
+    // What is linked, and what goes beside the game.
+    string Linked = "lib/libmien.so", Shipped = "lib/libmien.so.0";
+    if (Target.Platform == UnrealTargetPlatform.Win64) {
+      Linked = "lib/mien.lib";
+      Shipped = "bin/mien.dll";
+    } else if (Target.Platform == UnrealTargetPlatform.Mac) {
+      Linked = "lib/libmien.dylib";
+      Shipped = "lib/libmien.0.dylib";
+    }
+    PublicAdditionalLibraries.Add(Path.Combine(Root, Linked));
+    RuntimeDependencies.Add(Path.Combine(Root, Shipped));
   }
 }

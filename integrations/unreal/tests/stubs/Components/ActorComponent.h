@@ -11,12 +11,11 @@ struct FActorComponentTickFunction {
 };
 
 class AActor;
-class UActorComponent {
+class UActorComponent : public UObject {
  public:
   typedef UActorComponent Super;  // the header tool writes it into each class
   FActorComponentTickFunction PrimaryComponentTick;
   AActor* Owner = nullptr;
-  virtual ~UActorComponent() = default;
   AActor* GetOwner() const { return Owner; }
   virtual void BeginPlay() {}
   virtual void EndPlay(const EEndPlayReason::Type) {}

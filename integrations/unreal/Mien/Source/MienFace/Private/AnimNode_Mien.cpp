@@ -23,10 +23,11 @@ void FAnimNode_Mien::Update_AnyThread(const FAnimationUpdateContext& Context) {
 
 void FAnimNode_Mien::Evaluate_AnyThread(FPoseContext& Output) {
   BasePose.Evaluate(Output);
-  if (!Face) return;
-  Face->CopyJointTransforms(Transforms);
+  const UMienFaceComponent* Component = Face.Get();
+  if (!Component) return;
+  Component->CopyJointTransforms(Transforms);
   const FBoneContainer& Bones = Output.Pose.GetBoneContainer();
-  const TArray<FName>& Joints = Face->JointNames();
+  const TArray<FName>& Joints = Component->JointNames();
   for (int32 Joint = 0; Joint < Transforms.Num() && Joint < Joints.Num(); ++Joint) {
     const int32 Bone = Bones.GetPoseBoneIndexForBoneName(Joints[Joint]);
     if (Bone == INDEX_NONE) continue;

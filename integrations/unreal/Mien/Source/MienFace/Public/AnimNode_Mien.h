@@ -24,6 +24,6 @@ struct MIENFACE_API FAnimNode_Mien : public FAnimNode_Base {
   virtual void Evaluate_AnyThread(FPoseContext& Output) override;
 
  private:
-  UMienFaceComponent* Face = nullptr;
+  TWeakObjectPtr<UMienFaceComponent> Face;  // the component may be destroyed before the node
   TArray<FTransform> Transforms;
 };
