@@ -42,6 +42,14 @@ for file in share/man/man1/mien.1.gz share/bash-completion/completions/mien \
   [ -s "$root/usr/$file" ] || { echo "no $file" >&2; exit 1; }
 done
 
+if [ -e "$here/../../build/web/viewer/index.html" ]; then
+  for file in index.html viewer.js mien/mien.wasm three/three.module.min.js; do
+    [ -s "$root/usr/share/mien/viewer/$file" ] || { echo "no $file in the page of the viewer" >&2; exit 1; }
+  done
+else
+  echo "NOT TESTED: the page of the viewer in the Debian package; ./dev web build has not made it"
+fi
+
 if command -v lintian >/dev/null; then
   lintian --allow-root --fail-on error,warning "${packages[@]}"
   echo "lintian has nothing to say"
