@@ -4,13 +4,14 @@
 
 Usage: examples_agree.py --python INTERPRETER --cargo CARGO_OR_NOTHING --luajit LUAJIT_OR_NOTHING
                          --mcs MCS_OR_NOTHING --mono MONO_OR_NOTHING --go GO_OR_NOTHING
-                         --programs DIRECTORY
+                         --programs DIRECTORY [--web PACKAGE_OR_NOTHING]
 The programs in C and C++ are DIRECTORY/example_c, _cpp, _mix_c and _mix_cpp.
 The library is found by the environment: MIEN_LIBRARY (Python, Lua), MIEN_LIB_DIR (Rust),
-LD_LIBRARY_PATH (C#, Go), CGO_CFLAGS and CGO_LDFLAGS (Go).
+LD_LIBRARY_PATH (C#, Go), CGO_CFLAGS and CGO_LDFLAGS (Go). PACKAGE is the npm package that `./dev web build` makes.
 """
 import argparse
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -58,6 +59,15 @@ def golang(go, name, directory):
     return [directory / f"{name}_go"]
 
 
+def javascript(package, directory):
+    """The folder of the examples in JavaScript, from where they find the package by its name."""
+    (directory / "node_modules").mkdir()
+    (directory / "node_modules" / "mien").symlink_to(package.resolve(), target_is_directory=True)
+    for name in ("evaluate.mjs", "mix.mjs"):
+        shutil.copy(HERE / name, directory)
+    return directory
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--programs", type=Path, required=True)
@@ -67,6 +77,7 @@ def main():
     parser.add_argument("--go", default="")
     parser.add_argument("--mcs", default="")
     parser.add_argument("--mono", default="")
+    parser.add_argument("--web", default="")
     args = parser.parse_args()
 
     programs = {"C": ["example_c"], "C++": ["example_cpp"]}
@@ -103,6 +114,14 @@ def main():
     else:
         programs["Go"] = golang(args.go, "evaluate", Path(compiled.name))
         mixing["Go"] = golang(args.go, "mix", Path(compiled.name))
+    node = shutil.which("node")
+    if not args.web or not node:
+        print("NOT TESTED: the example in JavaScript; there is no " + ("node" if args.web else "npm package"))
+    else:
+        folder = javascript(Path(args.web), Path(compiled.name))
+        programs["JavaScript"] = [node, folder / "evaluate.mjs"]
+        mixing["JavaScript"] = [node, folder / "mix.mjs"]
+        os.environ["MIEN_ISA"] = "scalar"  # the bits of WebAssembly
 
     readme = (HERE.parent / "README.md").read_text(encoding="utf-8")
     if readme.split("```c\n")[1].split("```")[0] not in (HERE / "evaluate.c").read_text(encoding="utf-8"):
@@ -122,7 +141,7 @@ def main():
             results = {name: run(command, [str(argument) for argument in arguments])
                        for name, command in programs.items()}
             for name, (succeeded, text) in results.items():
-                print(f"{name:<8}{text.strip() if succeeded else 'fails'}")
+                print(f"{name:<11}{text.strip() if succeeded else 'fails'}")
             failures += len(set(results.values())) != 1
             if results["C"][0] == (arguments[-1:] in (["missing"], [broken])):
                 sys.exit(f"C with {arguments}: {results['C']}")

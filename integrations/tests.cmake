@@ -164,15 +164,21 @@ if(NOT MIEN_SANITIZE AND NOT CMAKE_CROSSCOMPILING)
   set(go_environment "GOCACHE=${PROJECT_BINARY_DIR}/go" "GOFLAGS=-mod=mod" "GOPROXY=off"
     "CGO_CFLAGS=-O1 -I${PROJECT_SOURCE_DIR}/capi/include" "CGO_LDFLAGS=-L$<TARGET_FILE_DIR:mien>"
     "LD_LIBRARY_PATH=$<TARGET_FILE_DIR:mien>")
-  add_test(NAME examples_agree
-    COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/examples/examples_agree.py --python ${MIEN_PYTHON}
-      --cargo "$<$<BOOL:${MIEN_CARGO}>:${MIEN_CARGO}>"
-      --luajit "$<$<BOOL:${MIEN_LUAJIT}>:${MIEN_LUAJIT}>"
-      --go "$<$<BOOL:${MIEN_GO}>:${MIEN_GO}>"
-      --mcs "$<$<BOOL:${MIEN_MCS}>:${MIEN_MCS}>" --mono "$<$<BOOL:${MIEN_MONO}>:${MIEN_MONO}>"
-      --programs $<TARGET_FILE_DIR:example_c>)
-  set_tests_properties(examples_agree PROPERTIES LABELS abi TIMEOUT 600
-    ENVIRONMENT "${python_environment};${go_environment};MIEN_LIB_DIR=$<TARGET_FILE_DIR:mien>;CARGO_TARGET_DIR=${PROJECT_BINARY_DIR}/rust/target/shared")
+  set(examples_environment ${python_environment} ${go_environment} "MIEN_LIB_DIR=$<TARGET_FILE_DIR:mien>"
+    "CARGO_TARGET_DIR=${PROJECT_BINARY_DIR}/rust/target/shared")
+  set(examples_command ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/examples/examples_agree.py --python ${MIEN_PYTHON}
+    --cargo "$<$<BOOL:${MIEN_CARGO}>:${MIEN_CARGO}>"
+    --luajit "$<$<BOOL:${MIEN_LUAJIT}>:${MIEN_LUAJIT}>"
+    --go "$<$<BOOL:${MIEN_GO}>:${MIEN_GO}>"
+    --mcs "$<$<BOOL:${MIEN_MCS}>:${MIEN_MCS}>" --mono "$<$<BOOL:${MIEN_MONO}>:${MIEN_MONO}>"
+    --programs $<TARGET_FILE_DIR:example_c>)
+  add_test(NAME examples_agree COMMAND ${examples_command})
+  set_tests_properties(examples_agree PROPERTIES LABELS abi TIMEOUT 600 ENVIRONMENT "${examples_environment}")
+  # The same with the npm package, for ./dev test --all: examples_agree.sh --web PACKAGE
+  list(JOIN examples_environment "' '" quoted_environment)
+  list(JOIN examples_command "' '" quoted_command)
+  file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/examples_agree.sh
+    CONTENT "exec env '${quoted_environment}' '${quoted_command}' \"$@\"\n")
 endif()
 
 # ---- types of the Python package --------------------------------------------------------------------

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Mixes, mixers, gazes and solvers: rows reach instances, what they read stays in memory, wrong calls throw.
 import assert from "node:assert/strict";
-import { execFileSync } from "node:child_process";
-import { copyFileSync, existsSync, mkdirSync, mkdtempSync, rmSync, symlinkSync } from "node:fs";
-import { tmpdir } from "node:os";
-import { dirname, join } from "node:path";
+import { join } from "node:path";
 import { test } from "node:test";
-import { api, Mien, packageFolder, program, project, sameBits } from "./support.mjs";
+import { api, Mien, project, sameBits } from "./support.mjs";
 
 const {
   ArgumentError, BlendMode, Generator, Guard, Kind, LayerGroup, MixError, MixLayer, Mixer, Preset, SolverState, Status, ticks,
@@ -90,43 +87,6 @@ test("layers, streams and reactions reach the instance", () => {
   for (const name of ["eyeSquintLeft", "mouthSmileLeft", "jawOpen"]) assert.equal(face.controls[name], 0);
   for (const object of [face, clip, mix, mixer]) object.dispose();
 });
-
-test("the examples in JavaScript print what those in C print", async (context) => {
-  const tests = join(dirname(program), "../tests");
-  if (!existsSync(join(tests, "example_mix_c"))) {
-    console.log("NOT TESTED: the examples in JavaScript; the examples in C were not built");
-    context.skip();
-    return;
-  }
-  const work = mkdtempSync(join(tmpdir(), "mien-examples-"));
-  try {
-    mkdirSync(join(work, "node_modules"));
-    symlinkSync(packageFolder, join(work, "node_modules/mien"));
-    for (const name of ["mix.mjs", "evaluate.mjs"]) copyFileSync(join(project, "examples", name), join(work, name));
-    // The bits of WebAssembly are those of this instruction set.
-    const env = { ...process.env, MIEN_ISA: "sse2" };
-    const tiny = join(project, "tests/golden/tiny.dna");
-    const golden = await mien.openRig(tiny);
-    for (const [inC, example, args, isRight] of [
-      ["example_mix_c", "mix.mjs", [], true], ["example_c", "evaluate.mjs", [tiny, golden.name(Kind.RAW_CONTROL, 0)], true],
-      ["example_c", "evaluate.mjs", [tiny, "missing"], false],
-    ]) {
-      const expected = run(join(tests, inC), args, env);
-      assert.equal(expected !== "fails", isRight);
-      assert.equal(run(process.execPath, [join(work, example), ...args], env), expected, `${example} ${args}`);
-    }
-  } finally {
-    rmSync(work, { recursive: true });
-  }
-});
-
-function run(program, args, env) {
-  try {
-    return execFileSync(program, args, { env, encoding: "utf8", stdio: ["ignore", "pipe", "ignore"] });
-  } catch {
-    return "fails";
-  }
-}
 
 test("snapshots continue to the bit, and wrong ones are refused", () => {
   const clip = speech();
