@@ -80,7 +80,7 @@ LATER_IN_ALL = (
     "mien_rig_evaluate_twist_", "mien_rig_initial_", "mien_rig_psd_", "mien_rig_statistics", "mien_rig_variable_",
     "mien_solver_", *_SOLVING)
 LATER = {
-    "Rust": _DERIVATIVES, "JavaScript": _SOLVING,
+    "Rust": _DERIVATIVES, "JavaScript": _DERIVATIVES,
     "Lua": LATER_IN_ALL + ("mien_deformer_bind_", "mien_deformer_influences", "mien_deformer_instance_local_",
                            "mien_deformer_inverse_", "mien_deformer_target"),
     "Go": LATER_IN_ALL + ("MienCoordinateSystem.", "MienMixDesc.custom_", "MienVertexOutput.tangents",

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * What the WebAssembly module has besides the libraries: streams that JavaScript reads, solvers that it
- * runs, and progress that it is told. Function pointers are not for JavaScript to write. */
+ * runs, progress that it is told, and whether it cancels. Function pointers are not for JavaScript to write. */
 #include "capi/include/mien.h"
 
 /* Copies `size` bytes at `offset` of file `user` to `buffer`; see mien/memory.js. */
@@ -30,3 +30,11 @@ int32_t mien_web_progress(void* user, const char* step, double share);
 uintptr_t mien_web_progress_function(void);
 
 uintptr_t mien_web_progress_function(void) { return (uintptr_t)mien_web_progress; }
+
+/* Asks the function `user` whether to stop; see mien/memory.js. */
+uint32_t mien_web_canceled(void* user);
+
+/* For MienFitFrame.canceled. */
+uintptr_t mien_web_canceled_function(void);
+
+uintptr_t mien_web_canceled_function(void) { return (uintptr_t)mien_web_canceled; }

@@ -4,6 +4,7 @@
 //     DNA file or baked file -> Rig -> Instance          controls in; joint values, weights out
 //                                 \ -> Deformer -> DeformerInstance   matrices and vertices
 //                                 \ -> Mix -> Mixer   clips, poses and reactions in; controls of an Instance
+//                                 \ -> Fit            captured joints, points, surfaces in; controls
 //     DNA file -> Dna -> Document -> DNA file            changed
 //
 // Objects have memory in the module, which is released by dispose() or `using`, never by itself. Typed arrays
@@ -19,7 +20,7 @@ import type {
   TwistSolver, WriteDesc, BakedCheck, AimSolver as AimSolverDesc, BlendMode, CopySolver as CopySolverDesc,
   Generator as GeneratorKind, LayerGroup, LayerSource, MixLayer as MixLayerDesc,
   AuthorBone as AuthorBoneDesc, AuthorDesc, Conformed, ControlError, Placement, ProjectDesc, PruneJointsDesc, PrunedJoints,
-  PrunedTargets, TransplantDesc,
+  PrunedTargets, TransplantDesc, FitCamera, FitFrame as FitFrameDesc, FitResult as FitResultDesc,
 } from "./api.js";
 
 export * from "./api.js";
@@ -158,6 +159,12 @@ export class Mien {
   /** A document of an open DNA file, which may be disposed afterwards; of null, an empty one. Not in the module that
    * opens baked files only. */
   createDocument(dna?: Dna | null): Document;
+  /** A surface without correspondences, for Fit.solve(): three numbers per position, and three positions per
+   * triangle. Not in the module that opens baked files only. */
+  createFitSurface(positions: Numbers, triangles: Integers): FitSurface;
+  /** Frame numbers of the keys of a curve, the first and the last frame among them: straight lines between them are
+   * within `tolerance` of all values. Not in the module that opens baked files only. */
+  reduceKeys(values: Numbers, tolerance: number): Uint32Array;
   /** The rig of an open DNA file, which may be disposed afterwards. */
   createRig(dna: Dna, options?: CreateRigOptions): Rig;
 }
@@ -368,6 +375,9 @@ export interface Rig extends Handle {
   instance(): Instance;
   batch(desc?: BatchDesc): Batch;
   batchBytes(desc?: BatchDesc): number;
+  /** What finds controls for captured motion. Measures the effect of each control, which takes up to some seconds for
+   * large rigs. Not in the module that opens baked files only. */
+  fit(options?: FitOptions): Fit;
   /** Layers, reactions and guards for characters of this rig. */
   mix(options?: MixOptions): Mix;
   /** Pairs of raw controls that the two halves of one GUI control drive, for MixOptions.antagonists. */
@@ -721,6 +731,62 @@ export interface Gaze extends Handle {
   lookAt(target: GazeTarget, instance: Instance): GazeRest;
 }
 export const Gaze: { readonly prototype: Gaze };
+
+// ---- fits ------------------------------------------------------------------------------------------------
+
+/** A position of a mesh, or the weighted sum of three. */
+export type FitPoint = number | { positions: readonly [number, number, number]; weights: readonly [number, number, number] };
+
+/** How to create a fit. Raw controls are given by name or index. */
+export interface FitOptions {
+  /** Of the rig; by default its own one, if there are points. */
+  deformer?: Deformer | null;
+  /** Raw controls that may move; by default all. */
+  controls?: readonly (string | number)[] | Uint32Array;
+  /** Bounds of these controls, by default 0 and 1: one for all, or one for each. */
+  lower?: number | Numbers;
+  upper?: number | Numbers;
+  /** Pairs of raw controls that are kept similar: left and right. */
+  symmetric?: readonly (readonly [string | number, string | number])[];
+  /** The mesh of all points. */
+  mesh?: number;
+  /** Points to match. Without any, joint values are matched. */
+  points?: readonly FitPoint[] | Uint32Array;
+  /** Per joint value, 0 or more. By default 1 each, or 0 if there are points. */
+  jointWeights?: Numbers;
+  lod?: number;
+}
+
+/** The targets of a frame, NaN where they are missing, and the weights of the terms, which are left out if 0. At most
+ * one of `points`, `images` and `surface` is given. */
+export interface FitFrame extends Omit<FitFrameDesc, "user" | "canceled" | "surface" | "camera"> {
+  /** As images were taken. */
+  camera?: FitCamera;
+  /** In place of `points` and `images`: each point is drawn to the nearest place of the surface. */
+  surface?: FitSurface;
+  /** Is called before each iteration; the solve stops if it returns true. What it throws comes out as it is. */
+  canceled?: () => boolean | void;
+}
+
+/** The controls of a frame, and how well they explain it. */
+export interface FitResult extends FitResultDesc {
+  /** All raw controls, for Instance.rawControls.set(); a copy. */
+  readonly controls: Float32Array;
+}
+
+/** A scan, or a mesh of another topology, as a target. */
+export interface FitSurface extends Handle {}
+export const FitSurface: { readonly prototype: FitSurface };
+
+/** Finds the raw controls of a rig that give captured joints, points, images or surfaces; docs/solving.md has the
+ * formulas. Keeps the memory of its rig. */
+export interface Fit extends Handle {
+  /** Deterministic unless there is a limit of time. */
+  solve(frame: FitFrame): FitResult;
+  /** How well the data determines each raw control at the initial pose, 0 to 1; a copy. */
+  readonly observability: Float32Array;
+}
+export const Fit: { readonly prototype: Fit };
 
 // ---- solvers ---------------------------------------------------------------------------------------------
 

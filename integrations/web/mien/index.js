@@ -6,6 +6,7 @@ import { arkitMatrix, Clip } from "./clip.js";
 import { coordinateSystemNames, Dna, validate } from "./dna.js";
 import { Document } from "./document.js";
 import { errorOf } from "./errors.js";
+import { FitSurface, reduceKeys } from "./fit.js";
 import { Memory } from "./memory.js";
 import { glare, Mix } from "./mix.js";
 import { controlName, isBaked, Rig } from "./rig.js";
@@ -20,6 +21,7 @@ export { Clip, ClipBinding, ClipPlayer } from "./clip.js";
 export { Deformer, DeformerInstance } from "./deformer.js";
 export { Dna } from "./dna.js";
 export { Document } from "./document.js";
+export { Fit, FitSurface } from "./fit.js";
 export { Gaze, Mix, Mixer } from "./mix.js";
 export { MixLayer, ticks } from "./mix_parts.js";
 export { Batch, Instance, Rig } from "./rig.js";
@@ -193,6 +195,24 @@ export class Mien {
       throw errorOf(Status.UNSUPPORTED, "this module opens baked files only: load the other one to change files");
     }
     return Document.create(this.#memory, dna);
+  }
+
+  /** A surface without correspondences, for Fit.solve(). */
+  createFitSurface(positions, triangles) {
+    this.#needSolver();
+    return FitSurface.create(this.#memory, positions, triangles);
+  }
+
+  /** Frame numbers of the keys of a curve, within a tolerance. */
+  reduceKeys(values, tolerance) {
+    this.#needSolver();
+    return reduceKeys(this.#memory, values, tolerance);
+  }
+
+  #needSolver() {
+    if (!this.exports.mien_fit_create) {
+      throw errorOf(Status.UNSUPPORTED, "this module opens baked files only: load the other one to solve");
+    }
   }
 
   /** The rig of an open DNA file, which may be disposed afterwards. */

@@ -84,6 +84,7 @@ export class Memory {
       mien_web_read: (file, offset, buffer, size) => memory.#read(file, Number(offset), buffer, size),
       mien_web_solve: (solver, call) => memory.#solve(solver, call),
       mien_web_progress: (progress, step, share) => memory.#progress(progress, step, share),
+      mien_web_canceled: (canceled) => memory.#canceled(canceled),
     });
     const { exports } = await WebAssembly.instantiate(module, imports);
     memory.exports = { ...exports, memory: shared ?? exports.memory };
@@ -193,6 +194,10 @@ export class Memory {
 
   #progress(progress, step, share) {
     return this.#guarded(() => (notLater(this.#functions.get(progress)(this.terminatedText(step), share)) ? 1 : 0), 1);
+  }
+
+  #canceled(canceled) {
+    return this.#guarded(() => (notLater(this.#functions.get(canceled)()) ? 1 : 0), 1);
   }
 
   /** The handle of an object, for a function of this module. */

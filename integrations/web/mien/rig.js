@@ -3,6 +3,7 @@
 import { Kind, layouts, Stage, Status } from "./api.js";
 import { Deformer } from "./deformer.js";
 import { errorOf } from "./errors.js";
+import { Fit } from "./fit.js";
 import { Handle, makeHandle } from "./handle.js";
 import { findAntagonists, findMask, Mix } from "./mix.js";
 
@@ -201,6 +202,13 @@ export class Rig extends Handle {
 
   mix(desc = {}) {
     return Mix.create(this.memory, this, desc);
+  }
+
+  fit(desc = {}) {
+    if (!this.memory.exports.mien_fit_create) {
+      throw errorOf(Status.UNSUPPORTED, "this module opens baked files only: load the other one to solve");
+    }
+    return Fit.create(this.memory, this, desc);
   }
 
   antagonists() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the C library in the module asks of a system. There is next to none: no files, no environment, no clock.
+// What the C library in the module asks of a system. There is next to none: no files, no environment.
 
 const PAGE = 65536;
 const MOST = 2 ** 31;
@@ -12,8 +12,18 @@ export function sharedMemory(module) {
 
 /** The imports of a module: `own` functions, and those of the system over the memory that `memory()` returns. */
 export function importsOf(module, memory, own = {}) {
+  // What the module with threads calls: seconds and nanoseconds.
+  const clockGettime = (_clock, out) => {
+    const milliseconds = performance.now();
+    const data = new DataView(memory().buffer);
+    data.setInt32(out >>> 0, Math.floor(milliseconds / 1000), true);
+    data.setInt32((out >>> 0) + 4, Math.floor((milliseconds % 1000) * 1e6), true);
+    return 0;
+  };
   const known = {
     ...own,
+    clock_gettime: clockGettime,
+    __clock_gettime: clockGettime,
     emscripten_notify_memory_growth() {},
     __emscripten_init_main_thread_js() {},
     emscripten_memcpy_big(to, from, size) {
@@ -39,6 +49,11 @@ export function importsOf(module, memory, own = {}) {
       return 0;
     },
     environ_get: () => 0,
+    // Limits of time in Fit.solve(): nanoseconds, whichever clock is asked for.
+    clock_time_get(_clock, _precision, out) {
+      new DataView(memory().buffer).setBigUint64(out >>> 0, BigInt(Math.round(performance.now() * 1e6)), true);
+      return 0;
+    },
   };
   const imports = {};
   for (const { module: from, name, kind } of WebAssembly.Module.imports(module)) {

@@ -2,7 +2,7 @@
 // What users write, compiled with every check of TypeScript and never run. Lines below @ts-expect-error must not
 // compile.
 import {
-  AuthorFlags, BlendMode, BoneKind, DnaError, Generator, Guard, Isa, Kind, LayerGroup, MeshAxis, Mien, MienError, Mixer, MixLayer,
+  AuthorFlags, BlendMode, BoneKind, DnaError, FitStatus, Generator, Guard, Isa, Kind, LayerGroup, MeshAxis, Mien, MienError, Mixer, MixLayer,
   Normals, Preset, Stage, Symmetry, TICKS_PER_SECOND, ticks,
 } from "mien";
 import type { Clip, Mesh, Mix, MixerEvent, Reaction, Rig, RigInfo } from "mien";
@@ -83,6 +83,19 @@ export function mixing(mien: Mien, rig: Rig, clip: Clip): number {
   // @ts-expect-error: modes are those of BlendMode
   MixLayer.clip({ mode: 77 });
   return events.length + mixer.guard(0).distance;
+}
+
+export function solving(mien: Mien, rig: Rig): number {
+  const fit = rig.fit({ points: [1, { positions: [1, 2, 3], weights: [0.5, 0.5, 0] }], controls: ["jawOpen", 3], upper: 0.5 });
+  using surface = mien.createFitSurface(new Float32Array(9), [0, 1, 2]);
+  const { controls, status, rotation } = fit.solve({ surface, rigid: true, canceled: () => false });
+  fit.solve({ images: [1, 2, 3, 4], camera: { focal: [1, 1] }, start: controls });
+  if (status === FitStatus.CONVERGED) rig.instance().rawControls.set(controls);
+  // @ts-expect-error: a misspelled option
+  rig.fit({ point: [1] });
+  // @ts-expect-error: a point has three positions
+  rig.fit({ points: [{ positions: [1], weights: [1] }] });
+  return mien.reduceKeys(controls, 0.01).length + (rotation[0] ?? 0) + (fit.observability[0] ?? 0);
 }
 
 export async function files(mien: Mien, rig: Rig, mix: Mix): Promise<string> {
