@@ -211,7 +211,8 @@ endif()
 
 # ---- C# ---------------------------------------------------------------------------------------------
 
-add_test(NAME csharp_project COMMAND Python3::Interpreter ${integrations}/csharp/tests/project_test.py)
+add_test(NAME csharp_project COMMAND Python3::Interpreter ${integrations}/csharp/tests/project_test.py
+  "$<$<BOOL:${MIEN_MCS}>:${MIEN_MCS}>" "$<$<BOOL:${MIEN_MONO}>:${MIEN_MONO}>")
 set_tests_properties(csharp_project PROPERTIES LABELS guard)
 if(MIEN_SANITIZE OR CMAKE_CROSSCOMPILING)
   # Mono is neither built with sanitizers nor for other machines.
@@ -223,11 +224,13 @@ elseif(MIEN_MCS AND MIEN_MONO)
   add_test(NAME csharp_test COMMAND ${MIEN_MONO} --debug ${PROJECT_BINARY_DIR}/csharp_tests.exe)
   set_tests_properties(csharp_test PROPERTIES LABELS abi FIXTURES_REQUIRED csharp TIMEOUT 120
     ENVIRONMENT "LD_LIBRARY_PATH=$<TARGET_FILE_DIR:mien>")
+  add_test(NAME unity_package_test
+    COMMAND Python3::Interpreter ${integrations}/unity/tests/package_test.py $<TARGET_FILE:mien>)
+  set_tests_properties(unity_package_test PROPERTIES LABELS abi)
   # The package for Unity against stubs; what Unity sets from outside is never assigned there.
   add_test(NAME unity_build COMMAND ${MIEN_MCS} -unsafe -langversion:latest -warnaserror -nowarn:219,414,649
     -out:${PROJECT_BINARY_DIR}/unity_host.exe -recurse:${integrations}/csharp/Mien/*.cs
-    -recurse:${integrations}/unity/package/Runtime/*.cs -recurse:${integrations}/unity/package/Editor/*.cs
-    -recurse:${integrations}/unity/tests/*.cs)
+    -recurse:${integrations}/unity/package/*.cs -recurse:${integrations}/unity/tests/*.cs)
   set_tests_properties(unity_build PROPERTIES LABELS abi FIXTURES_SETUP unity)
   add_test(NAME unity_test COMMAND ${MIEN_MONO} --debug ${PROJECT_BINARY_DIR}/unity_host.exe)
   set_tests_properties(unity_test PROPERTIES LABELS abi FIXTURES_REQUIRED unity TIMEOUT 120

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Puts together the UPM package: the package's own files, the C# layer, and libmien if it is given.
+"""Puts together the UPM package: the package's own files, the C# layer, and libmien and libmien-author if they are given.
 
-    make_package.py OUT [LIBRARY]
+    make_package.py OUT [LIBRARY...]
 """
 import pathlib
 import shutil
@@ -12,7 +12,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 
 
 def main():
-    if len(sys.argv) not in (2, 3):
+    if len(sys.argv) < 2:
         sys.exit(__doc__)
     out = pathlib.Path(sys.argv[1])
     if out.exists():
@@ -21,10 +21,10 @@ def main():
     shutil.copytree(HERE.parent / "csharp" / "Mien", out / "Runtime" / "Mien")
     shutil.copy(HERE.parent.parent / "LICENSE", out / "LICENSE")
     shutil.copy(HERE / "README.md", out / "README.md")
-    if len(sys.argv) == 3:
-        plugins = out / "Runtime" / "Plugins"
-        plugins.mkdir()
-        shutil.copy(pathlib.Path(sys.argv[2]).resolve(), plugins / pathlib.Path(sys.argv[2]).name)
+    plugins = out / "Runtime" / "Plugins"
+    for library in map(pathlib.Path, sys.argv[2:]):
+        plugins.mkdir(exist_ok=True)
+        shutil.copy(library.resolve(), plugins / library.name)
 
 
 if __name__ == "__main__":

@@ -7,6 +7,19 @@ using System.Collections.Generic;
 namespace UnityEngine {
   public class Object {
     public string name = "";
+    public bool isDestroyed;
+    public static void DestroyImmediate(Object obj) { obj.isDestroyed = true; }
+  }
+
+  public static class Mathf {
+    public static float Abs(float f) { return Math.Abs(f); }
+  }
+
+  // As outside of play mode: components are not told that they are enabled.
+  public sealed class GameObject : Object {
+    public GameObject(string name) { this.name = name; }
+    public void SetActive(bool value) {}
+    public T AddComponent<T>() where T : Component, new() { return new T(); }
   }
 
   public class ScriptableObject : Object {
@@ -106,5 +119,16 @@ namespace UnityEditor.AssetImporters {
 
   public abstract class ScriptedImporter : UnityEngine.Object {
     public abstract void OnImportAsset(AssetImportContext ctx);
+  }
+}
+
+namespace NUnit.Framework {
+  [AttributeUsage(AttributeTargets.Method)]
+  public sealed class TestAttribute : Attribute {}
+
+  public static class Assert {
+    public static void Greater(float arg1, float arg2) {
+      if (!(arg1 > arg2)) throw new Exception(arg1 + " is not greater than " + arg2);
+    }
   }
 }

@@ -23,7 +23,8 @@ namespace Mien.Unity.Tests {
       face.rig = asset;
       character.SetActive(true);
       Instance controls = face.Face ?? asset.Rig.CreateInstance();  // outside of play mode nothing is enabled
-      for (int i = 0; i < controls.RawControls.Length; ++i) controls.RawControls.Span[i] = 0.5f;
+      View<float> values = controls.RawControls;
+      for (int i = 0; i < values.Length; ++i) values[i] = 0.5f;
       controls.Evaluate();
       float sum = 0;
       foreach (float value in controls.Joints.Span) sum += Mathf.Abs(value);
