@@ -17,6 +17,41 @@ static_assert(MIEN_NORMALS_RECOMPUTED == int(Normals::kRecomputed) &&
 
 // Deformer ----------------------------------------------------------------------------------------
 
+MienStatus mien_deformer_create_subset(const MienDeformer* deformer, uint32_t mesh,
+                                       const uint32_t* positions, size_t position_count,
+                                       const MienAllocator* allocator, MienDeformer** out_deformer,
+                                       MienError* error) {
+  if (MienStatus status = clear_output(out_deformer, error)) return status;
+  if (MienStatus status = check(deformer, "deformer", error)) return status;
+  const Deformer& whole = *object(deformer);
+  if (mesh >= whole.meshes.count) {
+    return give_error(error, MIEN_ERROR_INDEX, "mesh is %u, the deformer has %zu", mesh,
+                      whole.meshes.count);
+  }
+  if (!positions && position_count != 0) {
+    return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "positions is NULL");
+  }
+  for (size_t i = 0; i < position_count; ++i) {
+    if (positions[i] >= whole.meshes[mesh].position_count) {
+      return give_error(error, MIEN_ERROR_INDEX, "positions[%zu] is %u, the mesh has %u", i,
+                        positions[i], whole.meshes[mesh].position_count);
+    }
+    if (i != 0 && positions[i] <= positions[i - 1]) {
+      return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
+                        "positions is not ascending at %zu: sort it, each position once", i);
+    }
+  }
+  Allocator memory;
+  if (MienStatus status = read_allocator(allocator, memory, error)) return status;
+  Deformer* made = create_subset(whole, mesh, {positions, position_count}, memory);
+  if (!made) {
+    return give_error(error, MIEN_ERROR_MEMORY, "no memory for a deformer of %zu positions",
+                      position_count);
+  }
+  *out_deformer = reinterpret_cast<MienDeformer*>(made);
+  return succeed(error);
+}
+
 void mien_deformer_destroy(MienDeformer* deformer) { destroy(deformer); }
 
 MienStatus mien_deformer_info(const MienDeformer* deformer, MienDeformerInfo* out_info) {

@@ -20,6 +20,24 @@ size_t count_of(const MienRig* rig, uint32_t kind) {
   return count;
 }
 
+size_t sample_stride(const MienFitDesc& desc) {
+  return (desc.point_count + kMostSamples - 1) / kMostSamples;
+}
+size_t sample_count(const MienFitDesc& desc) {
+  return desc.point_count ? (desc.point_count - 1) / sample_stride(desc) + 1 : 0;
+}
+
+/// One of each run of points, not always the same: a stride would follow rows of the mesh.
+void choose_samples(const MienFitDesc& desc, uint32_t* out) {
+  const size_t every = sample_stride(desc);
+  uint32_t random = 1;
+  for (size_t s = 0; s < sample_count(desc); ++s) {
+    random = random * 1664525u + 1013904223u;
+    const size_t left = std::min(every, desc.point_count - s * every);
+    out[s] = static_cast<uint32_t>(s * every + (random >> 8) % left);
+  }
+}
+
 void place(const MienFitDesc& desc, Placer& placer, MienFit& fit) {
   placer.array<MienFit>(1);
   const size_t raw = fit.raw_count, all = fit.control_count, joints = fit.joint_count;
@@ -31,8 +49,8 @@ void place(const MienFitDesc& desc, Placer& placer, MienFit& fit) {
   fit.symmetric = placer.array<uint32_t>(desc.symmetric_count);
   fit.points = placer.array<MienSolvePoint>(desc.point_count);
   fit.joint_weights = placer.array<float>(joints);
-  fit.joint_metric = placer.array<float>(all * all);
-  fit.point_metric = placer.array<float>(desc.point_count ? all * all : 0);
+  fit.joint_metric = placer.array<double>(all * all);
+  fit.point_metric = placer.array<double>(desc.point_count ? all * all : 0);
   fit.observability = placer.array<float>(raw);
   fit.start = placer.array<float>(raw);
   fit.prior = placer.array<float>(raw);
@@ -42,6 +60,18 @@ void place(const MienFitDesc& desc, Placer& placer, MienFit& fit) {
   fit.from_joints = placer.array<float>(raw);
   fit.from_positions = placer.array<float>(raw);
   fit.metric_row = placer.array<float>(all);
+  fit.projected = placer.array<double>(all);
+  fit.support = placer.array<uint32_t>(all);
+  fit.places = placer.array<uint32_t>(all);
+  fit.reduced = placer.array<double>(moving * moving);
+  fit.pull = placer.array<double>(all);
+  fit.change = placer.array<double>(all);
+  fit.response = placer.array<double>(all);
+  fit.model_controls = placer.array<float>(all);
+  fit.changed = placer.array<uint32_t>(all);
+  fit.stiffness = placer.array<double>(moving);
+  fit.kept = placer.array<float>(raw);
+  fit.start_joints = placer.array<float>(joints);
   fit.matrix = placer.array<double>(moving * moving);
   fit.factor = placer.array<double>(moving * moving);
   fit.gradient = placer.array<double>(moving);
@@ -56,18 +86,29 @@ void place(const MienFitDesc& desc, Placer& placer, MienFit& fit) {
   fit.surface = placer.array<double>(desc.point_count * 3);
   fit.targets = placer.array<double>(desc.point_count * 3);
   fit.weights = placer.array<double>(desc.point_count);
+  if (desc.deformer) {
+    const size_t matrices = fit.bone_count * 16;
+    fit.model_gradient = placer.array<float>(matrices);
+    fit.constraint_rows = placer.array<float>(kMostConstraints * 3 * std::max(all, raw));
+    fit.row_models = placer.array<float>(kRowsAtOnce * matrices);
+    fit.row_positions = placer.array<float>(kRowsAtOnce * fit.position_count * 3);
+    fit.row_weights = placer.array<double>(kMostConstraints * 3);
+    fit.row_changes = placer.array<double>(kMostConstraints * 3);
+  }
   if (desc.point_count == 0) return;
-  const size_t every = (desc.point_count + kMostSamples - 1) / kMostSamples;
-  fit.samples = placer.array<uint32_t>((desc.point_count + every - 1) / every);
+  fit.start_surface = placer.array<double>(desc.point_count * 3);
+  fit.whole_points = placer.array<MienSolvePoint>(desc.point_count);
+  fit.samples = placer.array<uint32_t>(sample_count(desc));
+  fit.sample_points = placer.array<MienSolvePoint>(fit.samples.count);
   fit.triangles = placer.array<uint32_t>(fit.triangle_count * 3);
   fit.normals = placer.array<double>(desc.point_count * 3);
   fit.pulls = placer.array<double>(desc.point_count);
   fit.lost = placer.array<double>(desc.point_count);
-  fit.position_normals = placer.array<float>(fit.position_count * 3);
+  fit.position_normals = placer.array<float>(fit.whole_count * 3);
   fit.sample_effects = placer.array<float>(all * fit.samples.count * 3);
   fit.step_effects = placer.array<float>(moving * fit.samples.count * 3);
-  fit.direction = placer.array<float>(raw);
-  fit.moved = placer.array<float>(fit.position_count * 3);
+  fit.directions = placer.array<float>(kDirections * raw);
+  fit.moved = placer.array<float>(kDirections * fit.sample_position_count * 3);
   fit.measured = placer.array<uint8_t>(moving);
   fit.row = placer.array<double>(moving + kMostMotion);
   fit.wide = placer.array<double>((moving + kMostMotion) * (moving + kMostMotion));
@@ -138,7 +179,7 @@ MienStatus check_desc(const MienRig* rig, const MienFitDesc& desc, MienFit& fit,
   if (MienStatus status = mien_deformer_mesh(desc.deformer, fit.mesh, &mesh)) {
     return give_error(error, status, "MienFitDesc.points[0].mesh is %u: no such mesh", fit.mesh);
   }
-  fit.position_count = mesh.position_count;
+  fit.whole_count = mesh.position_count;
   fit.triangle_count = mesh.triangle_count;
   for (size_t i = 0; i < desc.point_count; ++i) {
     const MienSolvePoint& point = desc.points[i];
@@ -148,10 +189,10 @@ MienStatus check_desc(const MienRig* rig, const MienFitDesc& desc, MienFit& fit,
                         fit.mesh);
     }
     for (size_t k = 0; k < 3; ++k) {
-      if (point.positions[k] >= fit.position_count) {
+      if (point.positions[k] >= fit.whole_count) {
         return give_error(error, MIEN_ERROR_INDEX,
                           "MienFitDesc.points[%zu] has position %u, the mesh has %zu", i,
-                          point.positions[k], fit.position_count);
+                          point.positions[k], fit.whole_count);
       }
       if (!std::isfinite(point.weights[k])) {
         return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
@@ -168,15 +209,6 @@ void copy_desc(const MienFitDesc& desc, MienFit& fit) {
     fit.controls[i] = desc.controls ? desc.controls[i] : i;
     fit.lower[i] = desc.lower ? desc.lower[i] : 0.0f;
     fit.upper[i] = desc.upper ? desc.upper[i] : 1.0f;
-  }
-  std::copy(desc.points, desc.points + desc.point_count, fit.points.data);
-  // One of each run of points, not always the same: a stride would follow rows of the mesh.
-  const size_t every = fit.samples.count ? (desc.point_count - 1) / fit.samples.count + 1 : 1;
-  uint32_t random = 1;
-  for (size_t s = 0; s < fit.samples.count; ++s) {
-    random = random * 1664525u + 1013904223u;
-    const size_t left = std::min(every, desc.point_count - s * every);
-    fit.samples[s] = static_cast<uint32_t>(s * every + (random >> 8) % left);
   }
   std::copy(desc.symmetric, desc.symmetric + desc.symmetric_count, fit.symmetric.data);
   for (size_t i = 0; i < fit.joint_count; ++i) {
@@ -196,28 +228,140 @@ void copy_triangles(const MienFitDesc& desc, MienFit& fit) {
   fit.inward = signed_volume(mesh.positions.data, fit.triangles.data, fit.triangle_count) < 0;
 }
 
-/// The objects of libmien that the fit owns.
-MienStatus create_parts(const MienFitDesc& desc, MienFit& fit, MienError* error) {
-  MienInstanceDesc instance = mien_instance_desc_default();
-  instance.allocator = desc.allocator;
-  if (MienStatus status = mien_instance_create(fit.rig, &instance, &fit.instance, error)) {
-    return status;
+/// Positions that points read, ascending, and the deformer of them.
+struct Chosen {
+  Span<uint32_t> positions;  // empty: all of the mesh
+  MienDeformer* deformer = nullptr;
+  ~Chosen() { mien_deformer_destroy(deformer); }
+
+  MienSolvePoint find(MienSolvePoint point) const {
+    if (positions.empty()) return point;
+    for (uint32_t& position : point.positions) {
+      position = static_cast<uint32_t>(
+          std::lower_bound(positions.begin(), positions.end(), position) - positions.data);
+    }
+    return point;
   }
+};
+
+/// `point(i)` is point i of `count`.
+template <class F>
+MienStatus choose_positions(const MienFitDesc& desc, const MienFit& fit, size_t count, F&& point,
+                            Arena& arena, Chosen& out, MienError* error) {
+  const Span<uint32_t> list = arena.array<uint32_t>(count * 3);
+  if (!list.data) return give_error(error, MIEN_ERROR_MEMORY, "no memory for a list of positions");
+  for (size_t i = 0; i < count; ++i) {
+    const MienSolvePoint& one = point(i);
+    std::copy(one.positions, one.positions + 3, list.data + 3 * i);
+  }
+  std::sort(list.begin(), list.end());
+  const size_t used = static_cast<size_t>(std::unique(list.begin(), list.end()) - list.begin());
+  if (used * 10 > fit.whole_count * 7) return MIEN_OK;  // nearly all
+  out.positions = list.first(used);
+  return mien_deformer_create_subset(desc.deformer, fit.mesh, list.data, used, desc.allocator,
+                                     &out.deformer, error);
+}
+
+/// What points read, and what the samples of them do, which may be the same.
+struct Parts {
+  Chosen points, samples;
+  bool all_sampled = false;
+
+  const Chosen& of_samples() const { return all_sampled ? points : samples; }
+};
+
+MienStatus create_derivatives(const MienFitDesc& desc, const MienFit& fit,
+                              const MienDeformer* deformer, MienDerivatives** out,
+                              MienError* error) {
   MienDerivativesDesc derivatives = mien_derivatives_desc_default();
-  derivatives.deformer = desc.deformer;
+  derivatives.deformer = deformer;
   derivatives.allocator = desc.allocator;
-  if (MienStatus status = mien_derivatives_create(fit.rig, &derivatives, &fit.derivatives, error)) {
-    return status;
-  }
-  if (desc.point_count == 0) return MIEN_OK;
+  return mien_derivatives_create(fit.rig, &derivatives, out, error);
+}
+
+MienStatus create_deformed(const MienFitDesc& desc, const MienDeformer* deformer,
+                           MienDeformerInstance** out, MienError* error) {
   MienDeformerInstanceDesc deformed = mien_deformer_instance_desc_default();
   deformed.allocator = desc.allocator;
-  return mien_deformer_instance_create(desc.deformer, &deformed, &fit.deformed, error);
+  return mien_deformer_instance_create(deformer, &deformed, out, error);
+}
+
+MienStatus create_point_parts(const MienFitDesc& desc, MienFit& fit, Arena& arena, Parts& parts,
+                              MienError* error) {
+  const Span<uint32_t> samples = arena.array<uint32_t>(sample_count(desc));
+  if (!samples.data) return give_error(error, MIEN_ERROR_MEMORY, "no memory for samples");
+  choose_samples(desc, samples.data);
+  parts.all_sampled = samples.count == desc.point_count;
+  if (MienStatus status = choose_positions(
+          desc, fit, desc.point_count,
+          [&](size_t i) -> const MienSolvePoint& { return desc.points[i]; }, arena, parts.points,
+          error)) {
+    return status;
+  }
+  if (parts.all_sampled) return MIEN_OK;
+  return choose_positions(
+      desc, fit, samples.count,
+      [&](size_t i) -> const MienSolvePoint& { return desc.points[samples[i]]; }, arena,
+      parts.samples, error);
+}
+
+/// The objects of libmien that the fit owns.
+MienStatus create_parts(const MienFitDesc& desc, MienFit& fit, Arena& arena, Parts& parts,
+                        MienError* error) {
+  MienInstanceDesc instance = mien_instance_desc_default();
+  instance.allocator = desc.allocator;
+  MienStatus status = mien_instance_create(fit.rig, &instance, &fit.instance, error);
+  if (status == MIEN_OK) {
+    status = create_derivatives(desc, fit, nullptr, &fit.control_derivatives, error);
+  }
+  if (status != MIEN_OK || !desc.deformer) return status;
+  if (desc.point_count != 0) status = create_point_parts(desc, fit, arena, parts, error);
+  const auto or_all = [&](const Chosen& chosen) -> const MienDeformer* {
+    return chosen.deformer ? chosen.deformer : desc.deformer;
+  };
+  const MienDeformer* const deformer = or_all(parts.points);
+  const MienDeformer* const sampled = or_all(parts.of_samples());
+  if (status == MIEN_OK) status = create_derivatives(desc, fit, deformer, &fit.derivatives, error);
+  if (status == MIEN_OK) status = create_deformed(desc, deformer, &fit.deformed, error);
+  if (status != MIEN_OK || desc.point_count == 0) return status;
+  fit.sample_derivatives = fit.derivatives;
+  fit.whole = fit.deformed;
+  if (sampled != deformer) {
+    fit.sample_derivatives = nullptr;
+    status = create_derivatives(desc, fit, sampled, &fit.sample_derivatives, error);
+  }
+  if (deformer != desc.deformer && status == MIEN_OK) {
+    fit.whole = nullptr;
+    status = create_deformed(desc, desc.deformer, &fit.whole, error);
+  }
+  const auto count_of_positions = [&](const MienDeformer* of) {
+    MienMesh mesh = mien_mesh_default();
+    static_cast<void>(mien_deformer_mesh(of, fit.mesh, &mesh));
+    return size_t{mesh.position_count};
+  };
+  fit.position_count = count_of_positions(deformer);
+  fit.sample_position_count = count_of_positions(sampled);
+  return status;
+}
+
+void copy_points(const MienFitDesc& desc, const Parts& parts, MienFit& fit) {
+  if (desc.point_count == 0) return;
+  choose_samples(desc, fit.samples.data);
+  for (size_t i = 0; i < desc.point_count; ++i) {
+    fit.whole_points[i] = desc.points[i];
+    fit.points[i] = parts.points.find(desc.points[i]);
+  }
+  for (size_t s = 0; s < fit.samples.count; ++s) {
+    fit.sample_points[s] = parts.of_samples().find(desc.points[fit.samples[s]]);
+  }
 }
 
 void destroy_parts(const MienFit& fit) {
+  if (fit.whole != fit.deformed) mien_deformer_instance_destroy(fit.whole);
+  if (fit.sample_derivatives != fit.derivatives) mien_derivatives_destroy(fit.sample_derivatives);
   mien_deformer_instance_destroy(fit.deformed);
   mien_derivatives_destroy(fit.derivatives);
+  mien_derivatives_destroy(fit.control_derivatives);
   mien_instance_destroy(fit.instance);
 }
 
@@ -233,20 +377,23 @@ MienStatus mien_fit_create(const MienRig* rig, const MienFitDesc* desc, MienFit*
   if (MienStatus status = read_allocator(known.allocator, allocator, error)) return status;
   MienFit measured;
   if (MienStatus status = check_desc(rig, known, measured, error)) return status;
-  if (MienStatus status = create_parts(known, measured, error)) {
+  Arena arena(allocator);
+  Parts parts;
+  if (MienStatus status = create_parts(known, measured, arena, parts, error)) {
     destroy_parts(measured);
     return status;
   }
   MienMutableFloatView raw = {};
-  MienFloatView joints = {};
+  MienFloatView joints = {}, all_controls = {};
   static_cast<void>(mien_instance_raw_controls(measured.instance, &raw));
   static_cast<void>(mien_instance_joints(measured.instance, &joints));
+  static_cast<void>(mien_instance_controls(measured.instance, &all_controls));
+  measured.all_controls = {all_controls.data, all_controls.count};
   measured.raw = {raw.data, raw.count};
   measured.joints = {joints.data, joints.count};
   measured.joint_count = joints.count;
-  size_t controls = 0;
-  static_cast<void>(mien_derivatives_size(measured.derivatives, MIEN_POINT_CONTROLS, 0, &controls));
-  measured.control_count = controls;
+  measured.control_count = all_controls.count;
+  measured.bone_count = count_of(rig, MIEN_KIND_JOINT);
   Placer sizes(nullptr);
   place(known, sizes, measured);
   void* block = allocator.get(sizes.size(), kBlockAlignment);
@@ -260,17 +407,12 @@ MienStatus mien_fit_create(const MienRig* rig, const MienFitDesc* desc, MienFit*
   fit->allocator = allocator;
   fit->block_size = sizes.size();
   copy_desc(known, *fit);
+  copy_points(known, parts, *fit);
   copy_triangles(known, *fit);
   std::copy(fit->raw.begin(), fit->raw.end(), fit->initial.begin());
-  bool measured_all = false;
-  {
-    Arena arena(allocator);
-    static_cast<void>(mien_rig_evaluate(rig, fit->instance, fit->lod));
-    static_cast<void>(mien_derivatives_linearize(fit->derivatives, fit->instance, MIEN_STAGE_ALL));
-    measured_all = measure_rig(*fit, arena);
-  }
+  static_cast<void>(mien_rig_evaluate(rig, fit->instance, fit->lod));
   fit->tag = kFitTag;
-  if (!measured_all) {
+  if (!measure_rig(*fit, arena)) {
     mien_fit_destroy(fit);
     return give_error(error, MIEN_ERROR_MEMORY, "no memory to measure the rig");
   }
@@ -283,6 +425,7 @@ void mien_fit_destroy(MienFit* fit) {
   destroy_parts(*fit);
   fit->tag = 0;
   const Allocator allocator = fit->allocator;
+  if (fit->joint_block) allocator.put(fit->joint_block, fit->joint_block_size, kBlockAlignment);
   allocator.put(fit, fit->block_size, kBlockAlignment);
 }
 

@@ -2,9 +2,10 @@
 // A fit: the targets of a rig, the effects of its controls, and the memory of a solve. Built on the public
 // interface of libmien alone.
 //
-//     control row -> evaluate -> joints, points -> residuals -> gradient, in reverse
+//     control row -> evaluate -> joints, points -> residuals -> gradient by all controls, in reverse
 //                        |-> derivatives of controls by raw controls: D
-//     metric G of controls, once -> D^T G D: the matrix of a Gauss-Newton step
+//     metric G of controls, once -> the cost as a quadratic function of all controls (model.cpp);
+//                                   D^T G D: the matrix of a Gauss-Newton step
 //
 // docs/solving.md.
 #pragma once
@@ -23,27 +24,43 @@ struct MienFit {
   size_t block_size = 0;
   const MienRig* rig = nullptr;  // kept by the instance
   MienInstance* instance = nullptr;
+  MienDerivatives* control_derivatives = nullptr;  // up to joint values: no deformer
+  // With a deformer. Where points read few positions, these are of a deformer of those positions alone.
   MienDerivatives* derivatives = nullptr;
-  MienDeformerInstance* deformed = nullptr;  // with points
+  MienDeformerInstance* deformed = nullptr;
+  MienDerivatives* sample_derivatives =
+      nullptr;                            // of the positions of samples; may be `derivatives`
+  MienDeformerInstance* whole = nullptr;  // of the whole mesh; may be `deformed`
 
   uint32_t lod = 0, mesh = 0;
-  size_t raw_count = 0, control_count = 0, joint_count = 0;
-  size_t position_count = 0, triangle_count = 0;  // of the mesh
+  size_t raw_count = 0, control_count = 0;
+  size_t joint_count = 0, bone_count = 0;                // joint values; joints
+  size_t position_count = 0, sample_position_count = 0;  // of `deformed`; of `sample_derivatives`
+  size_t whole_count = 0, triangle_count = 0;            // positions and triangles of the mesh
 
-  mien::Span<float> raw;           // of the instance
-  mien::Span<const float> joints;  // of the instance
-  mien::Span<float> initial;       // [raw control]
-  mien::Span<uint32_t> controls;   // that may move
-  mien::Span<float> lower, upper;  // beside controls
-  mien::Span<uint32_t> symmetric;  // pairs of places in `controls`
-  mien::Span<MienSolvePoint> points;
-  mien::Span<float> joint_weights;   // [joint value]
-  mien::Span<uint32_t> triangles;    // [triangle][3] of the mesh, by positions
-  bool inward = false;               // how they are wound
-  mien::Span<uint32_t> samples;      // points that stand for all in steps
-  mien::Span<float> sample_effects;  // [control][sample][3], at the neutral pose
-  mien::Span<float> joint_metric,
-      point_metric;                 // [control][control]; G without the weights of a frame
+  mien::Span<float> raw;                     // of the instance
+  mien::Span<const float> joints;            // of the instance
+  mien::Span<const float> all_controls;      // of the instance
+  mien::Span<float> initial;                 // [raw control]
+  mien::Span<uint32_t> controls;             // that may move
+  mien::Span<float> lower, upper;            // beside controls
+  mien::Span<uint32_t> symmetric;            // pairs of places in `controls`
+  mien::Span<MienSolvePoint> points;         // by positions of `deformed`
+  mien::Span<MienSolvePoint> whole_points;   // by positions of the mesh
+  mien::Span<MienSolvePoint> sample_points;  // [sample] by positions of `sample_derivatives`
+  mien::Span<float> joint_weights;           // [joint value]
+  mien::Span<uint32_t> triangles;            // [triangle][3] of the mesh, by positions
+  bool inward = false;                       // how they are wound
+  mien::Span<uint32_t> samples;              // points that stand for all in steps
+  mien::Span<float> sample_effects;          // [control][sample][3], at the neutral pose
+  mien::Span<double> joint_metric,
+      point_metric;  // [control][control]; G without the weights of a frame
+  // What controls add to joint values, by control, in a block of its own; empty unless joint values are sums.
+  mien::Span<uint32_t> joint_first;  // [control + 1]
+  mien::Span<uint32_t> joint_rows;
+  mien::Span<float> joint_effects;
+  void* joint_block = nullptr;
+  size_t joint_block_size = 0;
   mien::Span<float> observability;  // [raw control]
 
   // Memory of a solve.
@@ -51,8 +68,11 @@ struct MienFit {
   mien::Span<float> joint_gradient;               // [joint value]
   mien::Span<float> position_gradient;            // [position][3]
   mien::Span<float> from_joints, from_positions;  // [raw control]
+  mien::Span<float> model_gradient;               // [joint][16]
   mien::Span<float> metric_row;                   // [control]
-  mien::Span<double> matrix, factor;              // [free][free]
+  mien::Span<double> projected;                   // [control]
+  mien::Span<uint32_t> support, places;           // controls that D has; [control] place in them
+  mien::Span<double> matrix, factor, reduced;     // [free][free]
   mien::Span<double> gradient, step, work;        // [control that may move]
   mien::Span<uint32_t> free;                      // places in `controls`
   mien::Span<uint32_t> inputs;                    // their raw controls
@@ -63,14 +83,34 @@ struct MienFit {
   mien::Span<double> weights;  // [point]: 0 if it is missing
   mien::Span<double> pulls;    // [point]: weights, less those of outliers
   mien::Span<double> lost;     // [point]: squared distance of one without a target, or -1
-  mien::Span<float> position_normals;  // [position][3]
-  mien::Span<float> direction, moved;  // [raw control]; [position][3]
-  mien::Span<float> step_effects;      // [control that may move][sample][3]
-  mien::Span<uint8_t> measured;        // [control that may move] its effects are those of this pose
-  mien::Span<double> row, wide;        // [motion and free]; that squared
+  mien::Span<float> position_normals;   // [position of the mesh][3]
+  mien::Span<float> directions, moved;  // kDirections of [raw control]; of [position of samples][3]
+  mien::Span<float> step_effects;       // [control that may move][sample][3]
+  mien::Span<uint8_t> measured;  // [control that may move] its effects are those of this pose
+  mien::Span<double> row, wide;  // [motion and free]; that squared
+
+  // The model of a step, and what constraints add to it.
+  mien::Span<double> pull;              // [control] half the gradient of the cost
+  mien::Span<double> change, response;  // [control] from where the model was made; G times that
+  mien::Span<float> model_controls;     // [control] where the model was made
+  mien::Span<uint32_t> changed;         // controls with a change
+  mien::Span<double> stiffness;         // [control that may move] diagonal of G
+  mien::Span<float> kept;               // [raw control]
+  mien::Span<float> constraint_rows;    // [row][control or raw control]
+  mien::Span<float> row_models, row_positions;  // kRowsAtOnce of [joint][16]; of [position][3]
+  mien::Span<double> row_residuals, row_weights, row_changes;  // [row]
+  mien::Span<float> start_joints;    // [joint value] at the start of a frame
+  mien::Span<double> start_surface;  // [point][3]
+  mien::Span<float> block_targets;   // [joint value][frame of a block]
+  mien::Span<double> block_pulls;    // [control][frame of a block]
 };
 
 namespace mien {
+
+constexpr uint32_t kDirections = 32;  // at a time through derivatives
+constexpr uint32_t kRowsAtOnce = 30;  // of constraints
+constexpr uint32_t kMostConstraints = 64;
+constexpr uint32_t kBlockFrames = 16;  // whose joint values are multiplied together
 
 /// Fills the metrics and the observability. Temporary memory comes from the arena. False if it ran out.
 bool measure_rig(MienFit& fit, Arena& arena);
@@ -79,7 +119,7 @@ bool measure_rig(MienFit& fit, Arena& arena);
 void list_free_derivatives(MienFit& fit, size_t free_count);
 
 /// matrix += factor * D^T metric D, [free][free].
-void project_metric(MienFit& fit, const float* metric, double factor, size_t free_count);
+void project_metric(MienFit& fit, const double* metric, double factor, size_t free_count);
 
 /// factor = the Cholesky factor of matrix with `damping` of its diagonal added; false if it is not definite.
 bool factor_matrix(const double* matrix, size_t count, double damping, double* factor);

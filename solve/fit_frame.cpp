@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Solves a frame: bounded Gauss-Newton steps with Levenberg-Marquardt damping (docs/solving.md).
+// mien_fit_solve() and mien_fit_solve_frames(): checks of arguments, and results.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "solve/frame.h"
@@ -11,208 +10,7 @@ using namespace mien::capi;
 
 namespace {
 
-constexpr uint32_t kDefaultIterations = 50;
-constexpr double kEnoughDecrease = 1e-6;  // of the cost: far below what noise is worth
-constexpr double kEnoughOfFirst = 1e-10;  // of the cost at the start
-constexpr double kEnoughStep = 1e-6;      // of a control
-constexpr double kRounding = 4e-7;        // of the largest coordinate: floats have no more digits
-constexpr double kSlow = 0.3;             // of what the step before gained
-constexpr double kFirstDamping = 1e-5;
-constexpr uint32_t kFirstRounds = 40, kMotionRounds = 3;  // of motions, in which they converge
-
-/// The sums over the data at some controls.
-struct Cost {
-  double total = 0, joints = 0, points = 0, joint_weight = 0, point_weight = 0;
-  double joint_worst = 0, point_worst = 0;  // the latter squared
-};
-
-double square(double v) { return v * v; }
-
-void evaluate(MienFit& fit) {
-  static_cast<void>(mien_rig_evaluate_stages(fit.rig, fit.instance, fit.lod,
-                                             MIEN_STAGE_ALL & ~uint32_t{MIEN_STAGE_ANIMATED_MAPS}));
-}
-
-/// The weight of a control's distance to where it started, or to its prior, and so on: adds to the cost, and
-/// to gradients and diagonal if there are any.
-double regularize(const Frame& f, const float* raw, double* gradient) {
-  const MienFit& fit = f.fit;
-  double cost = 0;
-  for (size_t i = 0; i < fit.controls.count; ++i) {
-    const uint32_t c = fit.controls[i];
-    const double to_prior = double{raw[c]} - fit.prior[c], to_start = double{raw[c]} - fit.start[c];
-    cost += f.in.prior_weight * square(to_prior) + f.in.smooth_weight * square(to_start) +
-            f.in.sparse_weight * std::fabs(raw[c]);
-    if (!gradient) continue;
-    // At 0, the sign of the side to which the control may move: the sum of magnitudes has a kink there.
-    const double sign = raw[c] > 0 ? 1 : raw[c] < 0 ? -1 : fit.upper[i] > 0 ? 1 : -1;
-    gradient[i] += f.in.prior_weight * to_prior + f.in.smooth_weight * to_start +
-                   0.5 * f.in.sparse_weight * sign;
-  }
-  for (size_t i = 0; i + 1 < fit.symmetric.count; i += 2) {
-    cost +=
-        f.in.symmetric_weight * square(double{raw[fit.symmetric[i]]} - raw[fit.symmetric[i + 1]]);
-  }
-  return cost;
-}
-
-/// Moves the target as a whole, or the camera, to where it fits the points, which have moved.
-void follow_points(Frame& f, uint32_t rounds) {
-  MienFit& fit = f.fit;
-  if (f.in.points && f.in.rigid) {
-    fit_rigid(fit.surface.data, fit.targets.data, fit.weights.data, fit.points.count,
-              f.motion.rotation, f.motion.translation);
-  } else if (f.in.rigid) {
-    fit_motion(f, rounds);
-  } else if (f.in.surface) {
-    match_surface(f);
-  }
-}
-
-void add_point_cost(Frame& f, bool with_gradients, Cost& cost) {
-  MienFit& fit = f.fit;
-  find_points(f);
-  follow_points(f, kMotionRounds);
-  if (with_gradients) {
-    std::fill(fit.position_gradient.begin(), fit.position_gradient.end(), 0.0f);
-  }
-  for (size_t i = 0; i < fit.points.count; ++i) {
-    fit.pulls[i] = 0;
-    if (!(fit.weights[i] > 0)) continue;
-    double gradient[3], weight;
-    if (fit.lost[i] >= 0) {
-      cost.points += fit.weights[i] * robust(fit.lost[i], double{f.in.robust_scale}, weight);
-      continue;
-    }
-    const double squared = point_residual(f, i, gradient);
-    cost.points += fit.weights[i] * robust(squared, double{f.in.robust_scale}, weight);
-    cost.point_weight += fit.weights[i];
-    cost.point_worst = std::max(cost.point_worst, squared);
-    fit.pulls[i] = fit.weights[i] * weight;
-    if (!with_gradients) continue;
-    const MienSolvePoint& point = fit.points[i];
-    for (size_t n = 0; n < 3; ++n) {
-      float* to = fit.position_gradient.data + size_t{point.positions[n]} * 3;
-      for (size_t k = 0; k < 3; ++k) {
-        to[k] += static_cast<float>(fit.pulls[i] * point.weights[n] * gradient[k]);
-      }
-    }
-  }
-}
-
-/// The cost at the controls of the instance; with gradients of joints and positions if asked for.
-Cost find_cost(Frame& f, bool with_gradients) {
-  MienFit& fit = f.fit;
-  evaluate(fit);
-  Cost cost;
-  if (f.in.joints) {
-    for (size_t i = 0; i < fit.joint_count; ++i) {
-      const bool present = std::isfinite(f.in.joints[i]);
-      const double weight = present ? fit.joint_weights[i] * f.joint_factor() : 0;
-      const double r = present ? double{fit.joints[i]} - f.in.joints[i] : 0;
-      cost.joints += weight * r * r;
-      cost.joint_weight += weight;
-      if (weight > 0) cost.joint_worst = std::max(cost.joint_worst, std::fabs(r));
-      if (with_gradients) fit.joint_gradient[i] = static_cast<float>(weight * r);
-    }
-  }
-  if (f.has_points()) add_point_cost(f, with_gradients, cost);
-  cost.total = cost.joints + cost.points;
-  return cost;
-}
-
-/// Half of the gradient of the cost by the controls that may move.
-void find_gradient(Frame& f) {
-  MienFit& fit = f.fit;
-  static_cast<void>(mien_derivatives_linearize(fit.derivatives, fit.instance, MIEN_STAGE_ALL));
-  std::fill(fit.gradient.begin(), fit.gradient.end(), 0.0);
-  const auto add = [&](uint32_t from, const float* gradient, const Span<float>& out) {
-    static_cast<void>(mien_derivatives_reverse(fit.derivatives, MIEN_POINT_RAW, from, fit.mesh, 1,
-                                               gradient, out.data));
-    for (size_t i = 0; i < fit.controls.count; ++i) fit.gradient[i] += out[fit.controls[i]];
-  };
-  if (f.in.joints) add(MIEN_POINT_JOINTS, fit.joint_gradient.data, fit.from_joints);
-  if (f.has_points()) add(MIEN_POINT_POSITIONS, fit.position_gradient.data, fit.from_positions);
-  regularize(f, fit.raw.data, fit.gradient.data);
-  for (size_t i = 0; i + 1 < fit.symmetric.count; i += 2) {
-    const uint32_t a = fit.symmetric[i], b = fit.symmetric[i + 1];
-    const double difference = f.in.symmetric_weight * (double{fit.raw[a]} - fit.raw[b]);
-    for (size_t k = 0; k < fit.controls.count; ++k) {
-      if (fit.controls[k] == a) fit.gradient[k] += difference;
-      if (fit.controls[k] == b) fit.gradient[k] -= difference;
-    }
-  }
-}
-
-/// Controls that are not held at a bound by the gradient.
-size_t list_free(const MienFit& fit) {
-  size_t count = 0;
-  for (size_t i = 0; i < fit.controls.count; ++i) {
-    const float value = fit.raw[fit.controls[i]];
-    if (value <= fit.lower[i] && fit.gradient[i] >= 0) continue;
-    if (value >= fit.upper[i] && fit.gradient[i] <= 0) continue;
-    fit.free[count] = static_cast<uint32_t>(i);
-    fit.inputs[count++] = fit.controls[i];
-  }
-  return count;
-}
-
-/// The mean weight of points: what the metric of points is multiplied by.
-double point_factor(const MienFit& fit) {
-  double factor = 0;
-  for (size_t i = 0; i < fit.points.count; ++i) factor += fit.pulls[i];
-  return factor / static_cast<double>(fit.points.count);
-}
-
-/// The matrix of a step: D^T G D and the regularization.
-void set_matrix(Frame& f, size_t free_count) {
-  MienFit& fit = f.fit;
-  list_free_derivatives(fit, free_count);
-  std::fill(fit.matrix.data, fit.matrix.data + free_count * free_count, 0.0);
-  if (f.in.joints) project_metric(fit, fit.joint_metric.data, f.joint_factor(), free_count);
-  if (f.has_points() && f.has_rows()) {
-    add_point_rows(f, free_count);
-  } else if (f.has_points()) {
-    project_metric(fit, fit.point_metric.data, point_factor(fit), free_count);
-  }
-  for (size_t a = 0; a < free_count; ++a) {
-    fit.matrix[a * free_count + a] += double{f.in.prior_weight} + f.in.smooth_weight;
-  }
-  for (size_t i = 0; i + 1 < fit.symmetric.count && f.in.symmetric_weight > 0; i += 2) {
-    size_t at[2] = {free_count, free_count};
-    for (size_t a = 0; a < free_count; ++a) {
-      for (size_t n = 0; n < 2; ++n) at[n] = fit.inputs[a] == fit.symmetric[i + n] ? a : at[n];
-    }
-    for (const size_t a : at) {
-      if (a != free_count) fit.matrix[a * free_count + a] += f.in.symmetric_weight;
-    }
-    if (at[0] == free_count || at[1] == free_count) continue;
-    fit.matrix[at[0] * free_count + at[1]] -= f.in.symmetric_weight;
-    fit.matrix[at[1] * free_count + at[0]] -= f.in.symmetric_weight;
-  }
-}
-
-/// A step from `best` into the instance; controls that leave their bounds stay at them. Returns how far the
-/// farthest control moved.
-double take_step(Frame& f, size_t free_count, double damping) {
-  MienFit& fit = f.fit;
-  while (!factor_matrix(fit.matrix.data, free_count, damping, fit.factor.data)) {
-    damping = std::max(damping * 10, 1e-8);
-  }
-  for (size_t a = 0; a < free_count; ++a) fit.step[a] = -fit.gradient[fit.free[a]];
-  solve_factored(fit.factor.data, free_count, fit.step.data);
-  double farthest = 0;
-  for (size_t a = 0; a < free_count; ++a) {
-    const uint32_t i = fit.free[a], c = fit.controls[i];
-    const double low = fit.lower[i], high = fit.upper[i], from = fit.best[c];
-    double to = std::min(std::max(from + fit.step[a], low), high);
-    // A control does not jump over the kink of the sum of magnitudes.
-    if (f.in.sparse_weight > 0 && from * to < 0) to = 0;
-    farthest = std::max(farthest, std::fabs(to - from));
-    fit.raw[c] = static_cast<float>(to);
-  }
-  return farthest;
-}
+constexpr uint32_t kMostStages = 16;
 
 bool is_weight(float v) { return v >= 0 && std::isfinite(v); }
 
@@ -254,6 +52,10 @@ MienStatus check_frame(const MienFit& fit, const MienFitFrame& in) {
   for (size_t i = 0; in.point_weights && i < fit.points.count; ++i) {
     if (!is_weight(in.point_weights[i])) return MIEN_ERROR_INVALID_ARGUMENT;
   }
+  if (MienStatus status = check_constraints(fit, in)) return status;
+  for (size_t i = 0; in.stages && i < fit.raw_count; ++i) {
+    if (in.stages[i] >= kMostStages) return MIEN_ERROR_INVALID_ARGUMENT;
+  }
   const auto finite = [&](const float* row) {
     for (size_t i = 0; row && i < fit.raw_count; ++i) {
       if (!std::isfinite(row[i])) return false;
@@ -277,136 +79,185 @@ void read_rows(Frame& f) {
   }
 }
 
-double largest_target(const Frame& f) {
-  double largest = 0;
-  for (size_t i = 0; i < f.fit.points.count; ++i) {
-    if (!(f.fit.weights[i] > 0)) continue;
-    for (size_t k = 0; k < 3; ++k) largest = std::max(largest, std::fabs(f.fit.targets[3 * i + k]));
-  }
-  return largest;
-}
-
-/// The motion at the start.
-void start_motion(Frame& f) {
-  if (!f.has_points() || !f.in.rigid) return;
-  evaluate(f.fit);
-  find_points(f);
-  if (f.in.images &&
-      std::all_of(f.motion.rotation, f.motion.rotation + 9, [](double v) { return v == 0; })) {
-    guess_camera(f);
-  }
-  follow_points(f, kFirstRounds);
-}
-
-uint32_t solve(Frame& f, Cost& cost, uint32_t& iterations) {
-  using Clock = std::chrono::steady_clock;
-  MienFit& fit = f.fit;
-  const auto begin = Clock::now();
-  const auto late = [&] {
-    return f.in.max_seconds > 0 &&
-           std::chrono::duration<double>(Clock::now() - begin).count() >= f.in.max_seconds;
-  };
-  const uint32_t limit = f.in.max_iterations ? f.in.max_iterations : kDefaultIterations;
-  const auto keep = [&] { std::copy(fit.raw.begin(), fit.raw.end(), fit.best.begin()); };
-  const auto find_all = [&](bool with_gradients) {
-    Cost found = find_cost(f, with_gradients);
-    found.total += regularize(f, fit.raw.data, nullptr);
-    return found;
-  };
-  start_motion(f);
-  const auto is_rounding = [&](const Cost& found) {
-    return !f.in.joints &&
-           found.points <= found.point_weight * square(kRounding * largest_target(f));
-  };
-  cost = find_all(true);
-  keep();
-  if (!(cost.joint_weight + cost.point_weight > 0)) return MIEN_FIT_NO_DATA;
-  const double first = cost.total;
-  double damping = kFirstDamping, before = 0;
-  uint32_t slow = 0;  // steps in a row that gained little less than the one before
-  std::fill(fit.measured.begin(), fit.measured.end(), uint8_t{0});
-  // Effects of controls on points change with the pose: where steps gain little, they are measured at it.
-  const auto measure_again = [&] {
-    if (!f.has_points() || (f.exact && slow == 0)) return false;
-    f.exact = true;
-    slow = 0;
-    before = 0;
-    damping = kFirstDamping;
-    std::fill(fit.measured.begin(), fit.measured.end(), uint8_t{0});
-    return true;
-  };
-  for (iterations = 0; iterations < limit; ++iterations) {
-    if (f.in.canceled && f.in.canceled(f.in.user)) return MIEN_FIT_CANCELED;
-    if (iterations != 0 && late()) return MIEN_FIT_TIME;
-    find_gradient(f);
-    const size_t free_count = list_free(fit);
-    if (free_count == 0) return MIEN_FIT_CONVERGED;
-    set_matrix(f, free_count);
-    const Motion motion = f.motion;
-    for (;;) {
-      const double farthest = take_step(f, free_count, damping);
-      const Cost next = find_all(true);
-      if (next.total < cost.total) {
-        const double decrease = cost.total - next.total;
-        const double enough = std::max(kEnoughDecrease * cost.total, kEnoughOfFirst * first);
-        slow = decrease > kSlow * before && before > 0 ? slow + 1 : 0;
-        before = decrease;
-        cost = next;
-        keep();
-        damping = std::max(damping * 0.2, 1e-7);
-        if (is_rounding(cost)) return MIEN_FIT_CONVERGED;
-        const bool done = decrease <= enough || farthest < kEnoughStep;
-        if (done && (slow == 0 || !measure_again())) return MIEN_FIT_CONVERGED;
-        if (slow >= 2) measure_again();
-        break;
-      }
-      std::copy(fit.best.begin(), fit.best.end(), fit.raw.begin());
-      f.motion = motion;
-      const bool ended = farthest < kEnoughStep || damping > 1e8;
-      if (ended) {
-        cost = find_all(true);  // of the best controls
-        if (!f.exact && damping > kFirstDamping && measure_again()) break;
-        return MIEN_FIT_CONVERGED;
-      }
-      damping *= 10;
-    }
-  }
-  return MIEN_FIT_ITERATIONS;
-}
-
-}  // namespace
-
-MienStatus mien_fit_solve(MienFit* fit, const MienFitFrame* frame, float* out_raw,
-                          MienFitResult* result) {
-  if (!frame || !out_raw) return MIEN_ERROR_NULL_ARGUMENT;
-  if (MienStatus status = check_tag(fit, kFitTag)) return status;
-  MienFitFrame known;
-  if (MienStatus status = read_struct(frame, known)) return status;
-  if (result) {
-    if (MienStatus status = clear_struct(result)) return status;
-  }
-  if (MienStatus status = check_frame(*fit, known)) return status;
-  Frame f = {*fit, known, {}};
-  read_rows(f);
-  if (f.has_points()) read_points(f);
-  Cost cost;
-  uint32_t iterations = 0;
-  MienFitResult told = {};
-  told.status = solve(f, cost, iterations);
-  std::copy(fit->best.begin(), fit->best.end(), out_raw);
-  told.iterations = iterations;
-  told.cost = cost.total;
-  const auto root_mean = [](double sum, double weight) {
-    return weight > 0 ? std::sqrt(sum / weight) : 0.0;
-  };
-  told.joint_residual = root_mean(cost.joints, cost.joint_weight);
-  told.point_residual = root_mean(cost.points, cost.point_weight);
-  told.joint_worst = cost.joint_worst;
-  told.point_worst = std::sqrt(cost.point_worst);
+void tell(const MienFit& fit, const Frame& f, float* out_raw, MienFitResult& told) {
+  std::copy(fit.best.begin(), fit.best.end(), out_raw);
   told.missing_points = f.missing;
   for (int k = 0; k < 9; ++k) told.rotation[k] = static_cast<float>(f.motion.rotation[k]);
   for (int k = 0; k < 3; ++k) told.translation[k] = static_cast<float>(f.motion.translation[k]);
   for (int k = 0; k < 2 && f.in.images; ++k) told.focal[k] = static_cast<float>(f.motion.focal[k]);
+}
+
+/// One frame, by itself.
+void solve_one(MienFit& fit, const MienFitFrame& in, float* out_raw, MienFitResult& told) {
+  Frame f = {fit, in, {}};
+  read_rows(f);
+  if (fit.points.count != 0) read_points(f);
+  solve_frame(f, told);
+  tell(fit, f, out_raw, told);
+}
+
+MienStatus read_frame(const MienFit* fit, const MienFitFrame* frame, MienFitFrame& known) {
+  if (!frame) return MIEN_ERROR_NULL_ARGUMENT;
+  if (MienStatus status = check_tag(fit, kFitTag)) return status;
+  return read_struct(frame, known);
+}
+
+/// Frame i of several: its rows of the targets.
+MienFitFrame row_of(const MienFit& fit, const MienFitFrame& frame, size_t i) {
+  MienFitFrame in = frame;
+  const size_t points = fit.points.count;
+  if (in.joints) in.joints += i * fit.joint_count;
+  if (in.points) in.points += i * points * 3;
+  if (in.images) in.images += i * points * 2;
+  if (in.point_weights) in.point_weights += i * points;
+  return in;
+}
+
+// Frames of joints ----------------------------------------------------------------------------------------
+
+/// Whether joint values are the only targets and are there in all frames, and are sums over the controls.
+bool are_plain_joints(const MienFit& fit, const MienFitFrame& in, size_t count) {
+  if (!in.joints || in.points || in.images || in.surface || in.constraints || !fit.joint_block) {
+    return false;
+  }
+  return std::all_of(in.joints, in.joints + count * fit.joint_count,
+                     [](float v) { return std::isfinite(v); });
+}
+
+/// block_pulls = what the targets of `count` frames say to each control.
+void multiply_targets(MienFit& fit, const MienFitFrame& in, size_t count) {
+  constexpr size_t kLanes = kBlockFrames;
+  for (size_t j = 0; j < fit.joint_count; ++j) {
+    float* const to = fit.block_targets.data + j * kLanes;
+    for (size_t k = 0; k < kLanes; ++k) {
+      to[k] = k < count ? fit.joint_weights[j] * in.joints[k * fit.joint_count + j] : 0.0f;
+    }
+  }
+  for (size_t c = 0; c < fit.control_count; ++c) {
+    float sums[kLanes] = {};
+    for (uint32_t i = fit.joint_first[c]; i < fit.joint_first[c + 1]; ++i) {
+      const float* const from = fit.block_targets.data + size_t{fit.joint_rows[i]} * kLanes;
+      const float effect = fit.joint_effects[i];
+      for (size_t k = 0; k < kLanes; ++k) sums[k] += effect * from[k];
+    }
+    std::copy(sums, sums + kLanes, fit.block_pulls.data + c * kLanes);
+  }
+}
+
+/// Frame `lane` of the block by its model alone, which is the cost up to rounding. False: not so.
+bool solve_by_model(Frame& f, size_t lane, MienFitResult& told) {
+  MienFit& fit = f.fit;
+  evaluate_controls(fit);
+  std::copy(fit.raw.begin(), fit.raw.end(), fit.best.begin());
+  // The pull is G c - the targets', and G c the response to a change of all controls from 0.
+  std::fill(fit.model_controls.begin(), fit.model_controls.end(), 0.0f);
+  std::fill(fit.pull.begin(), fit.pull.end(), 0.0);
+  double own = find_change(f), cross = 0, targets = 0;
+  for (size_t c = 0; c < fit.control_count; ++c) {
+    const double target = f.joint_factor() * fit.block_pulls[c * kBlockFrames + lane];
+    cross += target * double{fit.all_controls[c]};
+    fit.pull[c] = fit.response[c] - target;
+  }
+  for (size_t j = 0; j < fit.joint_count; ++j) {
+    targets += double{fit.joint_weights[j]} * square(double{f.in.joints[j]});
+  }
+  const double first = std::max(own - 2 * cross + f.joint_factor() * targets, 0.0) +
+                       regularize(f, fit.raw.data, nullptr);
+  std::copy(fit.all_controls.begin(), fit.all_controls.end(), fit.model_controls.begin());
+  const double scale = kRounding * kRounding * f.joint_factor() * targets;
+  const ModelStep step = minimize_model(f, first, first, scale, kFirstDamping);
+  double moved = 0;
+  for (size_t c = 0; c < fit.control_count; ++c) moved += fit.change[c] * fit.response[c];
+  told.jumped = moved > 1.01 * first + 100 * square(kRounding) * targets;
+  Cost cost = find_cost(f);
+  cost.total += regularize(f, fit.raw.data, nullptr);
+  const double close = std::max({1e-5 * first, 1e-3 * cost.total, scale});
+  if (!step.solved || std::fabs(cost.total - step.predicted) > close) return false;
+  std::copy(fit.raw.begin(), fit.raw.end(), fit.best.begin());
+  told.status = MIEN_FIT_CONVERGED;
+  told.iterations = 1;
+  tell_cost(cost, told);
+  return true;
+}
+
+}  // namespace
+
+namespace mien {
+
+void tell_cost(const Cost& cost, MienFitResult& told) {
+  const auto root_mean = [](double sum, double weight) {
+    return weight > 0 ? std::sqrt(sum / weight) : 0.0;
+  };
+  told.cost = cost.total;
+  told.joint_residual = root_mean(cost.joints, cost.joint_weight);
+  told.point_residual = root_mean(cost.points, cost.point_weight);
+  told.constraint_residual = root_mean(cost.constraints, cost.constraint_weight);
+  told.joint_worst = cost.joint_worst;
+  told.point_worst = std::sqrt(cost.point_worst);
+  told.constraint_worst = std::sqrt(cost.constraint_worst);
+}
+
+}  // namespace mien
+
+MienStatus mien_fit_solve(MienFit* fit, const MienFitFrame* frame, float* out_raw,
+                          MienFitResult* result) {
+  if (!out_raw) return MIEN_ERROR_NULL_ARGUMENT;
+  MienFitFrame known;
+  if (MienStatus status = read_frame(fit, frame, known)) return status;
+  if (result) {
+    if (MienStatus status = clear_struct(result)) return status;
+  }
+  if (MienStatus status = check_frame(*fit, known)) return status;
+  MienFitResult told = {};
+  solve_one(*fit, known, out_raw, told);
   if (result) write_struct(result, told);
+  return MIEN_OK;
+}
+
+MienStatus mien_fit_solve_frames(MienFit* fit, const MienFitFrame* frame, size_t count,
+                                 float* out_raw, MienFitResult* results) {
+  MienFitFrame known;
+  if (MienStatus status = read_frame(fit, frame, known)) return status;
+  if (count == 0) return MIEN_OK;
+  if (!out_raw) return MIEN_ERROR_NULL_ARGUMENT;
+  const size_t result_size = results ? results->struct_size : 0;
+  const auto result_of = [&](size_t i) {
+    return reinterpret_cast<MienFitResult*>(reinterpret_cast<uint8_t*>(results) + i * result_size);
+  };
+  for (size_t i = 0; i < count; ++i) {
+    if (results && result_of(i)->struct_size != result_size) return MIEN_ERROR_INVALID_ARGUMENT;
+    if (results) {
+      if (MienStatus status = clear_struct(result_of(i))) return status;
+    }
+    if (MienStatus status = check_frame(*fit, row_of(*fit, known, i))) return status;
+  }
+  const bool plain = are_plain_joints(*fit, known, count);
+  MienFitCamera camera = known.camera ? *known.camera : MienFitCamera{};
+  for (size_t i = 0; i < count; ++i) {
+    MienFitFrame in = row_of(*fit, known, i);
+    if (plain && i % kBlockFrames == 0)
+      multiply_targets(*fit, in, std::min<size_t>(count - i, kBlockFrames));
+    if (i != 0) {
+      in.start = out_raw + (i - 1) * fit->raw_count;
+      in.stages = nullptr;
+    }
+    if (in.camera) in.camera = &camera;
+    float* const out = out_raw + i * fit->raw_count;
+    MienFitResult told = {};
+    bool solved = false;
+    if (plain && !in.stages) {
+      Frame f = {*fit, in, {}};
+      read_rows(f);
+      solved = !(in.canceled && in.canceled(in.user)) && solve_by_model(f, i % kBlockFrames, told);
+      if (solved) tell(*fit, f, out, told);
+    }
+    if (!solved) solve_one(*fit, in, out, told);
+    if (in.camera && in.rigid) {
+      std::copy(told.rotation, told.rotation + 9, camera.rotation);
+      std::copy(told.translation, told.translation + 3, camera.translation);
+      std::copy(told.focal, told.focal + 2, camera.focal);
+    }
+    if (results) write_struct(result_of(i), told);
+  }
   return MIEN_OK;
 }

@@ -9,7 +9,7 @@
 
 namespace mien {
 
-constexpr size_t kMostSamples = 400;  // more points add time and no new directions
+constexpr size_t kMostSamples = 600;  // more points add time and no new directions
 constexpr size_t kMostMotion = 7;     // rotation, translation, focal length
 
 /// From model space to that of the targets, or to the camera.
@@ -38,9 +38,12 @@ struct Frame {
   MienFitFrame in;
   Motion motion;
   uint32_t missing = 0;
-  bool exact = false;  // steps take the effects of controls on points from the pose at hand
+  bool exact = false;    // steps take the effects of controls on points from the pose at hand
+  uint32_t stage = 0;    // controls of later stages are held
+  size_t row_count = 0;  // of constraints, at the pose at hand
 
   bool has_points() const { return in.points || in.images || in.surface; }
+  bool is_locked(uint32_t control) const { return in.stages && in.stages[control] > stage; }
   /// Steps need more than the metric of points at rest.
   bool has_rows() const { return in.images || in.surface || in.rigid || exact; }
   size_t motion_count() const { return !in.rigid ? 0 : in.images && in.focal ? 7 : 6; }
@@ -58,12 +61,83 @@ inline double robust(double squared, double scale, double& weight) {
   return squared * share;
 }
 
+/// The sums over the data at some controls.
+struct Cost {
+  double total = 0, joints = 0, points = 0, constraints = 0;
+  double joint_weight = 0, point_weight = 0, constraint_weight = 0;
+  double joint_worst = 0, point_worst = 0, constraint_worst = 0;  // the latter two squared
+};
+
+constexpr double kEnoughDecrease = 1e-6;  // of the cost: far below what noise is worth
+constexpr double kEnoughOfFirst = 1e-10;  // of the cost at the start
+constexpr double kEnoughStep = 1e-6;      // of a control
+constexpr double kRounding = 4e-7;        // of the largest coordinate: floats have no more digits
+constexpr double kFirstDamping = 1e-5;
+
+inline double square(double v) { return v * v; }
+
+// Cost (cost.cpp) ---------------------------------------------------------------------------------------
+
+/// All controls, and what the targets need.
+void evaluate(MienFit& fit);
+/// The terms that do not depend on the rig; their part of the gradient of controls that may move is added.
+double regularize(const Frame& f, const float* raw, double* gradient);
+void add_symmetric_gradient(Frame& f);
+/// The cost at the controls of the instance without those terms; with gradients of joints and positions.
+Cost find_cost(Frame& f);
+/// Moves the target as a whole, or the camera, to where it fits the points, which have moved.
+void follow_points(Frame& f, uint32_t rounds);
+/// Half of the gradient of the cost by the controls that may move.
+void find_gradient(Frame& f);
+/// The mean weight of points: what the metric of points is multiplied by.
+double point_factor(const MienFit& fit);
+/// The parts of the diagonal and of symmetric pairs in the matrix of a step.
+void add_regularization(Frame& f, size_t free_count);
+
+// Constraints (constraints.cpp) -------------------------------------------------------------------------
+
+MienStatus check_constraints(const MienFit& fit, const MienFitFrame& in);
+/// Adds to the cost, and to the gradients of positions and model matrices, which are 0 or those of points.
+void add_constraint_cost(Frame& f, Cost& cost);
+/// The derivatives of all residuals by `from`: raw or all controls.
+void list_constraint_rows(Frame& f, uint32_t from);
+/// Whether joints have constraints.
+bool has_joint_constraints(const Frame& f);
+
+// Model (model.cpp) -------------------------------------------------------------------------------------
+
+struct ModelStep {
+  double farthest;   // that a control moves
+  double predicted;  // the cost after it, if the model holds
+  bool solved;       // the model has no lower cost within reach
+};
+/// Takes the cost at the best controls as a quadratic function of all controls.
+void make_model(Frame& f);
+/// Moves controls from the best ones to where the model is lowest. `cost` is the total at the best controls.
+/// `rounding` is a cost below which nothing counts.
+ModelStep minimize_model(Frame& f, double cost, double first, double rounding, double damping);
+/// MienFit::step of the free controls, from those of the instance: where it would leave the bounds, a control stops
+/// and the others take that into account.
+void find_bounded_step(Frame& f, size_t free_count, double damping);
+/// response = metric times the change of controls; returns the change of the model's cost.
+double find_change(Frame& f);
+/// Control values alone.
+void evaluate_controls(MienFit& fit);
+
+// Steps (steps.cpp) -------------------------------------------------------------------------------------
+
+/// Solves from the controls of the instance to MienFit::best.
+void solve_frame(Frame& f, MienFitResult& told);
+void tell_cost(const Cost& cost, MienFitResult& told);
+
 // Points ------------------------------------------------------------------------------------------------
 
 /// Targets and weights as given; missing ones have no weight.
 void read_points(Frame& f);
 /// The points at the controls of the instance, and, for a surface, their normals.
 void find_points(Frame& f);
+/// Where a point in model space is seen: placed, and in the image if there is one.
+void view_point(const Frame& f, const double* point, double* out);
 /// Where each point is drawn to, if that is a surface.
 void match_surface(Frame& f);
 /// The squared residual of a point, and half of its derivative by the point in model space.
@@ -81,7 +155,7 @@ void fit_motion(Frame& f, uint32_t rounds);
 void list_motion(const Frame& f, const double* moved, const double* direction, size_t row,
                  double* out);
 
-// Steps -------------------------------------------------------------------------------------------------
+// Rows of points (rows.cpp) -----------------------------------------------------------------------------
 
 /// matrix += J^T W J of the points by the free controls, whatever the motion, which follows them.
 void add_point_rows(Frame& f, size_t free_count);

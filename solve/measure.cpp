@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solve/fit.h"
+#include "solve/frame.h"
 
 namespace mien {
 namespace {
@@ -16,7 +16,7 @@ struct Column {
 
 /// The sparse matrix P, its columns, and one dense column at a time against all others.
 void multiply_columns(Span<Column> columns, const uint32_t* rows, const float* values,
-                      double* dense, float* metric) {
+                      double* dense, double* metric) {
   const size_t count = columns.count;
   for (size_t a = 0; a < count; ++a) {
     const Column& one = columns[a];
@@ -27,7 +27,7 @@ void multiply_columns(Span<Column> columns, const uint32_t* rows, const float* v
       for (uint32_t i = 0; i < other.count; ++i) {
         sum += dense[rows[other.first + i]] * values[other.first + i];
       }
-      metric[a * count + b] = metric[b * count + a] = static_cast<float>(sum);
+      metric[a * count + b] = metric[b * count + a] = sum;
     }
     for (uint32_t i = 0; i < one.count; ++i) dense[rows[one.first + i]] = 0;
   }
@@ -39,12 +39,12 @@ struct Entries {
   Span<uint32_t> rows, numbers;
   Span<float> values;
 };
-bool find_entries(MienFit& fit, uint32_t to, Span<uint32_t> outputs, Arena& arena, Entries& out) {
+bool find_entries(MienFit& fit, MienDerivatives* derivatives, uint32_t to, Arena& arena,
+                  Entries& out) {
   MienJacobian jacobian = mien_jacobian_default();
-  jacobian.outputs = outputs.data;
-  jacobian.output_count = outputs.count;
   size_t count = 0;
-  if (mien_derivatives_jacobian(fit.derivatives, MIEN_POINT_CONTROLS, to, fit.mesh, &jacobian,
+  if (mien_derivatives_linearize(derivatives, fit.instance, MIEN_STAGE_ALL) != MIEN_OK ||
+      mien_derivatives_jacobian(derivatives, MIEN_POINT_CONTROLS, to, fit.mesh, &jacobian,
                                 &count) != MIEN_OK) {
     return false;
   }
@@ -57,7 +57,7 @@ bool find_entries(MienFit& fit, uint32_t to, Span<uint32_t> outputs, Arena& aren
   jacobian.columns = out.numbers.data;
   jacobian.values = out.values.data;
   jacobian.capacity = count;
-  if (count != 0 && mien_derivatives_jacobian(fit.derivatives, MIEN_POINT_CONTROLS, to, fit.mesh,
+  if (count != 0 && mien_derivatives_jacobian(derivatives, MIEN_POINT_CONTROLS, to, fit.mesh,
                                               &jacobian, &count) != MIEN_OK) {
     return false;
   }
@@ -69,10 +69,67 @@ bool find_entries(MienFit& fit, uint32_t to, Span<uint32_t> outputs, Arena& aren
   return true;
 }
 
-bool measure_joints(MienFit& fit, Arena& arena) {
-  Entries entries;
+/// Whether joint values are sums over the controls: at a pose, that is what evaluation gives.
+bool are_sums(MienFit& fit, const Entries& entries, const Span<double>& sums) {
+  for (size_t i = 0; i < fit.controls.count; ++i) {
+    const float high = fit.upper[i], low = fit.lower[i];
+    fit.raw[fit.controls[i]] = low + 0.3f * (high - low);
+  }
+  evaluate(fit);
+  std::fill(sums.begin(), sums.end(), 0.0);
+  for (size_t c = 0; c < fit.control_count; ++c) {
+    const Column& column = entries.columns[c];
+    for (uint32_t i = column.first; i < column.first + column.count; ++i) {
+      sums[entries.rows[i]] += double{fit.all_controls[c]} * entries.values[i];
+    }
+  }
+  double worst = 0, largest = 0;
+  for (size_t i = 0; i < fit.joint_count; ++i) {
+    worst = std::max(worst, std::fabs(double{fit.joints[i]} - sums[i]));
+    largest = std::max(largest, std::fabs(double{fit.joints[i]}));
+  }
+  std::copy(fit.initial.begin(), fit.initial.end(), fit.raw.begin());
+  evaluate(fit);
+  return worst <= 1e-5 * largest;
+}
+
+void place_effects(size_t count, Placer& placer, MienFit& fit) {
+  fit.joint_first = placer.array<uint32_t>(fit.control_count + 1);
+  fit.joint_rows = placer.array<uint32_t>(count);
+  fit.joint_effects = placer.array<float>(count);
+  fit.block_targets = placer.array<float>(fit.joint_count * kBlockFrames);
+  fit.block_pulls = placer.array<double>(fit.control_count * kBlockFrames);
+}
+
+/// For mien_fit_solve_frames(). False if memory ran out.
+bool keep_effects(MienFit& fit, const Entries& entries) {
+  const size_t count = entries.rows.count - 1;
+  MienFit measured = fit;
+  Placer sizes(nullptr);
+  place_effects(count, sizes, measured);
+  fit.joint_block_size = sizes.size();
+  fit.joint_block = fit.allocator.get(fit.joint_block_size, kBlockAlignment);
+  if (!fit.joint_block) return false;
+  Placer placer(fit.joint_block);
+  place_effects(count, placer, fit);
+  std::copy(entries.rows.data, entries.rows.data + count, fit.joint_rows.data);
+  std::copy(entries.values.data, entries.values.data + count, fit.joint_effects.data);
+  for (size_t c = 0; c < fit.control_count; ++c) {
+    fit.joint_first[c + 1] = fit.joint_first[c] + entries.columns[c].count;
+  }
+  return true;
+}
+
+bool measure_joints(MienFit& fit, Arena& arena, Entries& entries) {
   const Span<double> dense = arena.array<double>(fit.joint_count + 1);
-  if (!dense.data || !find_entries(fit, MIEN_POINT_JOINTS, {}, arena, entries)) return false;
+  if (!dense.data ||
+      !find_entries(fit, fit.control_derivatives, MIEN_POINT_JOINTS, arena, entries)) {
+    return false;
+  }
+  if (are_sums(fit, entries, dense.first(fit.joint_count)) && !keep_effects(fit, entries)) {
+    return false;
+  }
+  std::fill(dense.begin(), dense.end(), 0.0);
   for (size_t i = 0; i + 1 < entries.rows.count; ++i) {
     entries.values[i] *= std::sqrt(fit.joint_weights[entries.rows[i]]);
   }
@@ -84,21 +141,10 @@ bool measure_joints(MienFit& fit, Arena& arena) {
 /// Some of the points, evenly chosen, stand for all.
 bool measure_points(MienFit& fit, Arena& arena) {
   const size_t count = fit.samples.count;
-  // The coordinates that the chosen points read, ascending.
-  Span<uint32_t> outputs = arena.array<uint32_t>(count * 9 + 1);
-  if (!outputs.data) return false;
-  size_t used = 0;
-  for (const uint32_t i : fit.samples) {
-    for (const uint32_t position : fit.points[i].positions) {
-      for (uint32_t k = 0; k < 3; ++k) outputs[used++] = position * 3 + k;
-    }
-  }
-  std::sort(outputs.data, outputs.data + used);
-  used = static_cast<size_t>(std::unique(outputs.data, outputs.data + used) - outputs.data);
-  outputs = outputs.first(used);
   Entries entries;
-  if (!find_entries(fit, MIEN_POINT_POSITIONS, outputs, arena, entries)) return false;
-  const Span<float> coordinates = arena.array<float>(used + 1);
+  if (!find_entries(fit, fit.sample_derivatives, MIEN_POINT_POSITIONS, arena, entries))
+    return false;
+  const Span<float> coordinates = arena.array<float>(fit.sample_position_count * 3 + 1);
   const Span<double> dense = arena.array<double>(count * 3 + 1);
   const Span<Column> columns = arena.array<Column>(fit.control_count + 1);
   // An entry of a coordinate becomes at most as many of points.
@@ -114,18 +160,15 @@ bool measure_points(MienFit& fit, Arena& arena) {
     columns[c] = {at, 0};
     if (column.count == 0) continue;
     std::fill(coordinates.begin(), coordinates.end(), 0.0f);
-    for (uint32_t i = 0; i < column.count; ++i) {
-      coordinates[entries.rows[column.first + i]] = entries.values[column.first + i];
+    for (uint32_t i = column.first; i < column.first + column.count; ++i) {
+      coordinates[entries.rows[i]] = entries.values[i];
     }
     uint32_t row = 0;
-    for (const uint32_t i : fit.samples) {
-      const MienSolvePoint& point = fit.points[i];
+    for (const MienSolvePoint& point : fit.sample_points) {
       for (uint32_t k = 0; k < 3; ++k, ++row) {
         double sum = 0;
         for (size_t n = 0; n < 3; ++n) {
-          const uint32_t number = point.positions[n] * 3 + k;
-          const uint32_t* found = std::lower_bound(outputs.data, outputs.data + used, number);
-          sum += double{point.weights[n]} * coordinates[static_cast<size_t>(found - outputs.data)];
+          sum += double{point.weights[n]} * coordinates[size_t{point.positions[n]} * 3 + k];
         }
         fit.sample_effects[c * count * 3 + row] = static_cast<float>(sum);
         if (sum == 0) continue;
@@ -190,7 +233,8 @@ void find_observability(MienFit& fit) {
 }  // namespace
 
 bool measure_rig(MienFit& fit, Arena& arena) {
-  if (!measure_joints(fit, arena)) return false;
+  Entries joints;
+  if (!measure_joints(fit, arena, joints)) return false;
   if (fit.points.count != 0 && !measure_points(fit, arena)) return false;
   find_observability(fit);
   return true;
@@ -207,31 +251,39 @@ void list_free_derivatives(MienFit& fit, size_t free_count) {
   size_t count = 0;
   std::fill(fit.first.data, fit.first.data + free_count + 1, 0u);
   if (free_count == 0) return;
-  static_cast<void>(mien_derivatives_jacobian(fit.derivatives, MIEN_POINT_RAW, MIEN_POINT_CONTROLS,
-                                              0, &jacobian, &count));
+  static_cast<void>(mien_derivatives_jacobian(fit.control_derivatives, MIEN_POINT_RAW,
+                                              MIEN_POINT_CONTROLS, 0, &jacobian, &count));
   for (size_t i = 0; i < count; ++i) ++fit.first[fit.columns[i] + 1];
   for (size_t c = 0; c < free_count; ++c) fit.first[c + 1] += fit.first[c];
 }
 
-void project_metric(MienFit& fit, const float* metric, double factor, size_t free_count) {
-  const size_t controls = fit.control_count;
-  float* const row = fit.metric_row.data;
+void project_metric(MienFit& fit, const double* metric, double factor, size_t free_count) {
+  // Only controls that D has count.
+  size_t support = 0;
+  for (uint32_t i = 0; i < fit.first[free_count]; ++i) fit.places[fit.rows[i]] = 1;
+  for (uint32_t c = 0; c < fit.control_count; ++c) {
+    if (fit.places[c] == 0) continue;
+    fit.places[c] = static_cast<uint32_t>(support);
+    fit.support[support++] = c;
+  }
+  double* const row = fit.projected.data;
   for (size_t a = 0; a < free_count; ++a) {
-    std::fill(row, row + controls, 0.0f);
+    std::fill(row, row + support, 0.0);
     for (uint32_t i = fit.first[a]; i < fit.first[a + 1]; ++i) {
-      const float* const from = metric + size_t{fit.rows[i]} * controls;
-      const float value = fit.values[i];
-      for (size_t c = 0; c < controls; ++c) row[c] += value * from[c];
+      const double* const from = metric + size_t{fit.rows[i]} * fit.control_count;
+      const double value = factor * double{fit.values[i]};
+      for (size_t s = 0; s < support; ++s) row[s] += value * from[fit.support[s]];
     }
     for (size_t b = 0; b <= a; ++b) {
       double sum = 0;
       for (uint32_t i = fit.first[b]; i < fit.first[b + 1]; ++i) {
-        sum += double{row[fit.rows[i]]} * double{fit.values[i]};
+        sum += row[fit.places[fit.rows[i]]] * double{fit.values[i]};
       }
-      fit.matrix[a * free_count + b] += factor * sum;
-      if (a != b) fit.matrix[b * free_count + a] += factor * sum;
+      fit.matrix[a * free_count + b] += sum;
+      if (a != b) fit.matrix[b * free_count + a] += sum;
     }
   }
+  for (size_t s = 0; s < support; ++s) fit.places[fit.support[s]] = 0;
 }
 
 }  // namespace mien

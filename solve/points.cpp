@@ -52,7 +52,7 @@ void read_points(Frame& f) {
       fit.targets[3 * i + k] = v;
     }
     const float weight = f.in.point_weights ? f.in.point_weights[i] : 1.0f;
-    fit.weights[i] = finite ? weight : 0.0;
+    fit.weights[i] = finite && f.has_points() ? weight : 0.0;
     if (!finite) std::fill(fit.targets.data + 3 * i, fit.targets.data + 3 * i + 3, 0.0);
     f.missing += !finite;
   }
@@ -65,15 +65,37 @@ void read_points(Frame& f) {
 
 void find_points(Frame& f) {
   MienFit& fit = f.fit;
-  static_cast<void>(mien_deformer_instance_update(fit.deformed, fit.instance));
-  static_cast<void>(
-      mien_deformer_instance_deform(fit.deformed, fit.mesh, MIEN_NORMALS_NONE, nullptr));
-  MienFloatView positions = {};
-  static_cast<void>(mien_deformer_instance_positions(fit.deformed, fit.mesh, &positions));
+  const auto deform = [&](MienDeformerInstance* deformed) {
+    MienFloatView positions = {};
+    static_cast<void>(mien_deformer_instance_update(deformed, fit.instance));
+    if (fit.points.count == 0) return positions;
+    static_cast<void>(
+        mien_deformer_instance_deform(deformed, fit.mesh, MIEN_NORMALS_NONE, nullptr));
+    static_cast<void>(mien_deformer_instance_positions(deformed, fit.mesh, &positions));
+    return positions;
+  };
+  MienFloatView positions = deform(fit.deformed);
   for (size_t i = 0; i < fit.points.count; ++i) {
-    sum_rows(fit.points[i], positions.data, fit.surface.data + 3 * i);
+    const MienSolvePoint& point = fit.points[i];
+    double* const to = fit.surface.data + 3 * i;
+    if (point.weights[0] == 1 && point.weights[1] == 0 && point.weights[2] == 0) {
+      const float* from = positions.data + size_t{point.positions[0]} * 3;
+      for (size_t k = 0; k < 3; ++k) to[k] = double{from[k]};
+    } else {
+      sum_rows(point, positions.data, to);
+    }
   }
-  if (f.in.surface) find_position_normals(fit, positions.data);
+  if (!f.in.surface) return;
+  if (fit.whole != fit.deformed) positions = deform(fit.whole);
+  find_position_normals(fit, positions.data);
+}
+
+void view_point(const Frame& f, const double* point, double* out) {
+  f.motion.place(point, out);
+  if (!f.in.images) return;
+  const double z = std::max(out[2], 1e-6);
+  for (size_t k = 0; k < 2; ++k) out[k] *= f.motion.focal[k] / z;
+  out[2] = 0;
 }
 
 void match_surface(Frame& f) {
@@ -84,7 +106,7 @@ void match_surface(Frame& f) {
     if (!(fit.weights[i] > 0)) continue;
     double at[3], own[3], normal[3] = {};
     f.motion.place(fit.surface.data + 3 * i, at);
-    sum_rows(fit.points[i], fit.position_normals.data, own);
+    sum_rows(fit.whole_points[i], fit.position_normals.data, own);
     const double length = std::sqrt(squared_length(own));
     for (size_t r = 0; r < 3 && length > 0; ++r) {
       for (size_t c = 0; c < 3; ++c) normal[r] += f.motion.rotation[3 * r + c] * own[c] / length;

@@ -7,20 +7,36 @@
 namespace mien {
 namespace {
 
-/// What a control does to the samples at the pose at hand.
-void measure_control(MienFit& fit, uint32_t control, float* to) {
-  std::fill(fit.direction.begin(), fit.direction.end(), 0.0f);
-  fit.direction[control] = 1;
-  static_cast<void>(mien_derivatives_forward(fit.derivatives, MIEN_POINT_RAW, MIEN_POINT_POSITIONS,
-                                             fit.mesh, 1, fit.direction.data, fit.moved.data));
-  for (size_t s = 0; s < fit.samples.count; ++s) {
-    const MienSolvePoint& point = fit.points[fit.samples[s]];
-    for (size_t k = 0; k < 3; ++k) {
-      float sum = 0;
-      for (size_t n = 0; n < 3; ++n) {
-        sum += point.weights[n] * fit.moved[size_t{point.positions[n]} * 3 + k];
+/// What free controls do to the samples at the pose at hand, kDirections at a time.
+void measure_controls(MienFit& fit, size_t free_count) {
+  const size_t width = fit.samples.count * 3, size = fit.sample_position_count * 3;
+  size_t a = 0;
+  while (a < free_count) {
+    uint32_t places[kDirections], count = 0;
+    for (; a < free_count && count < kDirections; ++a) {
+      if (!fit.measured[fit.free[a]]) places[count++] = fit.free[a];
+    }
+    for (uint32_t k = 0; k < count; ++k) {
+      float* const direction = fit.directions.data + k * fit.raw_count;
+      std::fill(direction, direction + fit.raw_count, 0.0f);
+      direction[fit.controls[places[k]]] = 1;
+    }
+    if (count == 0) return;
+    static_cast<void>(mien_derivatives_forward(fit.sample_derivatives, MIEN_POINT_RAW,
+                                               MIEN_POINT_POSITIONS, fit.mesh, count,
+                                               fit.directions.data, fit.moved.data));
+    for (uint32_t k = 0; k < count; ++k) {
+      float* to = fit.step_effects.data + places[k] * width;
+      for (const MienSolvePoint& point : fit.sample_points) {
+        for (size_t axis = 0; axis < 3; ++axis) {
+          float sum = 0;
+          for (size_t n = 0; n < 3; ++n) {
+            sum += point.weights[n] * fit.moved[k * size + size_t{point.positions[n]} * 3 + axis];
+          }
+          *to++ = sum;
+        }
       }
-      to[3 * s + k] = sum;
+      fit.measured[places[k]] = 1;
     }
   }
 }
@@ -29,15 +45,15 @@ void measure_control(MienFit& fit, uint32_t control, float* to) {
 void find_effects(Frame& f, size_t free_count) {
   MienFit& fit = f.fit;
   const size_t width = fit.samples.count * 3;
-  for (size_t a = 0; a < free_count; ++a) {
-    const uint32_t i = fit.free[a];
-    float* const to = fit.step_effects.data + i * width;
-    if (fit.measured[i]) continue;
-    if (f.exact) {
-      measure_control(fit, fit.controls[i], to);
-      fit.measured[i] = 1;
-      continue;
+  if (f.exact) {
+    if (fit.sample_derivatives != fit.derivatives) {
+      static_cast<void>(
+          mien_derivatives_linearize(fit.sample_derivatives, fit.instance, MIEN_STAGE_ALL));
     }
+    return measure_controls(fit, free_count);
+  }
+  for (size_t a = 0; a < free_count; ++a) {
+    float* const to = fit.step_effects.data + fit.free[a] * width;
     std::fill(to, to + width, 0.0f);
     for (uint32_t k = fit.first[a]; k < fit.first[a + 1]; ++k) {
       const float* const from = fit.sample_effects.data + size_t{fit.rows[k]} * width;

@@ -43,7 +43,7 @@ typedef struct MienFit MienFit;
 /* How to create a fit. Everything is copied. */
 typedef struct MienFitDesc {
     size_t struct_size;
-    const MienDeformer* deformer;  /* of the rig; needed for points. NULL: joints only */
+    const MienDeformer* deformer;  /* of the rig; needed for points and for constraints on joints. NULL: none */
     const uint32_t* controls;      /* raw controls that may move, ascending. NULL: all */
     const float* lower;            /* bounds of these controls. NULL: 0 */
     const float* upper;            /* NULL: 1 */
@@ -107,6 +107,29 @@ typedef struct MienFitCamera {
     float translation[3];
 } MienFitCamera;
 
+/* What a constraint asks for. Places and directions are in model space, before the motion of
+ * MienFitFrame.rigid. Kinds with joints need MienFitDesc.deformer. */
+enum MienFitConstraintKind {
+    MIEN_CONSTRAINT_JOINT_POSITION = 0,  /* `joint` is at `target`: where the jaw is */
+    MIEN_CONSTRAINT_JOINT_DIRECTION = 1, /* `axis` of `joint` has the direction `target`: an eye's gaze */
+    MIEN_CONSTRAINT_JOINT_AIM = 2,       /* `axis` of `joint` points at the place `target` */
+    MIEN_CONSTRAINT_POINT_POSITION = 3,  /* `points[0]` is at `target` */
+    MIEN_CONSTRAINT_POINT_DISTANCE = 4   /* from `distances[0]` to `distances[1]` lie between `points`: 0 and 0
+                                            where lips touch */
+};
+
+/* A constraint of a frame. A number that is NaN: the constraint is missing. */
+typedef struct MienFitConstraint {
+    uint32_t kind;      /* MIEN_CONSTRAINT_... */
+    uint32_t joint;     /* of the rig */
+    uint32_t points[2]; /* places in MienFitDesc.points */
+    float axis[3];      /* in the axes of the joint, of any length but 0 */
+    float target[3];    /* a place, or a direction of any length but 0 */
+    float distances[2]; /* the smallest and the largest that cost nothing */
+    float weight;       /* times the squared residual: of a length in the unit of the rig, or of the difference of
+                           directions of length 1 */
+} MienFitConstraint;
+
 /* Why a solve ended. */
 enum MienFitStatus {
     MIEN_FIT_CONVERGED = 0,  /* further steps change nothing */
@@ -146,6 +169,12 @@ typedef struct MienFitFrame {
     float surface_reach;           /* points farther from the surface have no target. 0: no limit */
     uint32_t focal;                /* boolean, with `images` and `rigid`: the focal length is found too, its
                                       two numbers scaled alike */
+    uint32_t reserved;             /* 0 */
+    size_t constraint_count;
+    const MienFitConstraint* constraints; /* up to 64, added to all other targets. NULL: none */
+    const uint32_t* stages; /* per raw control of the rig, up to 15: the solve begins with the controls of
+                               stage 0 alone, then those of stage 1 move too, and so on, as jaw and eyes before
+                               the rest. Each stage may take `max_iterations`. NULL: all move from the start */
 } MienFitFrame;
 MIEN_DEFAULT(MienFitFrame, mien_fit_frame_default)
 
@@ -165,6 +194,12 @@ typedef struct MienFitResult {
     double joint_worst;      /* largest difference of a joint value that counts */
     double point_worst;      /* largest distance of a point that counts */
     float focal[2];          /* of the camera, with images; else 0 */
+    double constraint_residual; /* weighted root mean square of the residuals of constraints */
+    double constraint_worst;    /* largest residual of a constraint that counts */
+    uint32_t jumped; /* boolean: joint values or points moved farther from where they are at `start` than their
+                        targets ask for, as roots of mean squares; points without a target count as such that
+                        ask for nothing */
+    uint32_t reserved_2;
 } MienFitResult;
 MIEN_DEFAULT(MienFitResult, mien_fit_result_default)
 
@@ -172,10 +207,22 @@ MIEN_DEFAULT(MienFitResult, mien_fit_result_default)
  * all raw controls of the rig to `out_raw`; those that may not move keep their values of `start`. `result`
  * may be NULL. Deterministic unless there is a time limit. Does not allocate or lock.
  * Fails with MIEN_ERROR_NULL_ARGUMENT if points, images or a surface are given to a fit without points, or
- * images without a camera, MIEN_ERROR_INVALID_ARGUMENT if two of these are given, or a weight, a control or a
- * number of the camera is not finite, or a weight is negative, MIEN_ERROR_HANDLE if `surface` is none. */
+ * images without a camera, or constraints on joints to one without a deformer,
+ * MIEN_ERROR_INVALID_ARGUMENT if two kinds of points are given, a stage is above 15, or a weight, a control or a
+ * number of the camera is not finite, or a weight is negative, MIEN_ERROR_HANDLE if `surface` is none,
+ * MIEN_ERROR_INDEX if a constraint has a joint or point that does not exist. */
 MIEN_SOLVE_CHECKED MienStatus mien_fit_solve(MienFit* fit, const MienFitFrame* frame, float* out_raw,
                                        MienFitResult* result);
+
+/* Solves `count` frames of a motion, each from the result of the one before. `joints`, `points`, `images` and
+ * `point_weights` of `frame` have a row for each frame, one after the other; all else is for all frames. `start` and
+ * `stages` are for the first frame, and so is `camera`, if it may move. `out_raw` gets a row of all raw controls for
+ * each frame; `results`, which may be NULL, one result for each, all with the `struct_size` of the first. Where joints
+ * are the only targets, this is faster than calls of mien_fit_solve(), and differs from them by rounding.
+ * Deterministic unless there is a time limit, which is that of a frame. Does not allocate or lock.
+ * Fails like mien_fit_solve(). */
+MIEN_SOLVE_CHECKED MienStatus mien_fit_solve_frames(MienFit* fit, const MienFitFrame* frame, size_t count,
+                                                    float* out_raw, MienFitResult* results);
 
 /* Writes for each raw control how well the data determines it at the initial pose: 0 if it moves nothing
  * that has a target, or if other controls have the same effect; up to 1 for the best determined one.

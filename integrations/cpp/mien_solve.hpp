@@ -120,6 +120,15 @@ class Fit : public Owner<MienFit, mien_fit_destroy> {
   Status solve(const FitFrame& frame, Span<float> out_raw, FitResult* result = nullptr) {
     return mien_fit_solve(get(), &frame, out_raw.data(), result);
   }
+  /// Frames of a motion, each from the one before: the targets of `frame` have a row for each. As many as there are
+  /// rows in `out_raw`, each of `raw_count` controls; `results` is empty, or has one for each.
+  Status solve_frames(const FitFrame& frame, size_t raw_count, Span<float> out_raw,
+                      Span<FitResult> results = {}) {
+    const size_t count = raw_count != 0 ? out_raw.size() / raw_count : 0;
+    if (results.size() != 0 && results.size() != count) return MIEN_ERROR_INVALID_ARGUMENT;
+    return mien_fit_solve_frames(get(), &frame, count, out_raw.data(),
+                                 results.size() != 0 ? results.data() : nullptr);
+  }
   /// 0 to 1 for each raw control: how well the data determines it.
   Status observability(Span<float> out) const {
     return mien_fit_observability(get(), out.data(), out.size());

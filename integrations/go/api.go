@@ -725,6 +725,25 @@ const MatchSurface Match = 0
 // the nearest point in the texture
 const MatchUv Match = 1
 
+// What a constraint asks for. Places and directions are in model space, before the motion of
+// MienFitFrame.rigid. Kinds with joints need MienFitDesc.deformer.
+type FitConstraintKind uint32
+
+// `joint` is at `target`: where the jaw is
+const FitConstraintKindJointPosition FitConstraintKind = 0
+
+// `axis` of `joint` has the direction `target`: an eye's gaze
+const FitConstraintKindJointDirection FitConstraintKind = 1
+
+// `axis` of `joint` points at the place `target`
+const FitConstraintKindJointAim FitConstraintKind = 2
+
+// `points[0]` is at `target`
+const FitConstraintKindPointPosition FitConstraintKind = 3
+
+// from `distances[0]` to `distances[1]` lie between `points`: 0 and 0 where lips touch
+const FitConstraintKindPointDistance FitConstraintKind = 4
+
 // Why a solve ended.
 type FitStatus uint32
 
@@ -1344,6 +1363,13 @@ type FitResult struct {
 	PointWorst float64
 	// of the camera, with images; else 0
 	Focal [2]float32
+	// weighted root mean square of the residuals of constraints
+	ConstraintResidual float64
+	// largest residual of a constraint that counts
+	ConstraintWorst float64
+	// joint values or points moved farther from where they are at `start` than their targets ask for, as roots of mean squares; points without a target count as such that ask for nothing
+	Jumped     uint32
+	Reserved_2 uint32
 }
 
 // Bytes of each struct in C, to compare with unsafe.Sizeof.
@@ -1387,5 +1413,5 @@ var structSizes = [][2]uintptr{
 	{unsafe.Sizeof(ProjectDesc{}), 24},
 	{unsafe.Sizeof(Conformed{}), 24},
 	{unsafe.Sizeof(TransplantDesc{}), 16},
-	{unsafe.Sizeof(FitResult{}), 120},
+	{unsafe.Sizeof(FitResult{}), 144},
 }

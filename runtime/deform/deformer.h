@@ -91,7 +91,11 @@ struct Deformer : Object {
   size_t baked_size = 0;  // of its part of a baked file, if its arrays are in one
   const KernelTable* kernels = nullptr;
   const Rig* rig = nullptr;
-  ~Deformer() { release(rig); }
+  const Deformer* whole = nullptr;  // of a subset: the one whose skeleton it uses
+  ~Deformer() {
+    release(rig);
+    release(whole);
+  }
 
   Normals normals = Normals::kRecomputed;  // what Normals::kDefault means
   bool fix_weights = false;
@@ -102,6 +106,11 @@ struct Deformer : Object {
 
 /// Sets DeformMesh::lods. The meshes are those of the rig.
 void mark_mesh_lods(const Rig& rig, const Span<DeformMesh>& meshes);
+
+/// A deformer of some positions of one mesh, ascending. It becomes an owner of `whole`, which has its skeleton. Null
+/// if memory ran out.
+Deformer* create_subset(const Deformer& whole, uint32_t mesh, Span<const uint32_t> positions,
+                        const Allocator& allocator);
 
 /// The run that contains a sorted index.
 const SkinRun* skin_run_of(const DeformMesh& mesh, uint32_t sorted_index);

@@ -176,7 +176,8 @@ void clear_for_push(Derivatives& d, Point from, Point to, uint32_t lanes) {
   clear_buffers({&d.controls, &d.weights}, lanes);
   if (to == Point::kMaps) clear_buffers({&d.maps}, lanes);
   if (from == Point::kChannels) clear_buffers({&d.skins}, lanes);
-  if (!has_stage(d, kStageJoints)) clear_buffers({&d.joints}, lanes);
+  const bool joints_count = to >= Point::kJoints && to <= Point::kPositions;
+  if (!has_stage(d, kStageJoints) && joints_count) clear_buffers({&d.joints}, lanes);
 }
 void clear_for_pull(Derivatives& d, Point to, uint32_t lanes) {
   clear_buffers({&d.gui, &d.controls, &d.weights}, lanes);

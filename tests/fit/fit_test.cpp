@@ -6,67 +6,11 @@
 #include <cmath>
 #include <limits>
 
-#include "capi/include/mien_solve.h"
+#include "tests/fit/fit_head.h"
 #include "tests/support/counting_allocator.h"
-#include "tests/support/deform_rig.h"
-#include "tests/support/plain_rig.h"
 
 namespace mien {
 namespace {
-
-struct DestroyFit {
-  void operator()(MienFit* fit) const { mien_fit_destroy(fit); }
-};
-using FitHandle = std::unique_ptr<MienFit, DestroyFit>;
-
-FitHandle create_fit(const RigHandle& rig, const MienFitDesc& desc, MienStatus expected = MIEN_OK) {
-  MienFit* made = nullptr;
-  MienError error = sized<MienError>();
-  EXPECT_EQ(mien_fit_create(rig.get(), &desc, &made, &error), expected) << error.message;
-  return FitHandle(made);
-}
-
-/// A generated head of medium size, with its deformer, and a pose of some controls.
-struct Head {
-  DnaHandle dna;
-  RigHandle rig;
-  DeformerHandle deformer;
-  DeformerInstanceHandle deformed;
-  Character character;
-  std::vector<float> observed;
-
-  explicit Head(uint32_t preset = MIEN_PRESET_HEAD)
-      : dna(generate_dna(preset, 3)), rig(create_rig(dna.get())),
-        deformer(create_deformer(dna.get(), rig.get())),
-        deformed(create_deformer_instance(deformer.get())), character(rig) {}
-
-  std::vector<float> pose(Random& random, uint32_t count) {
-    std::vector<float> raw(character.raw.count);
-    for (uint32_t i = 0; i < count; ++i) {
-      raw[random.below(static_cast<uint32_t>(raw.size()))] =
-          static_cast<float>(random.between(0.1, 1));
-    }
-    return raw;
-  }
-  void evaluate(const std::vector<float>& raw) {
-    std::copy(raw.begin(), raw.end(), character.raw.begin());
-    character.evaluate(0);
-  }
-  std::vector<float> positions(const std::vector<float>& raw) {
-    evaluate(raw);
-    EXPECT_EQ(mien_deformer_instance_update(deformed.get(), character.instance.get()), MIEN_OK);
-    EXPECT_EQ(mien_deformer_instance_deform(deformed.get(), 0, MIEN_NORMALS_NONE, nullptr),
-              MIEN_OK);
-    const Span<const float> all = Deformed::positions(deformed.get(), 0);
-    return {all.begin(), all.begin() + mesh_of(deformer.get(), 0).position_count * 3};
-  }
-};
-
-std::vector<MienSolvePoint> every(uint32_t count, uint32_t step) {
-  std::vector<MienSolvePoint> points;
-  for (uint32_t i = 0; i < count; i += step) points.push_back({0, {i, i, i}, {1, 0, 0}});
-  return points;
-}
 
 /// Largest difference of two rows, over controls that `observed` says can be found.
 double worst(const std::vector<float>& a, const std::vector<float>& b,
@@ -90,9 +34,9 @@ TEST(Fit, FindsTheControlsOfJoints) {
   const FitHandle fit = create_fit(head.rig, sized<MienFitDesc>());
   const std::vector<float> observed = observed_by(fit, head.character.raw.count);
   int met = 0;
-  constexpr int kPoses = 20;
+  constexpr int kPoses = 100;
   for (int pose = 0; pose < kPoses; ++pose) {
-    const std::vector<float> raw = head.pose(random, 8 + random.below(10));
+    const std::vector<float> raw = head.pose(random, 8 + random.below(18));
     head.evaluate(raw);
     const std::vector<float> joints(head.character.joints.begin(), head.character.joints.end());
     MienFitFrame frame = mien_fit_frame_default();
@@ -117,12 +61,12 @@ TEST(Fit, FindsTheControlsOfJoints) {
       printf("pose %d: joints %g of %g, controls %g, %u iterations\n", pose, error, range,
              worst(found, raw, observed), result.iterations);
     }
-    // The same bits again.
+    if (pose % 10 != 0) continue;  // the same bits again
     std::vector<float> again(raw.size());
     ASSERT_EQ(mien_fit_solve(fit.get(), &frame, again.data(), nullptr), MIEN_OK);
     EXPECT_EQ(found, again);
   }
-  EXPECT_GE(met, kPoses - 1);
+  EXPECT_GE(met, kPoses * 99 / 100);
 }
 
 TEST(Fit, FindsTheControlsOfPointsThatWereMovedRigidly) {

@@ -583,6 +583,21 @@ namespace Mien {
     Uv = 1,
   }
 
+  /// <summary>What a constraint asks for. Places and directions are in model space, before the motion of
+  /// MienFitFrame.rigid. Kinds with joints need MienFitDesc.deformer.</summary>
+  public enum FitConstraintKind : uint {
+    /// <summary>`joint` is at `target`: where the jaw is</summary>
+    JointPosition = 0,
+    /// <summary>`axis` of `joint` has the direction `target`: an eye's gaze</summary>
+    JointDirection = 1,
+    /// <summary>`axis` of `joint` points at the place `target`</summary>
+    JointAim = 2,
+    /// <summary>`points[0]` is at `target`</summary>
+    PointPosition = 3,
+    /// <summary>from `distances[0]` to `distances[1]` lie between `points`: 0 and 0 where lips touch</summary>
+    PointDistance = 4,
+  }
+
   /// <summary>Why a solve ended.</summary>
   public enum FitStatus : uint {
     /// <summary>further steps change nothing</summary>
@@ -721,8 +736,9 @@ namespace Mien.Native {
       new[] { sizeof(MienFitDesc), 104 },
       new[] { sizeof(MienFitSurfaceDesc), 48 },
       new[] { sizeof(MienFitCamera), 64 },
-      new[] { sizeof(MienFitFrame), 136 },
-      new[] { sizeof(MienFitResult), 120 },
+      new[] { sizeof(MienFitConstraint), 52 },
+      new[] { sizeof(MienFitFrame), 168 },
+      new[] { sizeof(MienFitResult), 144 },
     };
   }
 
@@ -2617,7 +2633,7 @@ namespace Mien.Native {
   [StructLayout(LayoutKind.Sequential)]
   public unsafe struct MienFitDesc {
     public UIntPtr StructSize;
-    /// <summary>of the rig; needed for points. NULL: joints only</summary>
+    /// <summary>of the rig; needed for points and for constraints on joints. NULL: none</summary>
     public IntPtr Deformer;
     /// <summary>raw controls that may move, ascending. NULL: all</summary>
     public uint* Controls;
@@ -2678,6 +2694,25 @@ namespace Mien.Native {
     public fixed float Translation[3];
   }
 
+  /// <summary>A constraint of a frame. A number that is NaN: the constraint is missing.</summary>
+  [StructLayout(LayoutKind.Sequential)]
+  public unsafe struct MienFitConstraint {
+    /// <summary>MIEN_CONSTRAINT_...</summary>
+    public FitConstraintKind Kind;
+    /// <summary>of the rig</summary>
+    public uint Joint;
+    /// <summary>places in MienFitDesc.points</summary>
+    public fixed uint Points[2];
+    /// <summary>in the axes of the joint, of any length but 0</summary>
+    public fixed float Axis[3];
+    /// <summary>a place, or a direction of any length but 0</summary>
+    public fixed float Target[3];
+    /// <summary>the smallest and the largest that cost nothing</summary>
+    public fixed float Distances[2];
+    /// <summary>times the squared residual: of a length in the unit of the rig, or of the difference of directions of length 1</summary>
+    public float Weight;
+  }
+
   /// <summary>The targets of one frame, and the weights of the terms; terms of weight 0 are left out.</summary>
   [StructLayout(LayoutKind.Sequential)]
   public unsafe struct MienFitFrame {
@@ -2724,6 +2759,13 @@ namespace Mien.Native {
     public float SurfaceReach;
     /// <summary>, with `images` and `rigid`: the focal length is found too, its two numbers scaled alike</summary>
     public uint Focal;
+    /// <summary>0</summary>
+    public uint Reserved;
+    public UIntPtr ConstraintCount;
+    /// <summary>up to 64, added to all other targets. NULL: none</summary>
+    public MienFitConstraint* Constraints;
+    /// <summary>per raw control of the rig, up to 15: the solve begins with the controls of stage 0 alone, then those of stage 1 move too, and so on, as jaw and eyes before the rest. Each stage may take `max_iterations`. NULL: all move from the start</summary>
+    public uint* Stages;
 
     /// <summary>All fields zero but StructSize.</summary>
     public static MienFitFrame Create() {
@@ -2756,6 +2798,13 @@ namespace Mien.Native {
     public double PointWorst;
     /// <summary>of the camera, with images; else 0</summary>
     public fixed float Focal[2];
+    /// <summary>weighted root mean square of the residuals of constraints</summary>
+    public double ConstraintResidual;
+    /// <summary>largest residual of a constraint that counts</summary>
+    public double ConstraintWorst;
+    /// <summary>joint values or points moved farther from where they are at `start` than their targets ask for, as roots of mean squares; points without a target count as such that ask for nothing</summary>
+    public uint Jumped;
+    public uint Reserved_2;
 
     /// <summary>All fields zero but StructSize.</summary>
     public static MienFitResult Create() {
@@ -3516,6 +3565,16 @@ namespace Mien.Native {
     /// See docs/deformation.md.</summary>
     [DllImport("mien", CallingConvention = CallingConvention.Cdecl)]
     public static extern Status mien_deformer_create(DnaHandle dna, RigHandle rig, MienDeformerDesc* desc, out IntPtr out_deformer, MienError* error);
+
+    /// <summary>Creates a deformer of some positions of one mesh. Position i of that mesh is `positions[i]` of the mesh of
+    /// `deformer`; it has no vertices or triangles, and all other meshes are empty. Deformed positions have the bits of
+    /// the whole mesh, and derivatives those of the chosen rows, and take time for the chosen positions only. `positions` are
+    /// ascending, `position_count` of them. `deformer` may be destroyed afterwards; the new one keeps its memory. Destroy
+    /// with mien_deformer_destroy().
+    /// Fails with MIEN_ERROR_INDEX if there is no such mesh or position, MIEN_ERROR_INVALID_ARGUMENT if positions are not
+    /// ascending.</summary>
+    [DllImport("mien", CallingConvention = CallingConvention.Cdecl)]
+    public static extern Status mien_deformer_create_subset(DeformerHandle deformer, uint mesh, uint* positions, UIntPtr position_count, MienAllocator* allocator, out IntPtr out_deformer, MienError* error);
 
     /// <summary>Destroys a deformer. Its instances stay valid; its memory is released with the last of them.</summary>
     [DllImport("mien", CallingConvention = CallingConvention.Cdecl)]
@@ -4772,10 +4831,22 @@ namespace Mien.Native {
     /// all raw controls of the rig to `out_raw`; those that may not move keep their values of `start`. `result`
     /// may be NULL. Deterministic unless there is a time limit. Does not allocate or lock.
     /// Fails with MIEN_ERROR_NULL_ARGUMENT if points, images or a surface are given to a fit without points, or
-    /// images without a camera, MIEN_ERROR_INVALID_ARGUMENT if two of these are given, or a weight, a control or a
-    /// number of the camera is not finite, or a weight is negative, MIEN_ERROR_HANDLE if `surface` is none.</summary>
+    /// images without a camera, or constraints on joints to one without a deformer,
+    /// MIEN_ERROR_INVALID_ARGUMENT if two kinds of points are given, a stage is above 15, or a weight, a control or a
+    /// number of the camera is not finite, or a weight is negative, MIEN_ERROR_HANDLE if `surface` is none,
+    /// MIEN_ERROR_INDEX if a constraint has a joint or point that does not exist.</summary>
     [DllImport("mien-solve", CallingConvention = CallingConvention.Cdecl)]
     public static extern Status mien_fit_solve(FitHandle fit, MienFitFrame* frame, float* out_raw, MienFitResult* result);
+
+    /// <summary>Solves `count` frames of a motion, each from the result of the one before. `joints`, `points`, `images` and
+    /// `point_weights` of `frame` have a row for each frame, one after the other; all else is for all frames. `start` and
+    /// `stages` are for the first frame, and so is `camera`, if it may move. `out_raw` gets a row of all raw controls for
+    /// each frame; `results`, which may be NULL, one result for each, all with the `struct_size` of the first. Where joints
+    /// are the only targets, this is faster than calls of mien_fit_solve(), and differs from them by rounding.
+    /// Deterministic unless there is a time limit, which is that of a frame. Does not allocate or lock.
+    /// Fails like mien_fit_solve().</summary>
+    [DllImport("mien-solve", CallingConvention = CallingConvention.Cdecl)]
+    public static extern Status mien_fit_solve_frames(FitHandle fit, MienFitFrame* frame, UIntPtr count, float* out_raw, MienFitResult* results);
 
     /// <summary>Writes for each raw control how well the data determines it at the initial pose: 0 if it moves nothing
     /// that has a target, or if other controls have the same effect; up to 1 for the best determined one.

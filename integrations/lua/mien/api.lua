@@ -1096,7 +1096,7 @@ typedef struct MienSolvePoint {
 /* How to create a fit. Everything is copied. */
 typedef struct MienFitDesc {
     size_t struct_size;
-    MienDeformer const* deformer; /* of the rig; needed for points. NULL: joints only */
+    MienDeformer const* deformer; /* of the rig; needed for points and for constraints on joints. NULL: none */
     uint32_t const* controls; /* raw controls that may move, ascending. NULL: all */
     float const* lower; /* bounds of these controls. NULL: 0 */
     float const* upper; /* NULL: 1 */
@@ -1131,6 +1131,17 @@ typedef struct MienFitCamera {
     float translation[3];
 } MienFitCamera;
 
+/* A constraint of a frame. A number that is NaN: the constraint is missing. */
+typedef struct MienFitConstraint {
+    uint32_t kind; /* MIEN_CONSTRAINT_... */
+    uint32_t joint; /* of the rig */
+    uint32_t points[2]; /* places in MienFitDesc.points */
+    float axis[3]; /* in the axes of the joint, of any length but 0 */
+    float target[3]; /* a place, or a direction of any length but 0 */
+    float distances[2]; /* the smallest and the largest that cost nothing */
+    float weight; /* times the squared residual: of a length in the unit of the rig, or of the difference of directions of length 1 */
+} MienFitConstraint;
+
 /* The targets of one frame, and the weights of the terms; terms of weight 0 are left out. */
 typedef struct MienFitFrame {
     size_t struct_size;
@@ -1155,6 +1166,10 @@ typedef struct MienFitFrame {
     MienFitSurface const* surface; /* in place of `points` and `images`: each point is drawn to the nearest place of the surface that faces the same way, within 60 degrees, and is not at a border. NULL: none */
     float surface_reach; /* points farther from the surface have no target. 0: no limit */
     uint32_t focal; /* , with `images` and `rigid`: the focal length is found too, its two numbers scaled alike */
+    uint32_t reserved; /* 0 */
+    size_t constraint_count;
+    MienFitConstraint const* constraints; /* up to 64, added to all other targets. NULL: none */
+    uint32_t const* stages; /* per raw control of the rig, up to 15: the solve begins with the controls of stage 0 alone, then those of stage 1 move too, and so on, as jaw and eyes before the rest. Each stage may take `max_iterations`. NULL: all move from the start */
 } MienFitFrame;
 
 /* The result of a solve. */
@@ -1172,6 +1187,10 @@ typedef struct MienFitResult {
     double joint_worst; /* largest difference of a joint value that counts */
     double point_worst; /* largest distance of a point that counts */
     float focal[2]; /* of the camera, with images; else 0 */
+    double constraint_residual; /* weighted root mean square of the residuals of constraints */
+    double constraint_worst; /* largest residual of a constraint that counts */
+    uint32_t jumped; /* joint values or points moved farther from where they are at `start` than their targets ask for, as roots of mean squares; points without a target count as such that ask for nothing */
+    uint32_t reserved_2;
 } MienFitResult;
 ]]
 
@@ -1600,6 +1619,15 @@ MIEN_ERROR_DNA_LIMIT if a position has more than 65535 influences, MIEN_ERROR_IS
 instruction set is not available.
 See docs/deformation.md. */
 MienStatus mien_deformer_create(MienDna const* dna, MienRig const* rig, MienDeformerDesc const* desc, MienDeformer** out_deformer, MienError* error);
+
+/* Creates a deformer of some positions of one mesh. Position i of that mesh is `positions[i]` of the mesh of
+`deformer`; it has no vertices or triangles, and all other meshes are empty. Deformed positions have the bits of
+the whole mesh, and derivatives those of the chosen rows, and take time for the chosen positions only. `positions` are
+ascending, `position_count` of them. `deformer` may be destroyed afterwards; the new one keeps its memory. Destroy
+with mien_deformer_destroy().
+Fails with MIEN_ERROR_INDEX if there is no such mesh or position, MIEN_ERROR_INVALID_ARGUMENT if positions are not
+ascending. */
+MienStatus mien_deformer_create_subset(MienDeformer const* deformer, uint32_t mesh, uint32_t const* positions, size_t position_count, MienAllocator const* allocator, MienDeformer** out_deformer, MienError* error);
 
 /* Destroys a deformer. Its instances stay valid; its memory is released with the last of them. */
 void mien_deformer_destroy(MienDeformer* deformer);
@@ -2683,9 +2711,20 @@ void mien_fit_surface_destroy(MienFitSurface* surface);
 all raw controls of the rig to `out_raw`; those that may not move keep their values of `start`. `result`
 may be NULL. Deterministic unless there is a time limit. Does not allocate or lock.
 Fails with MIEN_ERROR_NULL_ARGUMENT if points, images or a surface are given to a fit without points, or
-images without a camera, MIEN_ERROR_INVALID_ARGUMENT if two of these are given, or a weight, a control or a
-number of the camera is not finite, or a weight is negative, MIEN_ERROR_HANDLE if `surface` is none. */
+images without a camera, or constraints on joints to one without a deformer,
+MIEN_ERROR_INVALID_ARGUMENT if two kinds of points are given, a stage is above 15, or a weight, a control or a
+number of the camera is not finite, or a weight is negative, MIEN_ERROR_HANDLE if `surface` is none,
+MIEN_ERROR_INDEX if a constraint has a joint or point that does not exist. */
 MienStatus mien_fit_solve(MienFit* fit, MienFitFrame const* frame, float* out_raw, MienFitResult* result);
+
+/* Solves `count` frames of a motion, each from the result of the one before. `joints`, `points`, `images` and
+`point_weights` of `frame` have a row for each frame, one after the other; all else is for all frames. `start` and
+`stages` are for the first frame, and so is `camera`, if it may move. `out_raw` gets a row of all raw controls for
+each frame; `results`, which may be NULL, one result for each, all with the `struct_size` of the first. Where joints
+are the only targets, this is faster than calls of mien_fit_solve(), and differs from them by rounding.
+Deterministic unless there is a time limit, which is that of a frame. Does not allocate or lock.
+Fails like mien_fit_solve(). */
+MienStatus mien_fit_solve_frames(MienFit* fit, MienFitFrame const* frame, size_t count, float* out_raw, MienFitResult* results);
 
 /* Writes for each raw control how well the data determines it at the initial pose: 0 if it moves nothing
 that has a target, or if other controls have the same effect; up to 1 for the best determined one.
@@ -3066,6 +3105,14 @@ api.Match = {
   UV = 1,
 }
 
+api.FitConstraintKind = {
+  JOINT_POSITION = 0,
+  JOINT_DIRECTION = 1,
+  JOINT_AIM = 2,
+  POINT_POSITION = 3,
+  POINT_DISTANCE = 4,
+}
+
 api.FitStatus = {
   CONVERGED = 0,
   ITERATIONS = 1,
@@ -3177,8 +3224,9 @@ api.sizes = {
   MienFitDesc = 104,
   MienFitSurfaceDesc = 48,
   MienFitCamera = 64,
-  MienFitFrame = 136,
-  MienFitResult = 120,
+  MienFitConstraint = 52,
+  MienFitFrame = 168,
+  MienFitResult = 144,
 }
 
 -- The function that releases a handle.

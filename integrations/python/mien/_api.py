@@ -712,6 +712,23 @@ class Match(IntEnum):
     UV = 1
 
 
+class FitConstraintKind(IntEnum):
+    """What a constraint asks for. Places and directions are in model space, before the motion of
+    MienFitFrame.rigid. Kinds with joints need MienFitDesc.deformer.
+    """
+
+    #: `joint` is at `target`: where the jaw is
+    JOINT_POSITION = 0
+    #: `axis` of `joint` has the direction `target`: an eye's gaze
+    JOINT_DIRECTION = 1
+    #: `axis` of `joint` points at the place `target`
+    JOINT_AIM = 2
+    #: `points[0]` is at `target`
+    POINT_POSITION = 3
+    #: from `distances[0]` to `distances[1]` lie between `points`: 0 and 0 where lips touch
+    POINT_DISTANCE = 4
+
+
 class FitStatus(IntEnum):
     """Why a solve ended."""
 
@@ -3247,6 +3264,25 @@ class MienFitCamera(Structure):
     translation: Any
 
 
+class MienFitConstraint(Structure):
+    _fields_ = [
+        ("kind", c_uint32),
+        ("joint", c_uint32),
+        ("points", c_uint32 * 2),
+        ("axis", c_float * 3),
+        ("target", c_float * 3),
+        ("distances", c_float * 2),
+        ("weight", c_float),
+    ]
+    kind: Any
+    joint: Any
+    points: Any
+    axis: Any
+    target: Any
+    distances: Any
+    weight: Any
+
+
 class MienFitFrame(Structure):
     _fields_ = [
         ("struct_size", c_size_t),
@@ -3271,6 +3307,10 @@ class MienFitFrame(Structure):
         ("surface", MienFitSurface),
         ("surface_reach", c_float),
         ("focal", c_uint32),
+        ("reserved", c_uint32),
+        ("constraint_count", c_size_t),
+        ("constraints", POINTER(MienFitConstraint)),
+        ("stages", c_void_p),
     ]
     struct_size: Any
     joints: Any
@@ -3294,6 +3334,10 @@ class MienFitFrame(Structure):
     surface: Any
     surface_reach: Any
     focal: Any
+    reserved: Any
+    constraint_count: Any
+    constraints: Any
+    stages: Any
 
     def __init__(self, *,
                  joints: Any = None,
@@ -3316,8 +3360,11 @@ class MienFitFrame(Structure):
                  canceled: Any = None,
                  surface: Any = None,
                  surface_reach: float = 0,
-                 focal: bool = False) -> None:
-        super().__init__(136)
+                 focal: bool = False,
+                 constraint_count: int = 0,
+                 constraints: Any = None,
+                 stages: Any = None) -> None:
+        super().__init__(168)
         self.joints = joints
         self.points = points
         self.images = images
@@ -3339,6 +3386,9 @@ class MienFitFrame(Structure):
         self.surface = surface
         self.surface_reach = surface_reach
         self.focal = focal
+        self.constraint_count = constraint_count
+        self.constraints = constraints
+        self.stages = stages
 
 
 class MienFitResult(Structure):
@@ -3356,6 +3406,10 @@ class MienFitResult(Structure):
         ("joint_worst", c_double),
         ("point_worst", c_double),
         ("focal", c_float * 2),
+        ("constraint_residual", c_double),
+        ("constraint_worst", c_double),
+        ("jumped", c_uint32),
+        ("reserved_2", c_uint32),
     ]
     struct_size: Any
     status: Any
@@ -3370,9 +3424,13 @@ class MienFitResult(Structure):
     joint_worst: Any
     point_worst: Any
     focal: Any
+    constraint_residual: Any
+    constraint_worst: Any
+    jumped: Any
+    reserved_2: Any
 
     def __init__(self) -> None:
-        super().__init__(120)
+        super().__init__(144)
 
 
 class CoordinateSystem(NamedTuple):
@@ -4327,6 +4385,14 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
          "`dna` was opened without Layer.GEOMETRY"),
         (Status.DNA_VALUE,
          "a joint is its own ancestor or a position, delta or weight is not finite"),
+    ),
+    "mien_deformer_create_subset": (
+        (Status.INVALID_ARGUMENT,
+         "positions are not ascending"),
+        (Status.INDEX,
+         "there is no such mesh or position"),
+        (Status.MEMORY,
+         "there is no memory"),
     ),
     "mien_deformer_info": (),
     "mien_deformer_mesh": (
@@ -5643,8 +5709,17 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
     ),
     "mien_fit_solve": (
         (Status.INVALID_ARGUMENT,
-         "two of these are given, or a weight, a control or a number of the camera is "
-         "not finite, or a weight is negative"),
+         "two kinds of points are given, a stage is above 15, or a weight, a control or "
+         "a number of the camera is not finite, or a weight is negative"),
+        (Status.INDEX,
+         "a constraint has a joint or point that does not exist"),
+    ),
+    "mien_fit_solve_frames": (
+        (Status.INVALID_ARGUMENT,
+         "two kinds of points are given, a stage is above 15, or a weight, a control or "
+         "a number of the camera is not finite, or a weight is negative"),
+        (Status.INDEX,
+         "a constraint has a joint or point that does not exist"),
     ),
     "mien_fit_observability": (
         (Status.INVALID_ARGUMENT,
@@ -5750,6 +5825,8 @@ FUNCTIONS: Tuple[Tuple[str, Any, Tuple[Any, ...]], ...] = (
     ("mien_rig_evaluate_twist_swing", c_int32, (MienRig, MienInstance, c_uint32, c_uint32)),
     ("mien_deformer_create", c_int32, (MienDna, MienRig, POINTER(MienDeformerDesc),
      POINTER(MienDeformer), POINTER(MienError))),
+    ("mien_deformer_create_subset", c_int32, (MienDeformer, c_uint32, c_void_p, c_size_t,
+     POINTER(MienAllocator), POINTER(MienDeformer), POINTER(MienError))),
     ("mien_deformer_destroy", None, (MienDeformer,)),
     ("mien_deformer_info", c_int32, (MienDeformer, POINTER(MienDeformerInfo))),
     ("mien_deformer_mesh", c_int32, (MienDeformer, c_uint32, POINTER(MienMesh))),
@@ -5987,6 +6064,7 @@ class Library:
     mien_rig_evaluate_rbf_solver: Any
     mien_rig_evaluate_twist_swing: Any
     mien_deformer_create: Any
+    mien_deformer_create_subset: Any
     mien_deformer_destroy: Any
     mien_deformer_info: Any
     mien_deformer_mesh: Any
@@ -6285,6 +6363,8 @@ SOLVE_FUNCTIONS: Tuple[Tuple[str, Any, Tuple[Any, ...]], ...] = (
      POINTER(MienError))),
     ("mien_fit_surface_destroy", None, (MienFitSurface,)),
     ("mien_fit_solve", c_int32, (MienFit, POINTER(MienFitFrame), c_void_p, POINTER(MienFitResult))),
+    ("mien_fit_solve_frames", c_int32, (MienFit, POINTER(MienFitFrame), c_size_t, c_void_p,
+     POINTER(MienFitResult))),
     ("mien_fit_observability", c_int32, (MienFit, c_void_p, c_size_t)),
     ("mien_fit_keys", c_int32, (c_void_p, c_size_t, c_float, c_void_p, c_void_p)),
 )
@@ -6298,6 +6378,7 @@ class SolveLibrary:
     mien_fit_surface_create: Any
     mien_fit_surface_destroy: Any
     mien_fit_solve: Any
+    mien_fit_solve_frames: Any
     mien_fit_observability: Any
     mien_fit_keys: Any
 

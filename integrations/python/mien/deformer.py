@@ -116,6 +116,26 @@ class Deformer(Closable):
         deformer._take(handle, rig)
         return deformer
 
+    @raises("mien_deformer_create_subset")
+    def subset(self, mesh: int, positions: Any) -> Deformer:
+        """A deformer of some positions of one mesh, ascending: position i is `positions[i]` of this one. It has
+        no vertices, and its other meshes are empty."""
+        chosen = [uint32(position, "position") for position in positions]
+        handle, error = DeformerHandle(), MienError()
+        status = lib.mien_deformer_create_subset(
+            self._open(), uint32(mesh, "mesh"), (ctypes.c_uint32 * len(chosen))(*chosen), len(chosen), None,
+            _byref(handle), _byref(error))
+        if status:
+            fail(status, "cannot make a deformer", error)
+        made = type(self).__new__(type(self))
+        made._handle, made._mesh_names = handle, self._mesh_names
+        info = _api.MienDeformerInfo()
+        status = lib.mien_deformer_info(handle, _byref(info))
+        if status:
+            fail(status, "no info")
+        made.info = DeformerInfo._of(info)
+        return made
+
     def _take(self, handle: DeformerHandle, rig: Rig) -> None:
         self._handle = handle
         info = _api.MienDeformerInfo()

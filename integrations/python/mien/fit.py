@@ -29,6 +29,25 @@ class FitCamera(NamedTuple):
     translation: Sequence[float] = (0, 0, 0)
 
 
+class FitConstraint(NamedTuple):
+    """What a joint or a point is drawn to besides the other targets; places and directions in model space.
+
+    kind:      `FitConstraintKind`
+    joint:     index of a joint; axis: in its axes
+    points:    places in the points of the fit
+    target:    a place or a direction; NaN: missing
+    distances: the smallest and the largest distance of two points that cost nothing
+    """
+
+    kind: int
+    joint: int = 0
+    points: Sequence[int] = (0, 0)
+    axis: Sequence[float] = (1, 0, 0)
+    target: Sequence[float] = (0, 0, 0)
+    distances: Sequence[float] = (0, 0)
+    weight: float = 1
+
+
 class FitResult(NamedTuple):
     """The controls of a frame, and how well they explain it.
 
@@ -40,6 +59,8 @@ class FitResult(NamedTuple):
     rotation, translation: points of the target = rotation @ model + translation, if rigid; those of the camera
                     with images
     focal:          of the camera
+    constraint_residual, constraint_worst: of constraints
+    jumped:         joints or points moved farther from `start` than their targets are
     """
 
     controls: Any
@@ -54,6 +75,9 @@ class FitResult(NamedTuple):
     rotation: Any
     translation: Any
     focal: Any
+    constraint_residual: float
+    constraint_worst: float
+    jumped: bool
 
 
 class FitSurface(Closable):
@@ -184,7 +208,8 @@ class Fit(Closable):
               sparse_weight: float = 0, symmetric_weight: float = 0, robust_scale: float = 0,
               joint_weight: float = 0, rigid: bool = False, max_iterations: int = 0,
               max_seconds: float = 0, canceled: Any = None, surface: Optional[FitSurface] = None,
-              surface_reach: float = 0, focal: bool = False) -> FitResult:
+              surface_reach: float = 0, focal: bool = False,
+              constraints: Sequence[FitConstraint] = (), stages: Any = None) -> FitResult:
         """The controls of a frame. Targets of NaN are missing.
 
         joints:   as `Instance.joints`
@@ -195,6 +220,8 @@ class Fit(Closable):
         surface:  in place of points and images; points farther than `surface_reach` from it have no target
         rigid:    the target moves as a whole; with images, the camera is found, and with `focal` its focal
                   length too. A camera with a rotation of zeros is unknown.
+        constraints: up to 64 `FitConstraint`, added to the other targets
+        stages:   0 to 15 for each raw control: those of 0 move first, alone, then those of 1 too, and so on
         """
         kept: List[Any] = []
 
@@ -217,6 +244,20 @@ class Fit(Closable):
             rigid=bool(rigid), max_iterations=uint32(max_iterations, "max_iterations"),
             max_seconds=max_seconds, canceled=_canceled_type(),
             surface=surface and surface._open(), surface_reach=surface_reach, focal=bool(focal))
+        if constraints:
+            listed = (_api.MienFitConstraint * len(constraints))()
+            for to, given in zip(listed, constraints):
+                to.kind, to.joint, to.weight = uint32(given.kind, "kind"), uint32(given.joint, "joint"), given.weight
+                to.points[:] = [uint32(point, "point") for point in given.points]
+                to.axis[:], to.target[:], to.distances[:] = given.axis, given.target, given.distances
+            kept.append(listed)
+            frame.constraints, frame.constraint_count = listed, len(constraints)
+        if stages is not None:
+            numbers = numpy.ascontiguousarray(stages, "uint32").reshape(-1)
+            if numbers.size != self._raw_count:
+                raise ArgumentError(f"{numbers.size} stages, {self._raw_count} raw controls")
+            kept.append(numbers)
+            frame.stages = numbers.ctypes.data
         if camera is not None:
             seen = _api.MienFitCamera()
             for name, values in camera._asdict().items():
@@ -245,7 +286,34 @@ class Fit(Closable):
             out, _api._enum(FitStatus, result.status), result.iterations, result.cost, result.joint_residual,
             result.point_residual, result.joint_worst, result.point_worst, result.missing_points,
             numpy.array(result.rotation, "f").reshape(3, 3), numpy.array(result.translation, "f"),
-            numpy.array(result.focal, "f"))
+            numpy.array(result.focal, "f"), result.constraint_residual, result.constraint_worst,
+            bool(result.jumped))
+
+    @raises("mien_fit_solve_frames", but=(Status.NULL_ARGUMENT, Status.HANDLE, Status.INDEX))
+    def solve_joints(self, joints: Any, start: Any = None, prior_weight: float = 0,
+                     smooth_weight: float = 0) -> Any:
+        """The raw controls of a take, float32 (frames, raw controls), from joint values alone: faster than
+        `solve()` for each frame.
+
+        joints: (frames, joints, 9) as `Instance.joints`
+        start:  raw controls to start the first frame from; None: the initial ones
+        """
+        values = numpy.ascontiguousarray(joints, "f")
+        if values.size != len(values) * self._joint_count:
+            raise ArgumentError(f"joints have the shape {values.shape}: {self._joint_count} numbers a frame")
+        frame = _api.MienFitFrame(joints=values.ctypes.data, prior_weight=prior_weight,
+                                  smooth_weight=smooth_weight, canceled=_canceled_type())
+        if start is not None:
+            first = numpy.ascontiguousarray(start, "f").reshape(-1)
+            if first.size != self._raw_count:
+                raise ArgumentError(f"start has {first.size} of {self._raw_count} raw controls")
+            frame.start = first.ctypes.data
+        out = numpy.empty((len(values), self._raw_count), "f")
+        with self._alone() as handle:
+            status = solver().mien_fit_solve_frames(handle, _byref(frame), len(values), out.ctypes.data, None)
+        if status:
+            fail(status, "cannot solve: weights are finite and not negative")
+        return out
 
     @property
     @raises("mien_fit_observability", but=(Status.INVALID_ARGUMENT,))

@@ -699,6 +699,26 @@ export declare const Match: {
 };
 export type Match = (typeof Match)[keyof typeof Match];
 
+/**
+ * What a constraint asks for. Places and directions are in model space, before the motion of
+ * MienFitFrame.rigid. Kinds with joints need MienFitDesc.deformer.
+ */
+export declare const FitConstraintKind: {
+  /** `joint` is at `target`: where the jaw is */
+  readonly JOINT_POSITION: 0;
+  /** `axis` of `joint` has the direction `target`: an eye's gaze */
+  readonly JOINT_DIRECTION: 1;
+  /** `axis` of `joint` points at the place `target` */
+  readonly JOINT_AIM: 2;
+  /** `points[0]` is at `target` */
+  readonly POINT_POSITION: 3;
+  /**
+   * from `distances[0]` to `distances[1]` lie between `points`: 0 and 0 where lips touch
+   */
+  readonly POINT_DISTANCE: 4;
+};
+export type FitConstraintKind = (typeof FitConstraintKind)[keyof typeof FitConstraintKind];
+
 /** Why a solve ended. */
 export declare const FitStatus: {
   /** further steps change nothing */
@@ -2157,7 +2177,7 @@ export interface SolvePoint {
 
 /** How to create a fit. Everything is copied. */
 export interface FitDesc {
-  /** of the rig; needed for points. NULL: joints only */
+  /** of the rig; needed for points and for constraints on joints. NULL: none */
   deformer?: { readonly handle: number };
   /** raw controls that may move, ascending. NULL: all */
   controls?: Uint32Array | readonly number[];
@@ -2201,6 +2221,26 @@ export interface FitCamera {
   /** rows, from model space. With MienFitFrame.rigid, all 0: unknown */
   rotation?: readonly number[];
   translation?: readonly number[];
+}
+
+/** A constraint of a frame. A number that is NaN: the constraint is missing. */
+export interface FitConstraint {
+  /** MIEN_CONSTRAINT_... */
+  kind?: FitConstraintKind;
+  /** of the rig */
+  joint?: number;
+  /** places in MienFitDesc.points */
+  points?: readonly number[];
+  /** in the axes of the joint, of any length but 0 */
+  axis?: readonly number[];
+  /** a place, or a direction of any length but 0 */
+  target?: readonly number[];
+  /** the smallest and the largest that cost nothing */
+  distances?: readonly number[];
+  /**
+   * times the squared residual: of a length in the unit of the rig, or of the difference of directions of length 1
+   */
+  weight?: number;
 }
 
 /**
@@ -2255,6 +2295,13 @@ export interface FitFrame {
    * , with `images` and `rigid`: the focal length is found too, its two numbers scaled alike
    */
   focal?: boolean;
+  constraintCount?: number;
+  /** up to 64, added to all other targets. NULL: none */
+  constraints?: readonly FitConstraint[];
+  /**
+   * per raw control of the rig, up to 15: the solve begins with the controls of stage 0 alone, then those of stage 1 move too, and so on, as jaw and eyes before the rest. Each stage may take `max_iterations`. NULL: all move from the start
+   */
+  stages?: Uint32Array | readonly number[];
 }
 
 /** The result of a solve. */
@@ -2281,6 +2328,15 @@ export interface FitResult {
   readonly pointWorst: number;
   /** of the camera, with images; else 0 */
   readonly focal: readonly number[];
+  /** weighted root mean square of the residuals of constraints */
+  readonly constraintResidual: number;
+  /** largest residual of a constraint that counts */
+  readonly constraintWorst: number;
+  /**
+   * joint values or points moved farther from where they are at `start` than their targets ask for, as roots of mean squares; points without a target count as such that ask for nothing
+   */
+  readonly jumped: boolean;
+  readonly reserved2: number;
 }
 
 /**
@@ -2722,6 +2778,16 @@ export interface Exports {
    * See docs/deformation.md.
    */
   mien_deformer_create(dna: number, rig: number, desc: number, out_deformer: number, error: number): number;
+  /**
+   * Creates a deformer of some positions of one mesh. Position i of that mesh is `positions[i]` of the mesh of
+   * `deformer`; it has no vertices or triangles, and all other meshes are empty. Deformed positions have the bits of
+   * the whole mesh, and derivatives those of the chosen rows, and take time for the chosen positions only. `positions` are
+   * ascending, `position_count` of them. `deformer` may be destroyed afterwards; the new one keeps its memory. Destroy
+   * with mien_deformer_destroy().
+   * Fails with MIEN_ERROR_INDEX if there is no such mesh or position, MIEN_ERROR_INVALID_ARGUMENT if positions are not
+   * ascending.
+   */
+  mien_deformer_create_subset(deformer: number, mesh: number, positions: number, position_count: number, allocator: number, out_deformer: number, error: number): number;
   /**
    * Destroys a deformer. Its instances stay valid; its memory is released with the last of them.
    */
@@ -3864,10 +3930,22 @@ export interface Exports {
    * all raw controls of the rig to `out_raw`; those that may not move keep their values of `start`. `result`
    * may be NULL. Deterministic unless there is a time limit. Does not allocate or lock.
    * Fails with MIEN_ERROR_NULL_ARGUMENT if points, images or a surface are given to a fit without points, or
-   * images without a camera, MIEN_ERROR_INVALID_ARGUMENT if two of these are given, or a weight, a control or a
-   * number of the camera is not finite, or a weight is negative, MIEN_ERROR_HANDLE if `surface` is none.
+   * images without a camera, or constraints on joints to one without a deformer,
+   * MIEN_ERROR_INVALID_ARGUMENT if two kinds of points are given, a stage is above 15, or a weight, a control or a
+   * number of the camera is not finite, or a weight is negative, MIEN_ERROR_HANDLE if `surface` is none,
+   * MIEN_ERROR_INDEX if a constraint has a joint or point that does not exist.
    */
   mien_fit_solve(fit: number, frame: number, out_raw: number, result: number): number;
+  /**
+   * Solves `count` frames of a motion, each from the result of the one before. `joints`, `points`, `images` and
+   * `point_weights` of `frame` have a row for each frame, one after the other; all else is for all frames. `start` and
+   * `stages` are for the first frame, and so is `camera`, if it may move. `out_raw` gets a row of all raw controls for
+   * each frame; `results`, which may be NULL, one result for each, all with the `struct_size` of the first. Where joints
+   * are the only targets, this is faster than calls of mien_fit_solve(), and differs from them by rounding.
+   * Deterministic unless there is a time limit, which is that of a frame. Does not allocate or lock.
+   * Fails like mien_fit_solve().
+   */
+  mien_fit_solve_frames(fit: number, frame: number, count: number, out_raw: number, results: number): number;
   /**
    * Writes for each raw control how well the data determines it at the initial pose: 0 if it moves nothing
    * that has a target, or if other controls have the same effect; up to 1 for the best determined one.

@@ -364,6 +364,14 @@ export const Match = Object.freeze({
   UV: 1,
 });
 
+export const FitConstraintKind = Object.freeze({
+  JOINT_POSITION: 0,
+  JOINT_DIRECTION: 1,
+  JOINT_AIM: 2,
+  POINT_POSITION: 3,
+  POINT_DISTANCE: 4,
+});
+
 export const FitStatus = Object.freeze({
   CONVERGED: 0,
   ITERATIONS: 1,
@@ -1090,7 +1098,16 @@ export const layouts = {
     rotation: [16, "f32", 9],
     translation: [52, "f32", 3],
   } },
-  FitFrame: { size: 96, sized: true, fields: {
+  FitConstraint: { size: 52, sized: false, fields: {
+    kind: [0, "u32"],
+    joint: [4, "u32"],
+    points: [8, "u32", 2],
+    axis: [16, "f32", 3],
+    target: [28, "f32", 3],
+    distances: [40, "f32", 2],
+    weight: [48, "f32"],
+  } },
+  FitFrame: { size: 112, sized: true, fields: {
     joints: [4, "*f32"],
     points: [8, "*f32"],
     images: [12, "*f32"],
@@ -1112,8 +1129,11 @@ export const layouts = {
     surface: [80, "handle"],
     surfaceReach: [84, "f32"],
     focal: [88, "bool"],
+    constraintCount: [96, "u32"],
+    constraints: [100, "*FitConstraint", "constraintCount"],
+    stages: [104, "*u32"],
   } },
-  FitResult: { size: 120, sized: true, fields: {
+  FitResult: { size: 144, sized: true, fields: {
     status: [4, "u32"],
     iterations: [8, "u32"],
     cost: [16, "f64"],
@@ -1125,6 +1145,10 @@ export const layouts = {
     jointWorst: [96, "f64"],
     pointWorst: [104, "f64"],
     focal: [112, "f32", 2],
+    constraintResidual: [120, "f64"],
+    constraintWorst: [128, "f64"],
+    jumped: [136, "bool"],
+    reserved2: [140, "u32"],
   } },
 };
 
@@ -1162,6 +1186,7 @@ export const calls = {
   mien_rig_evaluate_joint_group: "ppuu",
   mien_rig_evaluate_rbf_solver: "ppuu",
   mien_rig_evaluate_twist_swing: "ppuu",
+  mien_deformer_create_subset: "pupuppp",
   mien_deformer_mesh: "pup",
   mien_deformer_influences: "puupp",
   mien_deformer_target: "puupu",
@@ -1257,6 +1282,7 @@ export const calls = {
   mien_document_conform: "pupuupp",
   mien_document_transplant: "ppppupp",
   mien_document_write_memory: "pppupp",
+  mien_fit_solve_frames: "ppupp",
   mien_fit_observability: "ppu",
   mien_fit_keys: "pufpp",
 };

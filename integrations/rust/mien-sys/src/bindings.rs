@@ -528,6 +528,18 @@ pub const MIEN_MATCH_SURFACE: u32 = 0;
 /// The nearest point in the texture.
 pub const MIEN_MATCH_UV: u32 = 1;
 
+// enum MienFitConstraintKind
+/// `joint` is at `target`: where the jaw is.
+pub const MIEN_CONSTRAINT_JOINT_POSITION: u32 = 0;
+/// `axis` of `joint` has the direction `target`: an eye's gaze.
+pub const MIEN_CONSTRAINT_JOINT_DIRECTION: u32 = 1;
+/// `axis` of `joint` points at the place `target`.
+pub const MIEN_CONSTRAINT_JOINT_AIM: u32 = 2;
+/// `points[0]` is at `target`.
+pub const MIEN_CONSTRAINT_POINT_POSITION: u32 = 3;
+/// From `distances[0]` to `distances[1]` lie between `points`: 0 and 0 where lips touch.
+pub const MIEN_CONSTRAINT_POINT_DISTANCE: u32 = 4;
+
 // enum MienFitStatus
 /// Further steps change nothing.
 pub const MIEN_FIT_CONVERGED: u32 = 0;
@@ -3404,7 +3416,7 @@ impl Default for MienSolvePoint {
 #[derive(Clone, Copy)]
 pub struct MienFitDesc {
     pub struct_size: usize,
-    /// Of the rig; needed for points. NULL: joints only.
+    /// Of the rig; needed for points and for constraints on joints. NULL: none.
     pub deformer: *const MienDeformer,
     /// Raw controls that may move, ascending. NULL: all.
     pub controls: *const u32,
@@ -3485,6 +3497,35 @@ impl Default for MienFitCamera {
     }
 }
 
+/// A constraint of a frame. A number that is NaN: the constraint is missing.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienFitConstraint {
+    /// `MIEN_CONSTRAINT_...`
+    pub kind: u32,
+    /// Of the rig.
+    pub joint: u32,
+    /// Places in MienFitDesc.points.
+    pub points: [u32; 2],
+    /// In the axes of the joint, of any length but 0.
+    pub axis: [f32; 3],
+    /// A place, or a direction of any length but 0.
+    pub target: [f32; 3],
+    /// The smallest and the largest that cost nothing.
+    pub distances: [f32; 2],
+    /// Times the squared residual: of a length in the unit of the rig, or of the difference of
+    /// directions of length 1.
+    pub weight: f32,
+}
+
+impl Default for MienFitConstraint {
+    /// All zero.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        unsafe { zeroed() }
+    }
+}
+
 /// The targets of one frame, and the weights of the terms; terms of weight 0 are left out.
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -3535,6 +3576,15 @@ pub struct MienFitFrame {
     pub surface_reach: f32,
     /// , with `images` and `rigid`: the focal length is found too, its two numbers scaled alike.
     pub focal: u32,
+    /// 0.
+    pub reserved: u32,
+    pub constraint_count: usize,
+    /// Up to 64, added to all other targets. NULL: none.
+    pub constraints: *const MienFitConstraint,
+    /// Per raw control of the rig, up to 15: the solve begins with the controls of stage 0 alone,
+    /// then those of stage 1 move too, and so on, as jaw and eyes before the rest. Each stage may
+    /// take `max_iterations`. NULL: all move from the start.
+    pub stages: *const u32,
 }
 
 impl Default for MienFitFrame {
@@ -3574,6 +3624,14 @@ pub struct MienFitResult {
     pub point_worst: f64,
     /// Of the camera, with images; else 0.
     pub focal: [f32; 2],
+    /// Weighted root mean square of the residuals of constraints.
+    pub constraint_residual: f64,
+    /// Largest residual of a constraint that counts.
+    pub constraint_worst: f64,
+    /// Joint values or points moved farther from where they are at `start` than their targets ask
+    /// for, as roots of mean squares; points without a target count as such that ask for nothing.
+    pub jumped: u32,
+    pub reserved_2: u32,
 }
 
 impl Default for MienFitResult {
@@ -4106,6 +4164,17 @@ extern "C" {
     ///
     /// See docs/deformation.md.
     pub fn mien_deformer_create(dna: *const MienDna, rig: *const MienRig, desc: *const MienDeformerDesc, out_deformer: *mut *mut MienDeformer, error: *mut MienError) -> MienStatus;
+
+    /// Creates a deformer of some positions of one mesh. Position i of that mesh is `positions[i]`
+    /// of the mesh of `deformer`; it has no vertices or triangles, and all other meshes are empty.
+    /// Deformed positions have the bits of the whole mesh, and derivatives those of the chosen
+    /// rows, and take time for the chosen positions only. `positions` are ascending,
+    /// `position_count` of them. `deformer` may be destroyed afterwards; the new one keeps its
+    /// memory. Destroy with `mien_deformer_destroy()`.
+    ///
+    /// Fails with `MIEN_ERROR_INDEX` if there is no such mesh or position,
+    /// `MIEN_ERROR_INVALID_ARGUMENT` if positions are not ascending.
+    pub fn mien_deformer_create_subset(deformer: *const MienDeformer, mesh: u32, positions: *const u32, position_count: usize, allocator: *const MienAllocator, out_deformer: *mut *mut MienDeformer, error: *mut MienError) -> MienStatus;
 
     /// Destroys a deformer. Its instances stay valid; its memory is released with the last of
     /// them.
@@ -5444,10 +5513,24 @@ extern "C" {
     /// Does not allocate or lock.
     ///
     /// Fails with `MIEN_ERROR_NULL_ARGUMENT` if points, images or a surface are given to a fit
-    /// without points, or images without a camera, `MIEN_ERROR_INVALID_ARGUMENT` if two of these
-    /// are given, or a weight, a control or a number of the camera is not finite, or a weight is
-    /// negative, `MIEN_ERROR_HANDLE` if `surface` is none.
+    /// without points, or images without a camera, or constraints on joints to one without a
+    /// deformer, `MIEN_ERROR_INVALID_ARGUMENT` if two kinds of points are given, a stage is above
+    /// 15, or a weight, a control or a number of the camera is not finite, or a weight is
+    /// negative, `MIEN_ERROR_HANDLE` if `surface` is none, `MIEN_ERROR_INDEX` if a constraint has
+    /// a joint or point that does not exist.
     pub fn mien_fit_solve(fit: *mut MienFit, frame: *const MienFitFrame, out_raw: *mut f32, result: *mut MienFitResult) -> MienStatus;
+
+    /// Solves `count` frames of a motion, each from the result of the one before. `joints`,
+    /// `points`, `images` and `point_weights` of `frame` have a row for each frame, one after the
+    /// other; all else is for all frames. `start` and `stages` are for the first frame, and so is
+    /// `camera`, if it may move. `out_raw` gets a row of all raw controls for each frame;
+    /// `results`, which may be NULL, one result for each, all with the `struct_size` of the first.
+    /// Where joints are the only targets, this is faster than calls of `mien_fit_solve()`, and
+    /// differs from them by rounding. Deterministic unless there is a time limit, which is that of
+    /// a frame. Does not allocate or lock.
+    ///
+    /// Fails like `mien_fit_solve()`.
+    pub fn mien_fit_solve_frames(fit: *mut MienFit, frame: *const MienFitFrame, count: usize, out_raw: *mut f32, results: *mut MienFitResult) -> MienStatus;
 
     /// Writes for each raw control how well the data determines it at the initial pose: 0 if it
     /// moves nothing that has a target, or if other controls have the same effect; up to 1 for the

@@ -1088,6 +1088,29 @@ impl Match {
 
 numbers!(Match, u32, [(0, "SURFACE"), (1, "UV")]);
 
+/// What a constraint asks for. Places and directions are in model space, before the motion of
+/// MienFitFrame.rigid. Kinds with joints need MienFitDesc.deformer.
+///
+/// A later library may give numbers that have no name here.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+#[repr(transparent)]
+pub struct FitConstraintKind(pub u32);
+
+impl FitConstraintKind {
+    /// `joint` is at `target`: where the jaw is.
+    pub const JOINT_POSITION: Self = Self(0);
+    /// `axis` of `joint` has the direction `target`: an eye's gaze.
+    pub const JOINT_DIRECTION: Self = Self(1);
+    /// `axis` of `joint` points at the place `target`.
+    pub const JOINT_AIM: Self = Self(2);
+    /// `points[0]` is at `target`.
+    pub const POINT_POSITION: Self = Self(3);
+    /// From `distances[0]` to `distances[1]` lie between `points`: 0 and 0 where lips touch.
+    pub const POINT_DISTANCE: Self = Self(4);
+}
+
+numbers!(FitConstraintKind, u32, [(0, "JOINT_POSITION"), (1, "JOINT_DIRECTION"), (2, "JOINT_AIM"), (3, "POINT_POSITION"), (4, "POINT_DISTANCE")]);
+
 /// Why a solve ended.
 ///
 /// A later library may give numbers that have no name here.
@@ -2077,6 +2100,11 @@ macro_rules! errors {
          - [`Status::DNA_LAYER`](crate::Status::DNA_LAYER) if `dna` was opened without `Layers::GEOMETRY`\n\
          - [`Status::DNA_VALUE`](crate::Status::DNA_VALUE) if a joint is its own ancestor or a position, delta or weight is not finite"
     };
+    (mien_deformer_create_subset) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if positions are not ascending\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if there is no such mesh or position\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory"
+    };
     (mien_deformer_info) => {
         "- none with valid arguments"
     };
@@ -2908,7 +2936,12 @@ macro_rules! errors {
          - [`Status::MEMORY`](crate::Status::MEMORY) if memory runs out"
     };
     (mien_fit_solve) => {
-        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if two of these are given, or a weight, a control or a number of the camera is not finite, or a weight is negative"
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if two kinds of points are given, a stage is above 15, or a weight, a control or a number of the camera is not finite, or a weight is negative\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if a constraint has a joint or point that does not exist"
+    };
+    (mien_fit_solve_frames) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if two kinds of points are given, a stage is above 15, or a weight, a control or a number of the camera is not finite, or a weight is negative\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if a constraint has a joint or point that does not exist"
     };
     (mien_fit_observability) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `count` is another number"

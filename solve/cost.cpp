@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+// The cost of a frame at the controls of the instance, and its gradient.
+#include <algorithm>
+#include <cmath>
+
+#include "solve/frame.h"
+
+namespace mien {
+namespace {
+
+constexpr uint32_t kMotionRounds = 3;  // in which motions converge from pose to pose
+
+void add_joint_cost(Frame& f, Cost& cost) {
+  MienFit& fit = f.fit;
+  const double factor = f.joint_factor();
+  for (size_t i = 0; i < fit.joint_count; ++i) {
+    const bool present = std::isfinite(f.in.joints[i]);
+    const double weight = present ? fit.joint_weights[i] * factor : 0;
+    const double r = present ? double{fit.joints[i]} - f.in.joints[i] : 0;
+    cost.joints += weight * r * r;
+    cost.joint_weight += weight;
+    if (weight > 0) cost.joint_worst = std::max(cost.joint_worst, std::fabs(r));
+    fit.joint_gradient[i] = static_cast<float>(weight * r);
+  }
+}
+
+/// Adds the gradient by a point to that by its positions.
+void add_to_positions(MienFit& fit, const MienSolvePoint& point, const double* gradient,
+                      double factor) {
+  for (size_t n = 0; n < 3; ++n) {
+    if (point.weights[n] == 0) continue;
+    float* to = fit.position_gradient.data + size_t{point.positions[n]} * 3;
+    const double share = factor * double{point.weights[n]};
+    for (size_t k = 0; k < 3; ++k) to[k] += static_cast<float>(share * gradient[k]);
+  }
+}
+
+void add_point_cost(Frame& f, Cost& cost) {
+  MienFit& fit = f.fit;
+  follow_points(f, kMotionRounds);
+  const double scale = double{f.in.robust_scale};
+  const bool in_place = f.in.points && !f.in.rigid;
+  for (size_t i = 0; i < fit.points.count; ++i) {
+    fit.pulls[i] = 0;
+    if (!(fit.weights[i] > 0)) continue;
+    double gradient[3], weight, squared;
+    if (in_place) {
+      const double *at = fit.surface.data + 3 * i, *target = fit.targets.data + 3 * i;
+      for (size_t k = 0; k < 3; ++k) gradient[k] = at[k] - target[k];
+      squared = gradient[0] * gradient[0] + gradient[1] * gradient[1] + gradient[2] * gradient[2];
+    } else if (fit.lost[i] >= 0) {
+      cost.points += fit.weights[i] * robust(fit.lost[i], scale, weight);
+      continue;
+    } else {
+      squared = point_residual(f, i, gradient);
+    }
+    cost.points += fit.weights[i] * robust(squared, scale, weight);
+    cost.point_weight += fit.weights[i];
+    cost.point_worst = std::max(cost.point_worst, squared);
+    fit.pulls[i] = fit.weights[i] * weight;
+    add_to_positions(fit, fit.points[i], gradient, fit.pulls[i]);
+  }
+}
+
+}  // namespace
+
+void evaluate(MienFit& fit) {
+  static_cast<void>(mien_rig_evaluate_stages(fit.rig, fit.instance, fit.lod,
+                                             MIEN_STAGE_ALL & ~uint32_t{MIEN_STAGE_ANIMATED_MAPS}));
+}
+
+double regularize(const Frame& f, const float* raw, double* gradient) {
+  const MienFit& fit = f.fit;
+  double cost = 0;
+  for (size_t i = 0; i < fit.controls.count; ++i) {
+    const uint32_t c = fit.controls[i];
+    const double to_prior = double{raw[c]} - fit.prior[c], to_start = double{raw[c]} - fit.start[c];
+    cost += f.in.prior_weight * square(to_prior) + f.in.smooth_weight * square(to_start) +
+            f.in.sparse_weight * std::fabs(raw[c]);
+    if (!gradient) continue;
+    // At 0, the sign of the side to which the control may move: the sum of magnitudes has a kink there.
+    const double sign = raw[c] > 0 ? 1 : raw[c] < 0 ? -1 : fit.upper[i] > 0 ? 1 : -1;
+    gradient[i] += f.in.prior_weight * to_prior + f.in.smooth_weight * to_start +
+                   0.5 * f.in.sparse_weight * sign;
+  }
+  for (size_t i = 0; i + 1 < fit.symmetric.count; i += 2) {
+    cost +=
+        f.in.symmetric_weight * square(double{raw[fit.symmetric[i]]} - raw[fit.symmetric[i + 1]]);
+  }
+  return cost;
+}
+
+void add_symmetric_gradient(Frame& f) {
+  MienFit& fit = f.fit;
+  for (size_t i = 0; i + 1 < fit.symmetric.count && f.in.symmetric_weight > 0; i += 2) {
+    const uint32_t a = fit.symmetric[i], b = fit.symmetric[i + 1];
+    const double difference = f.in.symmetric_weight * (double{fit.raw[a]} - fit.raw[b]);
+    for (size_t k = 0; k < fit.controls.count; ++k) {
+      if (fit.controls[k] == a) fit.gradient[k] += difference;
+      if (fit.controls[k] == b) fit.gradient[k] -= difference;
+    }
+  }
+}
+
+void follow_points(Frame& f, uint32_t rounds) {
+  MienFit& fit = f.fit;
+  if (f.in.points && f.in.rigid) {
+    fit_rigid(fit.surface.data, fit.targets.data, fit.weights.data, fit.points.count,
+              f.motion.rotation, f.motion.translation);
+  } else if (f.in.rigid) {
+    fit_motion(f, rounds);
+  } else if (f.in.surface) {
+    match_surface(f);
+  }
+}
+
+Cost find_cost(Frame& f) {
+  MienFit& fit = f.fit;
+  evaluate(fit);
+  Cost cost;
+  if (f.in.joints) add_joint_cost(f, cost);
+  if (f.has_points() || f.in.constraints) {
+    find_points(f);
+    std::fill(fit.position_gradient.begin(), fit.position_gradient.end(), 0.0f);
+  }
+  if (f.has_points()) add_point_cost(f, cost);
+  if (f.in.constraints) add_constraint_cost(f, cost);
+  cost.total = cost.joints + cost.points + cost.constraints;
+  return cost;
+}
+
+void find_gradient(Frame& f) {
+  MienFit& fit = f.fit;
+  std::fill(fit.gradient.begin(), fit.gradient.end(), 0.0);
+  const auto add = [&](MienDerivatives* derivatives, uint32_t from, const float* gradient,
+                       const Span<float>& out) {
+    static_cast<void>(mien_derivatives_reverse(derivatives, MIEN_POINT_RAW, from, fit.mesh, 1,
+                                               gradient, out.data));
+    for (size_t i = 0; i < fit.controls.count; ++i) fit.gradient[i] += out[fit.controls[i]];
+  };
+  static_cast<void>(
+      mien_derivatives_linearize(fit.control_derivatives, fit.instance, MIEN_STAGE_ALL));
+  if (f.in.joints) {
+    add(fit.control_derivatives, MIEN_POINT_JOINTS, fit.joint_gradient.data, fit.from_joints);
+  }
+  if (f.has_points() || f.in.constraints) {
+    static_cast<void>(mien_derivatives_linearize(fit.derivatives, fit.instance, MIEN_STAGE_ALL));
+  }
+  if (fit.points.count != 0 && (f.has_points() || f.in.constraints)) {
+    add(fit.derivatives, MIEN_POINT_POSITIONS, fit.position_gradient.data, fit.from_positions);
+  }
+  if (has_joint_constraints(f)) {
+    add(fit.derivatives, MIEN_POINT_MODELS, fit.model_gradient.data, fit.from_positions);
+  }
+  regularize(f, fit.raw.data, fit.gradient.data);
+  add_symmetric_gradient(f);
+}
+
+double point_factor(const MienFit& fit) {
+  double factor = 0;
+  for (size_t i = 0; i < fit.points.count; ++i) factor += fit.pulls[i];
+  return factor / static_cast<double>(fit.points.count);
+}
+
+void add_regularization(Frame& f, size_t free_count) {
+  MienFit& fit = f.fit;
+  for (size_t a = 0; a < free_count; ++a) {
+    fit.matrix[a * free_count + a] += double{f.in.prior_weight} + f.in.smooth_weight;
+  }
+  for (size_t i = 0; i + 1 < fit.symmetric.count && f.in.symmetric_weight > 0; i += 2) {
+    size_t at[2] = {free_count, free_count};
+    for (size_t a = 0; a < free_count; ++a) {
+      for (size_t n = 0; n < 2; ++n) at[n] = fit.inputs[a] == fit.symmetric[i + n] ? a : at[n];
+    }
+    for (const size_t a : at) {
+      if (a != free_count) fit.matrix[a * free_count + a] += f.in.symmetric_weight;
+    }
+    if (at[0] == free_count || at[1] == free_count) continue;
+    fit.matrix[at[0] * free_count + at[1]] -= f.in.symmetric_weight;
+    fit.matrix[at[1] * free_count + at[0]] -= f.in.symmetric_weight;
+  }
+}
+
+}  // namespace mien

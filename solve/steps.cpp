@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: MIT
+// Solves a frame: bounded Gauss-Newton steps with Levenberg-Marquardt damping (docs/solving.md).
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "solve/frame.h"
+
+namespace mien {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr uint32_t kDefaultIterations = 50;
+constexpr double kSlow = 0.3;            // of what the step before gained
+constexpr double kEnoughOfStage = 1e-3;  // of the cost, before more controls are unlocked
+constexpr uint32_t kFirstRounds = 40;    // of motions, at the start
+
+/// Controls that are not held at a bound by the gradient.
+size_t list_free(const Frame& f) {
+  const MienFit& fit = f.fit;
+  size_t count = 0;
+  for (size_t i = 0; i < fit.controls.count; ++i) {
+    if (f.is_locked(fit.controls[i])) continue;
+    const float value = fit.raw[fit.controls[i]];
+    if (value <= fit.lower[i] && fit.gradient[i] >= 0) continue;
+    if (value >= fit.upper[i] && fit.gradient[i] <= 0) continue;
+    fit.free[count] = static_cast<uint32_t>(i);
+    fit.inputs[count++] = fit.controls[i];
+  }
+  return count;
+}
+
+/// The matrix of a step: D^T G D and the regularization.
+void set_matrix(Frame& f, size_t free_count) {
+  MienFit& fit = f.fit;
+  list_free_derivatives(fit, free_count);
+  std::fill(fit.matrix.data, fit.matrix.data + free_count * free_count, 0.0);
+  if (f.in.joints) project_metric(fit, fit.joint_metric.data, f.joint_factor(), free_count);
+  add_point_rows(f, free_count);
+  list_constraint_rows(f, MIEN_POINT_RAW);
+  for (size_t r = 0; r < f.row_count; ++r) {
+    const float* row = fit.constraint_rows.data + r * fit.raw_count;
+    for (size_t a = 0; a < free_count; ++a) {
+      const double value = fit.row_weights[r] * double{row[fit.inputs[a]]};
+      for (size_t b = 0; b < free_count; ++b) {
+        fit.matrix[a * free_count + b] += value * double{row[fit.inputs[b]]};
+      }
+    }
+  }
+  add_regularization(f, free_count);
+}
+
+/// A step from `best` into the instance; controls that leave their bounds stay at them. Returns how far the
+/// farthest control moved.
+double take_step(Frame& f, size_t free_count, double damping) {
+  MienFit& fit = f.fit;
+  find_bounded_step(f, free_count, damping);
+  double farthest = 0;
+  for (size_t a = 0; a < free_count; ++a) {
+    const uint32_t i = fit.free[a], c = fit.controls[i];
+    const double low = fit.lower[i], high = fit.upper[i], from = fit.best[c];
+    double to = std::min(std::max(from + fit.step[a], low), high);
+    // A control does not jump over the kink of the sum of magnitudes.
+    if (f.in.sparse_weight > 0 && from * to < 0) to = 0;
+    farthest = std::max(farthest, std::fabs(to - from));
+    fit.raw[c] = static_cast<float>(to);
+  }
+  return farthest;
+}
+
+double largest_target(const Frame& f) {
+  double largest = 0;
+  for (size_t i = 0; f.has_points() && i < f.fit.points.count; ++i) {
+    if (!(f.fit.weights[i] > 0)) continue;
+    for (size_t k = 0; k < 3; ++k) largest = std::max(largest, std::fabs(f.fit.targets[3 * i + k]));
+  }
+  return largest;
+}
+
+double largest_joint(const Frame& f) {
+  double largest = 0;
+  for (size_t i = 0; f.in.joints && i < f.fit.joint_count; ++i) {
+    if (!(f.fit.joint_weights[i] > 0) || !std::isfinite(f.in.joints[i])) continue;
+    largest = std::max(largest, std::fabs(double{f.in.joints[i]}));
+  }
+  return largest;
+}
+
+/// The cost that the rounding of floats leaves.
+double rounding_of(const Frame& f, const Cost& cost) {
+  return cost.point_weight * square(kRounding * largest_target(f)) +
+         cost.joint_weight * square(kRounding * largest_joint(f));
+}
+
+/// The motion at the start.
+void start_motion(Frame& f) {
+  if (!f.has_points() || !f.in.rigid) return;
+  evaluate(f.fit);
+  find_points(f);
+  if (f.in.images &&
+      std::all_of(f.motion.rotation, f.motion.rotation + 9, [](double v) { return v == 0; })) {
+    guess_camera(f);
+  }
+  follow_points(f, kFirstRounds);
+}
+
+struct Solve {
+  Frame& f;
+  Cost cost;         // at the best controls
+  double first = 0;  // the total at the start
+  uint32_t iterations = 0;
+  Clock::time_point begin = Clock::now();
+
+  bool is_late() const {
+    return f.in.max_seconds > 0 &&
+           std::chrono::duration<double>(Clock::now() - begin).count() >= f.in.max_seconds;
+  }
+  void keep() { std::copy(f.fit.raw.begin(), f.fit.raw.end(), f.fit.best.begin()); }
+  Cost find_all() {
+    Cost found = find_cost(f);
+    found.total += regularize(f, f.fit.raw.data, nullptr);
+    return found;
+  }
+  uint32_t run_stage(uint32_t limit, double enough_decrease);
+};
+
+/// Steps until nothing is gained: MIEN_FIT_...
+uint32_t Solve::run_stage(uint32_t limit, double enough_decrease) {
+  MienFit& fit = f.fit;
+  double damping = kFirstDamping, before = 0;
+  uint32_t slow = 0;  // steps in a row that gained little less than the one before
+  std::fill(fit.measured.begin(), fit.measured.end(), uint8_t{0});
+  // Effects of controls on points change with the pose: where steps gain little, they are measured at it.
+  const auto measure_again = [&] {
+    if (!f.has_points() || (f.exact && slow == 0)) return false;
+    f.exact = true;
+    slow = 0;
+    before = 0;
+    damping = kFirstDamping;
+    std::fill(fit.measured.begin(), fit.measured.end(), uint8_t{0});
+    return true;
+  };
+  const auto enough_of = [&](double total) {
+    return std::max(enough_decrease * total, kEnoughOfFirst * first);
+  };
+  for (uint32_t done = 0; done < limit; ++done, ++iterations) {
+    if (f.in.canceled && f.in.canceled(f.in.user)) return MIEN_FIT_CANCELED;
+    if (iterations != 0 && is_late()) return MIEN_FIT_TIME;
+    const bool by_model = !f.has_rows();
+    size_t free_count = 0;
+    if (by_model) {
+      make_model(f);
+    } else {
+      find_gradient(f);
+      free_count = list_free(f);
+      if (free_count == 0) return MIEN_FIT_CONVERGED;
+      set_matrix(f, free_count);
+    }
+    const Motion motion = f.motion;
+    for (;;) {
+      ModelStep step = {0, 0, false};
+      if (by_model) {
+        step = minimize_model(f, cost.total, first, rounding_of(f, cost), damping);
+        if (step.farthest == 0) {
+          cost = find_all();
+          return MIEN_FIT_CONVERGED;
+        }
+      } else {
+        step.farthest = take_step(f, free_count, damping);
+      }
+      const Cost next = find_all();
+      if (next.total < cost.total) {
+        const double decrease = cost.total - next.total, enough = enough_of(cost.total);
+        slow = decrease > kSlow * before && before > 0 ? slow + 1 : 0;
+        before = decrease;
+        cost = next;
+        keep();
+        const bool as_predicted = step.solved && damping <= kFirstDamping &&
+                                  std::fabs(cost.total - step.predicted) <= enough_of(cost.total);
+        damping = std::max(damping * 0.2, 1e-7);
+        if (as_predicted || cost.total <= rounding_of(f, cost)) {
+          ++iterations;
+          return MIEN_FIT_CONVERGED;
+        }
+        const bool ended = decrease <= enough || step.farthest < kEnoughStep;
+        if (ended && (slow == 0 || !measure_again())) {
+          ++iterations;
+          return MIEN_FIT_CONVERGED;
+        }
+        if (slow >= 2 || (by_model && step.solved)) measure_again();
+        break;
+      }
+      std::copy(fit.best.begin(), fit.best.end(), fit.raw.begin());
+      f.motion = motion;
+      if (step.farthest < kEnoughStep || damping > 1e8) {
+        cost = find_all();  // of the best controls
+        if (!f.exact && damping > kFirstDamping && measure_again()) break;
+        return MIEN_FIT_CONVERGED;
+      }
+      damping *= 10;
+    }
+  }
+  return MIEN_FIT_ITERATIONS;
+}
+
+/// What `start` and the targets say of how far things may move (MienFitResult.jumped).
+struct Moves {
+  double asked_joints = 0, asked_points = 0;
+};
+
+Moves start_moves(Frame& f) {
+  MienFit& fit = f.fit;
+  Moves moves;
+  if (f.in.joints) {
+    std::copy(fit.joints.begin(), fit.joints.end(), fit.start_joints.begin());
+    for (size_t i = 0; i < fit.joint_count; ++i) {
+      if (!std::isfinite(f.in.joints[i])) continue;
+      moves.asked_joints +=
+          double{fit.joint_weights[i]} * square(double{fit.joints[i]} - f.in.joints[i]);
+    }
+  }
+  if (!f.has_points()) return moves;
+  std::copy(fit.surface.begin(), fit.surface.end(), fit.start_surface.begin());
+  for (size_t i = 0; i < fit.points.count; ++i) {
+    double gradient[3];
+    if (fit.pulls[i] > 0) moves.asked_points += fit.pulls[i] * point_residual(f, i, gradient);
+  }
+  return moves;
+}
+
+bool has_jumped(const Frame& f, const Moves& moves) {
+  const MienFit& fit = f.fit;
+  constexpr double kSlack = 1.01;  // of the sums: what rounding and curvature add
+  double joints = 0, points = 0, room_for_joints = 0, room_for_points = 0;
+  for (size_t i = 0; f.in.joints && i < fit.joint_count; ++i) {
+    joints += double{fit.joint_weights[i]} * square(double{fit.joints[i]} - fit.start_joints[i]);
+    room_for_joints += double{fit.joint_weights[i]};
+  }
+  for (size_t i = 0; f.has_points() && i < fit.points.count; ++i) {
+    // A missing point counts as much as one that is there, an outlier as little as in the cost.
+    const double given = f.in.point_weights ? double{f.in.point_weights[i]} : 1.0;
+    const double weight = fit.weights[i] > 0 ? fit.pulls[i] : given;
+    double before[3], after[3];
+    view_point(f, fit.start_surface.data + 3 * i, before);
+    view_point(f, fit.surface.data + 3 * i, after);
+    for (size_t k = 0; k < 3; ++k) points += weight * square(after[k] - before[k]);
+    room_for_points += weight;
+  }
+  const double joint_noise = room_for_joints * square(10 * kRounding * largest_joint(f));
+  const double point_noise = room_for_points * square(10 * kRounding * largest_target(f));
+  return joints > kSlack * moves.asked_joints + joint_noise ||
+         points > kSlack * moves.asked_points + point_noise;
+}
+
+}  // namespace
+
+void solve_frame(Frame& f, MienFitResult& told) {
+  MienFit& fit = f.fit;
+  Solve solve = {f, {}};
+  start_motion(f);
+  solve.cost = solve.find_all();
+  solve.keep();
+  const Moves moves = start_moves(f);
+  const Cost& cost = solve.cost;
+  if (cost.joint_weight + cost.point_weight + cost.constraint_weight > 0) {
+    solve.first = cost.total;
+    const uint32_t limit = f.in.max_iterations ? f.in.max_iterations : kDefaultIterations;
+    uint32_t last = 0, present = f.in.stages && fit.controls.count != 0 ? 0 : 1;
+    for (const uint32_t c : fit.controls) {
+      if (f.in.stages) present |= 1u << f.in.stages[c];
+    }
+    while (present >> (last + 1) != 0) ++last;
+    for (f.stage = 0; f.stage <= last; ++f.stage) {
+      if ((present >> f.stage & 1) == 0) continue;
+      f.exact = false;
+      told.status = solve.run_stage(limit, f.stage == last ? kEnoughDecrease : kEnoughOfStage);
+      if (told.status == MIEN_FIT_CANCELED || told.status == MIEN_FIT_TIME) break;
+    }
+    told.jumped = has_jumped(f, moves);
+  } else {
+    told.status = MIEN_FIT_NO_DATA;
+  }
+  told.iterations = solve.iterations;
+  tell_cost(solve.cost, told);
+}
+
+}  // namespace mien

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+// Solves of motions: several frames in one call, on several threads, and with noise, outliers and missing data.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <thread>
+
+#include "tests/fit/fit_head.h"
+
+namespace mien {
+namespace {
+
+constexpr size_t kFrames = 40;  // more than are multiplied together
+
+/// Some controls swing at different rates.
+std::vector<float> swing(size_t raw_count, double time) {
+  std::vector<float> raw(raw_count);
+  for (size_t i = 0; i < raw_count; i += 9) {
+    const double rate = 1 + 0.2 * static_cast<double>(i % 7);
+    raw[i] = static_cast<float>(0.4 - 0.4 * std::cos(time * rate + static_cast<double>(i)));
+  }
+  return raw;
+}
+
+std::vector<MienFitResult> results_of(size_t count) {
+  return std::vector<MienFitResult>(count, mien_fit_result_default());
+}
+
+TEST(Frames, OfJointsAreThoseOfSingleSolves) {
+  Head head(MIEN_PRESET_MEDIUM);
+  const FitHandle fit = create_fit(head.rig, sized<MienFitDesc>());
+  const size_t raw_count = head.character.raw.count, joint_count = head.character.joints.count;
+  std::vector<float> targets;
+  double range = 0;
+  for (size_t i = 0; i < kFrames; ++i) {
+    const std::vector<float> joints = head.joints(swing(raw_count, static_cast<double>(i) / 60));
+    targets.insert(targets.end(), joints.begin(), joints.end());
+    for (const float v : joints) range = std::fmax(range, std::fabs(v));
+  }
+  targets[20 * joint_count + 3] = std::numeric_limits<float>::quiet_NaN();
+  for (const size_t first : {size_t{0}, size_t{21}}) {  // with a missing value, and without
+    const size_t count = kFrames - first;
+    MienFitFrame frame = mien_fit_frame_default();
+    frame.joints = targets.data() + first * joint_count;
+    std::vector<float> found(count * raw_count), again(count * raw_count), one(raw_count), before;
+    std::vector<MienFitResult> results = results_of(count);
+    ASSERT_EQ(mien_fit_solve_frames(fit.get(), &frame, count, found.data(), results.data()),
+              MIEN_OK);
+    ASSERT_EQ(mien_fit_solve_frames(fit.get(), &frame, count, again.data(), nullptr), MIEN_OK);
+    EXPECT_EQ(found, again);
+    for (size_t i = 0; i < count; ++i) {
+      MienFitFrame single = frame;
+      single.joints += i * joint_count;
+      single.start = i == 0 ? nullptr : before.data();
+      ASSERT_EQ(mien_fit_solve(fit.get(), &single, one.data(), nullptr), MIEN_OK);
+      EXPECT_EQ(results[i].status, MIEN_FIT_CONVERGED) << i;
+      EXPECT_LE(results[i].joint_worst, 1e-3 * range) << i;
+      EXPECT_FALSE(results[i].jumped) << i;
+      for (size_t c = 0; c < raw_count; ++c) {
+        ASSERT_NEAR(one[c], found[i * raw_count + c], 5e-3) << i << ' ' << c;
+      }
+      before = one;
+    }
+  }
+}
+
+TEST(Frames, RefuseWrongArguments) {
+  Head head(MIEN_PRESET_SMALL);
+  const FitHandle fit = create_fit(head.rig, sized<MienFitDesc>());
+  MienFitFrame frame = mien_fit_frame_default();
+  std::vector<float> found(head.character.raw.count);
+  EXPECT_EQ(mien_fit_solve_frames(fit.get(), &frame, 0, nullptr, nullptr), MIEN_OK);
+  EXPECT_EQ(mien_fit_solve_frames(fit.get(), &frame, 1, nullptr, nullptr),
+            MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_fit_solve_frames(fit.get(), nullptr, 1, found.data(), nullptr),
+            MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_fit_solve_frames(nullptr, &frame, 1, found.data(), nullptr),
+            MIEN_ERROR_NULL_ARGUMENT);
+  std::vector<MienFitResult> results = results_of(2);
+  results[1].struct_size = 8;
+  EXPECT_NE(mien_fit_solve_frames(fit.get(), &frame, 2, std::vector<float>(2 * found.size()).data(),
+                                  results.data()),
+            MIEN_OK);
+  frame.sparse_weight = -1;
+  EXPECT_EQ(mien_fit_solve_frames(fit.get(), &frame, 1, found.data(), nullptr),
+            MIEN_ERROR_INVALID_ARGUMENT);
+}
+
+/// Landmarks of a motion with noise, every tenth an outlier in some frames, and some frames without any.
+struct Landmarks {
+  Head head;
+  std::vector<MienSolvePoint> points;
+  std::vector<float> targets;
+
+  Landmarks() : points(every(mesh_of(head.deformer.get(), 0).position_count, 25)) {
+    Random random = Random::from_seed(83, 1);
+    for (size_t i = 0; i < kFrames; ++i) {
+      const std::vector<float> all =
+          head.positions(swing(head.character.raw.count, static_cast<double>(i) / 30));
+      for (size_t p = 0; p < points.size(); ++p) {
+        for (size_t k = 0; k < 3; ++k) {
+          float v = all[points[p].positions[0] * size_t{3} + k];
+          v += static_cast<float>(random.between(-0.05, 0.05));
+          if (i % 4 == 1 && p % 10 == 3) v += 6;
+          if (p % 7 == 2 || i == 17) v = std::numeric_limits<float>::quiet_NaN();
+          targets.push_back(v);
+        }
+      }
+    }
+  }
+  FitHandle fit() {
+    MienFitDesc desc = sized<MienFitDesc>();
+    desc.deformer = head.deformer.get();
+    desc.points = points.data();
+    desc.point_count = points.size();
+    return create_fit(head.rig, desc);
+  }
+  MienFitFrame frame() const {
+    MienFitFrame frame = mien_fit_frame_default();
+    frame.points = targets.data();
+    frame.robust_scale = 0.5f;
+    frame.prior_weight = 1e-3f;
+    frame.smooth_weight = 1e-2f;
+    return frame;
+  }
+};
+
+TEST(Frames, HaveTheSameBitsOnEachThread) {
+  Landmarks marks;
+  const size_t size = marks.head.character.raw.count * kFrames;
+  std::vector<float> found[3];
+  std::vector<FitHandle> fits;
+  std::vector<std::thread> threads;
+  for (auto& rows : found) {
+    rows.resize(size);
+    fits.push_back(marks.fit());
+  }
+  const MienFitFrame frame = marks.frame();
+  for (size_t t = 0; t < 3; ++t) {
+    threads.emplace_back([&, t] {
+      EXPECT_EQ(mien_fit_solve_frames(fits[t].get(), &frame, kFrames, found[t].data(), nullptr),
+                MIEN_OK);
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(found[0], found[1]);
+  EXPECT_EQ(found[0], found[2]);
+}
+
+TEST(Frames, NeverJumpFartherThanTheTargetsUnlessTheySaySo) {
+  Landmarks marks;
+  const FitHandle fit = marks.fit();
+  const size_t raw_count = marks.head.character.raw.count;
+  const MienFitFrame frame = marks.frame();
+  std::vector<float> found(kFrames * raw_count);
+  std::vector<MienFitResult> results = results_of(kFrames);
+  ASSERT_EQ(mien_fit_solve_frames(fit.get(), &frame, kFrames, found.data(), results.data()),
+            MIEN_OK);
+  const auto surface = [&](size_t i) {
+    return marks.head.positions({found.data() + i * raw_count, found.data() + (i + 1) * raw_count});
+  };
+  size_t told = 0;
+  for (size_t i = 1; i < kFrames; ++i) {
+    EXPECT_EQ(results[i].status, i == 17 ? uint32_t{MIEN_FIT_NO_DATA} : results[i].status);
+    if (i == 17) {
+      EXPECT_EQ(
+          std::vector<float>(found.data() + i * raw_count, found.data() + (i + 1) * raw_count),
+          std::vector<float>(found.data() + (i - 1) * raw_count, found.data() + i * raw_count));
+    }
+    told += results[i].jumped;
+    if (results[i].jumped) continue;
+    const std::vector<float> before = surface(i - 1), after = surface(i);
+    double moved = 0, asked = 0;
+    for (size_t p = 0; p < marks.points.size(); ++p) {
+      const float* target = marks.targets.data() + (i * marks.points.size() + p) * 3;
+      const size_t at = marks.points[p].positions[0] * size_t{3};
+      const bool outlier = i % 4 == 1 && p % 10 == 3;
+      for (size_t k = 0; k < 3; ++k) {
+        moved += outlier ? 0 : std::pow(double{after[at + k]} - before[at + k], 2);
+        if (!outlier && std::isfinite(target[k])) {
+          asked += std::pow(double{target[k]} - before[at + k], 2);
+        }
+      }
+    }
+    EXPECT_LE(moved, 1.1 * asked + 1e-6) << i;
+  }
+  EXPECT_LT(told, kFrames / 4);
+}
+
+TEST(Frames, TellOfAJump) {
+  Head head(MIEN_PRESET_MEDIUM);
+  const FitHandle fit = create_fit(head.rig, sized<MienFitDesc>());
+  const std::vector<float> start = swing(head.character.raw.count, 1);
+  const std::vector<float> joints = head.joints(start);
+  // The targets ask for nothing, but the prior does.
+  MienFitFrame frame = mien_fit_frame_default();
+  frame.joints = joints.data();
+  frame.start = start.data();
+  frame.prior_weight = 1e4f;
+  std::vector<float> found(start.size());
+  MienFitResult result = mien_fit_result_default();
+  ASSERT_EQ(mien_fit_solve(fit.get(), &frame, found.data(), &result), MIEN_OK);
+  EXPECT_TRUE(result.jumped);
+  frame.prior_weight = 0;
+  ASSERT_EQ(mien_fit_solve(fit.get(), &frame, found.data(), &result), MIEN_OK);
+  EXPECT_FALSE(result.jumped);
+}
+
+}  // namespace
+}  // namespace mien
