@@ -176,8 +176,8 @@ void run_frames(const char* name, Rig&& rig, size_t frames) {
   double worst = 0, range = 0;
   for (const MienFitResult& result : results) worst = std::max(worst, result.joint_worst);
   for (const float v : targets) range = std::max(range, std::fabs(double{v}));
-  std::printf("%-34s %5zu targets  %7.3f ms a frame of %zu  joints within %.1e of their range\n", name,
-              size_t{rig.joints.count}, time / static_cast<double>(frames) * 1e3, frames,
+  std::printf("%-34s %5zu targets  %7.3f ms a frame of %zu  joints within %.1e of their range\n",
+              name, size_t{rig.joints.count}, time / static_cast<double>(frames) * 1e3, frames,
               worst / range);
   mien_fit_destroy(fit);
 }

@@ -124,13 +124,17 @@ bool are_plain_joints(const MienFit& fit, const MienFitFrame& in, size_t count) 
                      [](float v) { return std::isfinite(v); });
 }
 
-/// block_pulls = what the targets of `count` frames say to each control.
+/// block_pulls = what the change of targets from frame to frame does to the pull of each control.
 void multiply_targets(MienFit& fit, const MienFitFrame& in, size_t count) {
   constexpr size_t kLanes = kBlockFrames;
   for (size_t j = 0; j < fit.joint_count; ++j) {
     float* const to = fit.block_targets.data + j * kLanes;
+    const float* const from = in.joints + j;
     for (size_t k = 0; k < kLanes; ++k) {
-      to[k] = k < count ? fit.joint_weights[j] * in.joints[k * fit.joint_count + j] : 0.0f;
+      const bool changes = k != 0 && k < count;
+      to[k] = changes ? fit.joint_weights[j] *
+                            (from[(k - 1) * fit.joint_count] - from[k * fit.joint_count])
+                      : 0.0f;
     }
   }
   for (size_t c = 0; c < fit.control_count; ++c) {
@@ -144,38 +148,42 @@ void multiply_targets(MienFit& fit, const MienFitFrame& in, size_t count) {
   }
 }
 
-/// Frame `lane` of the block by its model alone, which is the cost up to rounding. False: not so.
-bool solve_by_model(Frame& f, size_t lane, MienFitResult& told) {
+/// Frame `lane` of a block by its model alone, which is the cost up to rounding. Unless `follows`, the model is made
+/// anew; else the pull is what the frame before has left, and the change of the targets. False: not so.
+bool solve_by_model(Frame& f, size_t lane, bool follows, MienFitResult& told) {
   MienFit& fit = f.fit;
-  evaluate_controls(fit);
   std::copy(fit.raw.begin(), fit.raw.end(), fit.best.begin());
-  // The pull is G c - the targets', and G c the response to a change of all controls from 0.
-  std::fill(fit.model_controls.begin(), fit.model_controls.end(), 0.0f);
-  std::fill(fit.pull.begin(), fit.pull.end(), 0.0);
-  double own = find_change(f), cross = 0, targets = 0;
-  for (size_t c = 0; c < fit.control_count; ++c) {
-    const double target = f.joint_factor() * fit.block_pulls[c * kBlockFrames + lane];
-    cross += target * double{fit.all_controls[c]};
-    fit.pull[c] = fit.response[c] - target;
+  double first = regularize(f, fit.raw.data, nullptr);
+  if (follows) {
+    for (size_t c = 0; c < fit.control_count; ++c) {
+      fit.pull[c] += fit.response[c] + f.joint_factor() * fit.block_pulls[c * kBlockFrames + lane];
+    }
+    for (size_t j = 0; j < fit.joint_count; ++j) {
+      first += f.joint_factor() * double{fit.joint_weights[j]} *
+               square(double{fit.joints[j]} - f.in.joints[j]);
+    }
+    std::copy(fit.all_controls.begin(), fit.all_controls.end(), fit.model_controls.begin());
+  } else {
+    first += find_cost(f).total;
+    make_model(f);
   }
+  double weights = 0, largest = 0;
   for (size_t j = 0; j < fit.joint_count; ++j) {
-    targets += double{fit.joint_weights[j]} * square(double{f.in.joints[j]});
+    weights += f.joint_factor() * double{fit.joint_weights[j]};
+    largest = std::max(largest, std::fabs(double{f.in.joints[j]}));
   }
-  const double first = std::max(own - 2 * cross + f.joint_factor() * targets, 0.0) +
-                       regularize(f, fit.raw.data, nullptr);
-  std::copy(fit.all_controls.begin(), fit.all_controls.end(), fit.model_controls.begin());
-  const double scale = kRounding * kRounding * f.joint_factor() * targets;
-  const ModelStep step = minimize_model(f, first, first, scale, kFirstDamping);
+  const double rounding = weights * square(kRounding * largest);
+  const ModelStep step = minimize_model(f, first, first, rounding, kFirstDamping);
   double moved = 0;
   for (size_t c = 0; c < fit.control_count; ++c) moved += fit.change[c] * fit.response[c];
-  told.jumped = moved > 1.01 * first + 100 * square(kRounding) * targets;
   Cost cost = find_cost(f);
   cost.total += regularize(f, fit.raw.data, nullptr);
-  const double close = std::max({1e-5 * first, 1e-3 * cost.total, scale});
+  const double close = std::max({1e-3 * cost.total, 1e-6 * first, rounding});
   if (!step.solved || std::fabs(cost.total - step.predicted) > close) return false;
   std::copy(fit.raw.begin(), fit.raw.end(), fit.best.begin());
   told.status = MIEN_FIT_CONVERGED;
   told.iterations = 1;
+  told.jumped = moved > 1.01 * first + 100 * rounding;
   tell_cost(cost, told);
   return true;
 }
@@ -232,6 +240,7 @@ MienStatus mien_fit_solve_frames(MienFit* fit, const MienFitFrame* frame, size_t
     if (MienStatus status = check_frame(*fit, row_of(*fit, known, i))) return status;
   }
   const bool plain = are_plain_joints(*fit, known, count);
+  bool follows = false;  // the model is that of the frame before
   MienFitCamera camera = known.camera ? *known.camera : MienFitCamera{};
   for (size_t i = 0; i < count; ++i) {
     MienFitFrame in = row_of(*fit, known, i);
@@ -248,9 +257,11 @@ MienStatus mien_fit_solve_frames(MienFit* fit, const MienFitFrame* frame, size_t
     if (plain && !in.stages) {
       Frame f = {*fit, in, {}};
       read_rows(f);
-      solved = !(in.canceled && in.canceled(in.user)) && solve_by_model(f, i % kBlockFrames, told);
+      solved = !(in.canceled && in.canceled(in.user)) &&
+               solve_by_model(f, i % kBlockFrames, follows && i % kBlockFrames != 0, told);
       if (solved) tell(*fit, f, out, told);
     }
+    follows = solved;
     if (!solved) solve_one(*fit, in, out, told);
     if (in.camera && in.rigid) {
       std::copy(told.rotation, told.rotation + 9, camera.rotation);

@@ -654,8 +654,8 @@ class Deformer : public Owner<MienDeformer, mien_deformer_destroy> {
   /// Of some positions of one mesh, ascending. This one may go.
   Result<Deformer> subset(uint32_t mesh, Span<const uint32_t> positions) const {
     return make<Deformer>([&](MienDeformer** out, MienError* error) {
-      return mien_deformer_create_subset(get(), mesh, positions.data(), positions.size(), nullptr, out,
-                                         error);
+      return mien_deformer_create_subset(get(), mesh, positions.data(), positions.size(), nullptr,
+                                         out, error);
     });
   }
   Result<DeformerInstance> instance(const DeformerInstanceDesc& desc = {}) const {

@@ -14,7 +14,8 @@
 """
 from ._api import (Arithmetic, AuthorFlags, BakedCheck, BakedInfo, BlendMode, BoneKind, ClipChannel,
                    ClipInfo, ClipPlayerInfo, Compose, Conformed, CoordinateSystem, DeformerInfo, Direction,
-                   DnaField, DnaInfo, DnaLayer, FaceWinding, FieldType, FileAccess, Finding, FitStatus,
+                   DnaField, DnaInfo, DnaLayer, FaceWinding, FieldType, FileAccess, Finding,
+                   FitConstraintKind, FitStatus,
                    Generate, Generator, Guard, InstanceStatistics, Interpolation, Isa, Kind, Layer,
                    LayerGroup, LayerSource, Looping, Match, MeshAxis, MixerInfo, MixInfo, MlMasks, NameMatch, Normals,
                    Point, Preset, PrunedJoints, PrunedTargets, Retrigger, Reuse, RigInfo, RigStatistics, RotationOutput, RotationRule,
@@ -33,7 +34,7 @@ from .dna import Dna, coordinate_system, coordinate_system_names, validate
 from .document import ControlError, Document, DocumentLayer
 from .errors import (ArgumentError, AuthorError, BusyError, ClipError, ClosedError, DnaError, Error,
                      FileError, MixError, OutOfMemoryError, OutOfRangeError, UnknownNameError)
-from .fit import Fit, FitCamera, FitResult, FitSurface, reduce_keys, solve
+from .fit import Fit, FitCamera, FitConstraint, FitResult, FitSurface, reduce_keys, solve
 from .instance import Instance
 from .mix import Gaze, Mix
 from .mix_parts import (NO_CONTROL, Antagonists, CustomGuard, Landmark, MixLayer, Reaction, Stroke,
@@ -56,6 +57,7 @@ __all__ = [
     "CoordinateSystem", "CopySolver", "CustomGuard", "CustomSolver", "deform_batch", "Deformer",
     "DeformerInfo", "DeformerInstance", "Derivatives", "Direction", "Dna", "DnaError", "DnaField", "DnaInfo",
     "DnaLayer", "Document", "DocumentLayer", "Error", "FaceWinding", "FieldType", "FileAccess", "FileError", "Finding", "Fit", "FitCamera",
+    "FitConstraint", "FitConstraintKind",
     "FitResult", "FitStatus", "FitSurface",
     "Gaze", "Generate", "Generator", "glare", "Guard", "GuardInfo", "GuardState", "Instance",
     "InstanceStatistics", "Interpolation", "Isa", "isa_available", "isa_name", "Jacobian", "Kind",

@@ -4392,7 +4392,7 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
         (Status.INDEX,
          "there is no such mesh or position"),
         (Status.MEMORY,
-         "there is no memory"),
+         "memory runs out"),
     ),
     "mien_deformer_info": (),
     "mien_deformer_mesh": (

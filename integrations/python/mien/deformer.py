@@ -121,9 +121,11 @@ class Deformer(Closable):
         """A deformer of some positions of one mesh, ascending: position i is `positions[i]` of this one. It has
         no vertices, and its other meshes are empty."""
         chosen = [uint32(position, "position") for position in positions]
+        whole = self._open()
         handle, error = DeformerHandle(), MienError()
+        handle.baked = whole.baked
         status = lib.mien_deformer_create_subset(
-            self._open(), uint32(mesh, "mesh"), (ctypes.c_uint32 * len(chosen))(*chosen), len(chosen), None,
+            whole, uint32(mesh, "mesh"), (ctypes.c_uint32 * len(chosen))(*chosen), len(chosen), None,
             _byref(handle), _byref(error))
         if status:
             fail(status, "cannot make a deformer", error)

@@ -251,7 +251,8 @@ class Fit(Closable):
                 to.points[:] = [uint32(point, "point") for point in given.points]
                 to.axis[:], to.target[:], to.distances[:] = given.axis, given.target, given.distances
             kept.append(listed)
-            frame.constraints, frame.constraint_count = listed, len(constraints)
+            frame.constraints = listed
+            frame.constraint_count = len(constraints)
         if stages is not None:
             numbers = numpy.ascontiguousarray(stages, "uint32").reshape(-1)
             if numbers.size != self._raw_count:

@@ -2103,7 +2103,7 @@ macro_rules! errors {
     (mien_deformer_create_subset) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if positions are not ascending\n\
          - [`Status::INDEX`](crate::Status::INDEX) if there is no such mesh or position\n\
-         - [`Status::MEMORY`](crate::Status::MEMORY) if the allocator has no memory"
+         - [`Status::MEMORY`](crate::Status::MEMORY) if memory runs out"
     };
     (mien_deformer_info) => {
         "- none with valid arguments"
