@@ -47,7 +47,8 @@ struct Head {
 
 struct Report {
   uint64_t hash = 0, degraded = 0, streamed = 0, reloads = 0, rejected = 0, worst_cost = 0;
-  uint32_t lods[8] = {};  // frames of characters by LOD
+  double milliseconds = 0;  // of all frames
+  uint32_t lods[8] = {};    // frames of characters by LOD
 };
 
 uint64_t hash_of(uint64_t hash, mien::Span<const float> values) {
@@ -83,8 +84,8 @@ class Engine {
   Report run() {
     using Clock = std::chrono::steady_clock;
     for (frame_ = 0; frame_ < options_.frames; ++frame_) {
-      const Clock::time_point start = Clock::now();
       if (options_.is_reloading) pretend_to_be_the_build_step();
+      const Clock::time_point start = Clock::now();
       move();
       reload();
       stream();
@@ -94,8 +95,9 @@ class Engine {
         report_.hash = (report_.hash ^ character.hash) * 0x100000001b3;
         ++report_.lods[character.lod];
       }
+      const std::chrono::duration<double, std::milli> took = Clock::now() - start;
+      report_.milliseconds += took.count();
       if (options_.milliseconds > 0) {
-        const std::chrono::duration<double, std::milli> took = Clock::now() - start;
         const double factor = std::min(std::max(options_.milliseconds / took.count(), 0.9), 1.05);
         options_.budget = std::max(kLeastBudget, uint64_t(double(options_.budget) * factor));
       }
@@ -324,8 +326,14 @@ int main(int argc, char** argv) try {
   }
   for (const char* generation : {".1", ".2"}) std::filesystem::remove(path + generation);
   if (is_check) return check(path, options);
-  print(run(path, options), options.threads);
+  const Report report = run(path, options);
+  print(report, options.threads);
+  std::printf("%u frames, %.2f ms each\n", options.frames,
+              report.milliseconds / std::max(1u, options.frames));
   return 0;
+} catch (const std::logic_error&) {
+  std::fprintf(stderr, "an option is not a number\n");
+  return 2;
 } catch (const std::exception& e) {
   std::fprintf(stderr, "%s\n", e.what());
   return 1;
