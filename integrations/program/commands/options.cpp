@@ -46,6 +46,7 @@ const OptionWords kOptionWords[] = {
     {"--samples", {"1", "4", "16"}},
     {"--target", {"face", "eyes", "mouth"}},
     {"--loop", {"clamp", "wrap"}},
+    {"solve --place-landmarks", {"68", "mediapipe"}},
     {"solve --kind", {"vertices", "joints", "landmarks3", "landmarks2", "weights", "surface"}},
     {"--engine", {"local", "dask", "mpi", "slurm", "opencue", "deadline", "openjd", "flamenco"}},
     {"--symmetry", {"auto", "on", "off"}},

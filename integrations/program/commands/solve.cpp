@@ -8,7 +8,9 @@
 #include <charconv>
 #include <chrono>
 #include <cmath>
+#include <numeric>
 
+#include "integrations/program/commands/landmark_sets.h"
 #include "integrations/program/commands/solve_output.h"
 #include "integrations/program/commands/solve_target.h"
 #include "integrations/program/io/controls.h"
@@ -80,6 +82,26 @@ void check_command(const SolveCommand& command, TargetKind kind) {
   }
 }
 
+void check_placing(const SolveCommand& command) {
+  parse_word("solve --place-landmarks", command.place);
+  if (command.output.path != "-" && !ends_with(command.output.path, ".json")) {
+    fail_usage("-o " + command.output.path, "places of landmarks are JSON", "use .json");
+  }
+  for (const auto& [option, word] :
+       {std::pair<const char*, const std::string&>{"--kind", command.target.kind},
+        {"--from", command.target.from},
+        {"--landmarks", command.target.landmarks},
+        {"--mask", command.target.mask},
+        {"--controls", command.controls},
+        {"--keys", command.keys},
+        {"--report", command.report},
+        {"--pictures", command.images}}) {
+    if (!word.empty()) fail_usage(option, "nothing is solved", "leave it out");
+  }
+  refuse_missing_folder(command.output.path);
+  refuse_replacing(command.output, {command.rig, command.target.path});
+}
+
 /// Raw controls whose names match, ascending.
 std::vector<uint32_t> find_moving(const std::string& list, const MienRig* rig,
                                   const std::string& shown) {
@@ -110,6 +132,7 @@ Fit create_fit(const SolvedRig& rig, const SolveTarget& target,
   desc.deformer = target.points.empty() ? nullptr : rig.deformer;
   desc.points = target.points.data();
   desc.point_count = target.points.size();
+  if (target.points.empty() && !target.weights.empty()) desc.joint_weights = target.weights.data();
   if (!moving.empty()) {
     desc.controls = moving.data();
     desc.control_count = moving.size();
@@ -144,7 +167,9 @@ SolvedTake solve_take(const SolveCommand& command, const SolvedRig& rig, const S
   take.rigid = command.rigid;
   // Weights are relative to the mean over the data, whatever its amount.
   const bool joints = target.points.empty();
-  const auto amount = static_cast<float>(joints ? target.width : target.points.size());
+  const bool masked = !target.weights.empty();
+  const float amount = masked ? std::accumulate(target.weights.begin(), target.weights.end(), 0.0f)
+                              : static_cast<float>(joints ? target.width : target.points.size());
   std::vector<float> row(target.width);
   auto frame = sized<MienFitFrame>();
   frame.joints = joints ? row.data() : nullptr;
@@ -157,6 +182,7 @@ SolvedTake solve_take(const SolveCommand& command, const SolvedRig& rig, const S
   }
   frame.camera = frame.images ? &camera : nullptr;
   frame.focal = command.focal ? 1 : 0;
+  frame.point_weights = joints || !masked ? nullptr : target.weights.data();
   frame.robust_scale = parse_weight("--robust", command.robust);
   frame.surface_reach = parse_weight("--reach", command.reach);
   frame.rigid = command.rigid ? 1 : 0;
@@ -211,6 +237,13 @@ std::vector<std::string> list_unobservable(const Fit& fit, const std::vector<uin
 
 void solve_file(const SolveCommand& command, const Session& session) {
   auto interrupt = std::make_unique<EndOnInterrupt>();
+  if (!command.place.empty()) {
+    check_placing(command);
+    return place_landmarks(command, session);
+  }
+  if (command.target.path.empty()) {
+    fail_usage("TARGET", "there is nothing to solve", "name a file or a folder");
+  }
   const TargetKind kind = find_kind(command.target);
   check_command(command, kind);
   const Rate rate = command.rate.empty() ? Rate{} : parse_rate(command.rate);
@@ -224,7 +257,8 @@ void solve_file(const SolveCommand& command, const Session& session) {
   parse_weight("--robust", command.robust);
   parse_weight("--reach", command.reach);
   std::vector<std::string> inputs = {command.rig, command.target.path};
-  for (const std::string& other : {command.target.from, command.target.landmarks}) {
+  for (const std::string& other :
+       {command.target.from, command.target.landmarks, command.target.mask}) {
     if (!other.empty()) inputs.push_back(other);
   }
   if (ends_with(command.output.path, ".clip")) {
@@ -293,8 +327,7 @@ Command add_solve_command(CLI::App& app, const Session& session) {
   solve
       ->add_option("TARGET", options->target.path,
                    "What to match: .npy, .glb, .obj, a folder of OBJ, .csv, .json, .clip")
-      ->type_name("")
-      ->required();
+      ->type_name("");
   add_output_options(*solve, options->output,
                      "Controls to write, as .clip or .json; - writes JSON to standard output")
       ->required();
@@ -316,6 +349,18 @@ Command add_solve_command(CLI::App& app, const Session& session) {
   solve
       ->add_option("--landmarks", options->target.landmarks,
                    "JSON that says where landmarks are on the mesh, and the camera")
+      ->type_name("FILE");
+  solve
+      ->add_option(
+          "--place-landmarks", options->place,
+          "Write a file for --landmarks instead: where the landmarks of a set\nare on RIG. "
+          "68, or mediapipe with its canonical face as TARGET")
+      ->type_name("SET");
+  solve
+      ->add_option(
+          "--mask", options->target.mask,
+          "How much each vertex, landmark or joint counts: NPY with a number for\neach, or "
+          "JSON with names and positions")
       ->type_name("FILE");
   solve
       ->add_option("--controls", options->controls,
@@ -380,15 +425,19 @@ Command add_solve_command(CLI::App& app, const Session& session) {
       "[0.2, 0.3, 0.5]}}, \"camera\": {\"focal\": [1200, 1200], \"center\": [960, 540],\n"
       "\"rotation\": [9 numbers, by rows], \"translation\": [0, 0, 100]}}. With --rigid, rotation "
       "and\n"
-      "translation may be left out. Names that are numbers are positions of the mesh. See\n"
-      "docs/solving.md.\n\n"
+      "translation may be left out. Names that are numbers are positions of the mesh.\n\n"
+      "--mask: {\"names\": {\"*Lip*\": 1, \"*Jaw*\": 0.5}, \"positions\": [12, [100, 200]],\n"
+      "\"otherwise\": 0}, with names of landmarks or joints; a vertex counts as far as these "
+      "joints\n"
+      "move it. See docs/solving.md.\n\n"
       "Examples:\n"
       "  mien solve head.dna scan.npy -o take.clip --report report.json\n"
       "  mien solve head.dna scans/ -o take.json --keys 0.01 --pictures pictures/\n"
       "  mien solve head.dna scan.obj --kind surface --rigid --reach 2 -o take.json\n"
       "  mien solve head.dna animation.glb --kind joints -o take.clip\n"
       "  mien solve head.dna face.csv --landmarks points.json -o take.clip --smooth 0.01\n"
-      "  mien solve other.dna scene.json --from head.dna -o other.clip");
+      "  mien solve other.dna scene.json --from head.dna -o other.clip\n"
+      "  mien solve head.dna --place-landmarks 68 -o points.json");
   return {solve, [options, &session] { solve_file(*options, session); }};
 }
 

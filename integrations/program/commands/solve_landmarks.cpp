@@ -166,6 +166,7 @@ SolveTarget read_landmarks(const TargetOptions& options, bool images, const Solv
                   : "the header is time,NAME.x,NAME.y,NAME.z,...");
     }
     target.points.push_back(find_point(landmarks, name, take->shown));
+    target.point_names.push_back(name);
   }
   if (target.points.empty()) {
     fail(kInvalid, "cannot solve", take->shown, "it has no landmarks",

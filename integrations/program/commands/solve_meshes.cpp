@@ -5,6 +5,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "integrations/program/commands/moving_mesh.h"
 #include "integrations/program/io/bound_clip.h"
 #include "integrations/program/io/clip_file.h"
 #include "integrations/program/io/controls.h"
@@ -38,23 +39,6 @@ std::pair<size_t, size_t> find_positions(const MeshFile& file, const std::string
   if (low > high) return {0, file.position_count()};
   return {low, size_t{high} - low + 1};
 }
-
-struct RigSpace {
-  MienRigInfo info;
-
-  explicit RigSpace(const SolvedRig& rig) : info(rig_info(rig.rig)) {}
-
-  /// From meters, x to the left, y up and z to the front.
-  Vec3d from_gltf(Vec3d p) const {
-    // By MIEN_DIRECTION_...
-    constexpr Vec3d kDirections[] = {{1, 0, 0},  {-1, 0, 0}, {0, 1, 0},
-                                     {0, -1, 0}, {0, 0, 1},  {0, 0, -1}};
-    const double units = info.translation_unit == MIEN_TRANSLATION_UNIT_METERS ? 1 : 100;
-    return Vec3d{dot(p, kDirections[info.axes[0]]), dot(p, kDirections[info.axes[1]]),
-                 dot(p, kDirections[info.axes[2]])} *
-           units;
-  }
-};
 
 /// From the positions of files to those of the mesh of a rig.
 struct MeshReader {
@@ -181,47 +165,6 @@ std::vector<Frame> read_controls(const std::string& path, const SolvedRig& other
   });
   return frames;
 }
-
-/// A rig in motion: positions of one of its meshes.
-class MovingMesh {
- public:
-  MovingMesh(const SolvedRig& rig, uint32_t mesh)
-      : rig_(rig), mesh_(mesh), count_(mesh_of(rig, mesh).position_count) {
-    auto error = sized<MienError>();
-    MienInstance* instance = nullptr;
-    check(mien_instance_create(rig.rig, nullptr, &instance, &error), &error, "cannot evaluate",
-          rig.shown);
-    instance_.reset(instance);
-    MienDeformerInstance* pose = nullptr;
-    check(mien_deformer_instance_create(rig.deformer, nullptr, &pose, &error), &error,
-          "cannot deform", rig.shown);
-    pose_.reset(pose);
-  }
-
-  const float* positions(const Frame& frame) {
-    const char* what = "cannot evaluate";
-    MienInstance* instance = instance_.get();
-    check(mien_instance_reset(instance), nullptr, what, rig_.shown);
-    apply_frame(frame, rig_.rig, instance);
-    check(mien_rig_evaluate(rig_.rig, instance, 0), nullptr, what, rig_.shown);
-    check(mien_deformer_instance_update(pose_.get(), instance), nullptr, what, rig_.shown);
-    check(mien_deformer_instance_deform(pose_.get(), mesh_, MIEN_NORMALS_NONE, nullptr), nullptr,
-          what, rig_.shown);
-    MienFloatView view{};
-    check(mien_deformer_instance_positions(pose_.get(), mesh_, &view), nullptr, what, rig_.shown);
-    return view.data;
-  }
-  std::vector<float> rest() {
-    const float* all = positions({});
-    return {all, all + size_t{3} * count_};
-  }
-
- private:
-  const SolvedRig& rig_;
-  uint32_t mesh_, count_;
-  Instance instance_;
-  DeformerInstance pose_;
-};
 
 /// The meshes of frames: of each OBJ of a folder, or each morph target of a file.
 struct MeshFrames {

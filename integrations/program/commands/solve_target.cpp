@@ -8,6 +8,7 @@
 #include "integrations/program/commands/baked_rig.h"
 #include "integrations/program/commands/solve_joints.h"
 #include "integrations/program/commands/solve_landmarks.h"
+#include "integrations/program/commands/solve_mask.h"
 #include "integrations/program/commands/solve_meshes.h"
 #include "integrations/program/io/input.h"
 #include "integrations/program/io/nearest_name.h"
@@ -163,6 +164,7 @@ SolveTarget open_target(const TargetOptions& options, TargetKind kind, const Sol
     for (uint32_t p = 0; p < count; ++p) target.points.push_back({mesh, {p, p, p}, {1, 0, 0}});
   }
   target.kind = kind;
+  if (!options.mask.empty()) target.weights = read_mask(options.mask, rig, target);
   return target;
 }
 

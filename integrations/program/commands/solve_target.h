@@ -41,7 +41,7 @@ using FitSurface =
 enum class TargetKind { kVertices, kJoints, kLandmarks3, kLandmarks2, kWeights, kSurface };
 
 struct TargetOptions {
-  std::string path, kind, from, mesh, landmarks;
+  std::string path, kind, from, mesh, landmarks, mask;
 };
 
 /// The kind that is named, or that the file tells.
@@ -54,6 +54,8 @@ struct SolveTarget {
       0;  // numbers of a frame: joint values, or 3 (2 in images) for each point; 0: surfaces
   std::vector<std::string> frame_names;  // where frames are shapes; else empty
   std::vector<MienSolvePoint> points;    // empty: joints
+  std::vector<std::string> point_names;  // of landmarks; else empty
+  std::vector<float> weights;            // of each point or joint value, as --mask says; empty: 1
   std::optional<MienFitCamera> camera;   // of images
   Rate rate;                             // unknown if the file has none
   /// Writes the numbers of a frame. Missing ones are NaN.

@@ -20,6 +20,7 @@ import program  # noqa: E402
 from picture import Picture  # noqa: E402
 from program import (USAGE, INVALID, FILE, ProgramTest, main, make, make_folder, path, read, write)  # noqa: E402
 
+SOURCES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..")
 HEAD, TINY, SMALL = "head.dna", "tiny.dna", "small.dna"
 POSE = {"jawOpen": 0.7, "mouthSmileLeft": 0.4, "browInnerUp": 0.9}
 
@@ -289,6 +290,165 @@ class Kinds(SolveTest):
         write("points.json", json.dumps(places))
         self.fails(INVALID, "solve", path(HEAD), path("landmarks.csv"), "--landmarks", path("points.json"),
                    "-o", path("no.json"), says="camera")
+
+
+class Places(SolveTest):
+    """--place-landmarks: on generated heads of two persons, whose positions of the same number correspond."""
+    positions = {}
+
+    def head(self, seed):
+        """Name and positions of the skin of a generated head."""
+        if seed not in self.positions:
+            make("demo-head", "--seed", str(seed), "-o", path("whole.dna"), "--force")
+            make("convert", path("whole.dna"), "--lods", "0", "-o", path(f"person{seed}.dna"))
+            make("export", path(f"person{seed}.dna"), "-o", path("person.obj"), "--lod", "0", "--force")
+            skin = read("person.obj").decode().split("\no ")[1]
+            self.positions[seed] = [[100 * float(x) for x in line.split()[1:4]]
+                                    for line in skin.splitlines() if line.startswith("v ")]
+        return f"person{seed}.dna", self.positions[seed]
+
+    def place(self, rig, *options):
+        self.ok("solve", path(rig), *options, "-o", path("places.json"), "--force", "-q")
+        document = json.loads(read("places.json"))
+        self.assertEqual(document["mesh"], "head_lod0_mesh")
+        self.assertEqual(list(document["points"]), [str(i) for i in range(len(document["points"]))])
+        return list(document["points"].values())
+
+    def at(self, points, positions):
+        return [[sum(w * positions[i][k] for i, w in zip(point["positions"], point["weights"])) for k in range(3)]
+                for point in points]
+
+    def compare_persons(self, count, *options):
+        (first, _), (second, positions) = self.head(0), self.head(7)
+        wanted = self.at(self.place(first, *options), positions)
+        found = self.at(self.place(second, *options), positions)
+        self.assertEqual(len(found), count)
+        distances = [math.dist(*pair) for pair in zip(wanted, found)]
+        self.assertLess(sum(distances) / count, 0.15)  # cm
+        self.assertLess(max(distances), 1.2)
+        return wanted
+
+    def test_68_points(self):
+        self.compare_persons(68, "--place-landmarks", "68")
+        points = self.at(self.place(self.head(0)[0], "--place-landmarks", "68"), self.head(0)[1])
+        # Left is +x; each pair of corners is symmetric.
+        for right, left in ((0, 16), (17, 26), (36, 45), (39, 42), (31, 35), (48, 54), (60, 64)):
+            self.assertLess(math.dist(points[left], [-points[right][0], *points[right][1:]]), 0.1, (left, right))
+            self.assertGreater(points[left][0], 0.5)
+        self.assertGreater(points[30][2], max(p[2] for i, p in enumerate(points) if i != 30))  # tip of the nose
+        self.assertLess(points[8][1], min(p[1] for i, p in enumerate(points) if i not in (7, 8, 9)))
+        for upper, lower in ((62, 66), (61, 67), (63, 65), (51, 57), (37, 41), (44, 46)):
+            self.assertGreater(points[upper][1], points[lower][1])
+        # The file is what --landmarks takes.
+        lines = [",".join(["time"] + [f"{i}.{axis}" for i in range(68) for axis in "xyz"]),
+                 ",".join(["0"] + ["%.5f" % x for point in points for x in point])]
+        write("placed.csv", "\n".join(lines) + "\n")
+        rows, report = self.solved(path("placed.csv"), "--landmarks", path("places.json"), rig=self.head(0)[0])
+        self.assertLess(max(rows[0].values()), 0.01)
+        self.assertLess(report["residual"]["worst"], 0.01)
+
+    def test_mediapipe(self):
+        shared = os.environ.get("MIEN_SHARED") or os.path.join(SOURCES, "..", "shared")
+        face = os.path.join(shared, "data", "meshes", "mediapipe", "canonical_face_model.obj")
+        if not os.path.exists(face):
+            print(f"NOT TESTED: landmarks of MediaPipe; there is no {face}")
+            return
+        self.compare_persons(468, face, "--place-landmarks", "mediapipe")
+
+    def test_what_cannot_be_placed(self):
+        set_68 = "--place-landmarks", "68", "-o", path("no.json")
+        self.fails(INVALID, "solve", path(TINY), *set_68, says="lips")
+        self.fails(USAGE, "solve", path(HEAD), path("none.obj"), *set_68, says="TARGET")
+        self.fails(USAGE, "solve", path(HEAD), "--place-landmarks", "mediapipe", "-o", path("no.json"), says="MediaPipe")
+        self.fails(USAGE, "solve", path(HEAD), "--place-landmarks", "69", "-o", path("no.json"), says="mediapipe")
+        self.fails(USAGE, "solve", path(HEAD), "--place-landmarks", "68", "-o", path("no.clip"), says=".json")
+        self.fails(USAGE, "solve", path(HEAD), *set_68, "--report", path("no.json"), says="--report")
+        self.fails(USAGE, "solve", path(HEAD), "-o", path("no.json"), says="TARGET")
+        wrong = write("wrong.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        self.fails(INVALID, "solve", path(HEAD), wrong, "--place-landmarks", "mediapipe", "-o", path("no.json"),
+                   says="468")
+
+
+class Masks(SolveTest):
+    def test_vertices_that_count(self):
+        mesh, points = self.obj(POSE)
+        flat = [x for point in points for x in point]
+        # Everything above the nose is wrong, and the mask leaves it out.
+        rest = self.obj({})[1]
+        wrong = [p[k] + (1 if p[1] > -1 else 0) for p, q in zip(points, rest) for k in range(3)]
+        write("wrong.npy", npy((len(points), 3), wrong))
+        weights = [0 if p[1] > -1 else 1 for p in points]
+        write("mask.npy", npy((len(points),), weights))
+        below = [i for i, w in enumerate(weights) if w]
+        ranges = []
+        for i in below:
+            if ranges and ranges[-1][1] == i - 1:
+                ranges[-1][1] = i
+            else:
+                ranges.append([i, i])
+        write("mask.json", json.dumps({"positions": ranges}))
+        reports = []
+        for mask in ("mask.npy", "mask.json"):
+            rows, report = self.solved(path("wrong.npy"), "--mesh", mesh, "--mask", path(mask))
+            self.assertAlmostEqual(rows[0]["jawOpen"], POSE["jawOpen"], delta=0.01)
+            self.assertLess(report["residual"]["worst"], 0.05)
+            reports.append(rows)
+        self.assertEqual(*reports)
+        rows, _ = self.solved(path("wrong.npy"), "--mesh", mesh)
+        self.assertGreater(abs(rows[0]["jawOpen"] - POSE["jawOpen"]) + abs(rows[0]["browInnerUp"] - 0.9), 0.01)
+        # What joints hold: the names of joints, as far as they move a vertex.
+        write("one.npy", npy((len(points), 3), flat))
+        jaw = next(name for name in self.names(HEAD, "joints") if "jaw" in name.lower())
+        write("mask.json", json.dumps({"names": {jaw: 1}}))
+        rows, report = self.solved(path("one.npy"), "--mesh", mesh, "--mask", path("mask.json"))
+        self.assertLess(report["residual"]["rms"], 0.01)
+        self.assertGreater(rows[0]["jawOpen"], 0.3)
+        self.assertLess(rows[0]["browInnerUp"], 0.1)  # the jaw holds no brows
+
+    def test_joints_that_count(self):
+        joints = [name for name in self.names(SMALL, "joints")]
+        raw = [name.rpartition(".")[2] for name in self.names(SMALL, "raw")]
+        target = self.joints(SMALL, [{raw[0]: 0.5, raw[3]: 0.7}])
+        write("mask.json", json.dumps({"otherwise": 1, "names": {joints[0]: 0, joints[-1]: 2}}))
+        rows, report = self.solved(target, "--kind", "joints", "--mask", path("mask.json"), rig=SMALL)
+        self.assertLess(report["residual"]["rms"], 1e-3)
+        write("mask.npy", npy((len(joints),), [1] + [0] * (len(joints) - 1)))
+        _, only = self.solved(target, "--kind", "joints", "--mask", path("mask.npy"), rig=SMALL)
+        self.assertGreater(len(only["unobservable"]), len(report["unobservable"]))
+
+    def test_landmarks_that_count(self):
+        mesh, points = self.obj(POSE)
+        numbers = range(0, len(points), 40)
+        wrong = numbers[3]
+        values = [x + (5 if i == wrong else 0) for i in numbers for x in points[i]]
+        write("marks.csv", "time," + ",".join(f"p{i}.{k}" for i in numbers for k in "xyz") + "\n0," +
+              ",".join("%.6f" % x for x in values) + "\n")
+        write("points.json", json.dumps({"mesh": mesh, "points": {f"p{i}": i for i in numbers}}))
+        write("mask.json", json.dumps({"otherwise": 1, "names": {f"p{wrong}": 0}}))
+        rows, report = self.solved(path("marks.csv"), "--landmarks", path("points.json"), "--mask", path("mask.json"))
+        self.compare(rows[0], POSE, 0.03, report["unobservable"])
+        self.assertLess(report["residual"]["worst"], 0.05)
+
+    def test_masks_that_do_not_fit(self):
+        _, points = self.obj({})
+        target = write("one.npy", npy((len(points), 3), [x for point in points for x in point]))
+
+        def refuse(mask, says, name="wrong.json"):
+            self.fails(INVALID, "solve", path(HEAD), target, "--mask", write(name, mask), "-o", path("no.json"),
+                       says=says)
+        refuse("[]", "object")
+        refuse('{"names": ', "byte")
+        refuse('{"name": {}}', "names")
+        refuse('{"names": []}', "object")
+        refuse('{"names": {"nobody": 1}}', "nobody")
+        refuse('{"names": {"*": -1}}', "from 0 on")
+        refuse('{"otherwise": "x"}', "from 0 on")
+        refuse('{"positions": 1}', "list")
+        refuse('{"positions": [999999999]}', "999999999")
+        refuse('{"positions": [[5, 2]]}', "[5,2]")
+        refuse("{}", "all weights are 0")
+        refuse(npy((3,), [1, 1, 1]), "3 numbers", "wrong.mask.npy")
+        refuse(npy((len(points),), [-1] * len(points)), "negative", "wrong.mask.npy")
 
 
 class Options(SolveTest):
