@@ -15,9 +15,15 @@ void face_close(Face* face) {
   memset(face, 0, sizeof *face);
 }
 
+/* `end` is in lower case; the path may have either. */
 static int ends_with(const char* path, const char* end) {
   const size_t length = strlen(path), part = strlen(end);
-  return length > part && strcmp(path + length - part, end) == 0;
+  if (length <= part) return 0;
+  for (size_t i = 0; i < part; ++i) {
+    const char c = path[length - part + i];
+    if ((c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c) != end[i]) return 0;
+  }
+  return 1;
 }
 
 /* The bytes of a file, to be freed; NULL on failure. */

@@ -16,7 +16,7 @@ typedef struct {
   uint32_t joint_count, channel_count;
 } Face;
 
-/* Opens a file, which is told by its name: of "*.dna" the DNA and of "*.uasset" the first DNA in it, both in the axes and
+/* Opens a file, which is told by its name: in either case: of "*.dna" the DNA and of "*.uasset" the first DNA in it, both in the axes and
  * units of Godot; any other is a baked file. What was open is closed, also on failure. `error` is required. */
 MienStatus face_open(Face* face, const char* path, MienError* error);
 

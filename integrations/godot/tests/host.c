@@ -18,7 +18,7 @@ static MienRig* rig;
 static MienDeformer* deformer;
 static MienInstance* instance;
 static MienDeformerInstance* pose;
-static char dna_path[1200], rig_path[1200], asset_path[1200], broken_path[1200];
+static char dna_path[1200], rig_path[1200], asset_path[1200], broken_path[1200], crowded_path[1200];
 
 static void write_bytes(const char* path, const void* bytes, size_t size) {
   FILE* file = fopen(path, "wb");
@@ -28,8 +28,9 @@ static void write_bytes(const char* path, const void* bytes, size_t size) {
 static void make_files(void) {
   snprintf(dna_path, sizeof dna_path, "%s/godot_test.dna", project_folder);
   snprintf(rig_path, sizeof rig_path, "%s/godot_test.rig", project_folder);
-  snprintf(asset_path, sizeof asset_path, "%s/godot_test.uasset", project_folder);
+  snprintf(asset_path, sizeof asset_path, "%s/godot_test.UAsset", project_folder);
   snprintf(broken_path, sizeof broken_path, "%s/godot_test_broken.uasset", project_folder);
+  snprintf(crowded_path, sizeof crowded_path, "%s/godot_test_crowded.uasset", project_folder);
   MienGenerateDesc generate = mien_generate_desc_default();
   generate.preset = MIEN_PRESET_SMALL;
   MienDna* made;
@@ -45,6 +46,13 @@ static void make_files(void) {
   memset(bytes + 100 + size, 0xcd, 200);
   write_bytes(asset_path, bytes, size + 300);
   write_bytes(broken_path, bytes, 90);
+  /* As many beginnings as are tried, and the DNA behind them. */
+  unsigned char* crowded = calloc(size + 1000, 1);
+  assert(crowded);
+  for (size_t i = 0; i < 64; ++i) memcpy(crowded + 10 * i, "DNA\0\2", 5);
+  memcpy(crowded + 700, bytes + 100, size);
+  write_bytes(crowded_path, crowded, size + 1000);
+  free(crowded);
   free(bytes);
   mien_dna_close(made);
   MienCoordinateSystem system = mien_coordinate_system_default();
@@ -60,7 +68,7 @@ static void make_files(void) {
 }
 
 static void remove_files(void) {
-  remove(dna_path), remove(rig_path), remove(asset_path), remove(broken_path);
+  remove(dna_path), remove(rig_path), remove(asset_path), remove(broken_path), remove(crowded_path);
   mien_deformer_instance_destroy(pose);
   mien_instance_destroy(instance);
   mien_deformer_destroy(deformer);
@@ -264,6 +272,7 @@ static void test_methods(void) {
   assert(call_with_text(node, "open", 1, "no such file.rig", NULL) != MIEN_OK);
   assert(call_with_text(node, "open", 1, "no such file.uasset", NULL) == MIEN_ERROR_FILE_OPEN);
   assert(call_with_text(node, "open", 1, broken_path, NULL) != MIEN_OK && errors == 4);
+  assert(call_with_text(node, "open", 1, crowded_path, NULL) != MIEN_OK && errors == 5);
 
   const char* const paths[] = {dna_path, rig_path, asset_path};
   for (int way = 0; way < 3; ++way) { /* variants first, then pointers */
@@ -374,7 +383,7 @@ static void test_importer(Object* plugin) {
   assert(import_file("godot_test_broken.uasset") == 16 && import_file("none.dna") == 16 &&
          errors == 2);
   assert(type_of(&saved) == GD_NIL);
-  const char* const names[] = {"godot_test.uasset", "godot_test.rig", "godot_test.dna"};
+  const char* const names[] = {"godot_test.UAsset", "godot_test.rig", "godot_test.dna"};
   for (int i = 0; i < 3; ++i) {
     assert(import_file(names[i]) == 0);
     Object* resource = saved_rig();
