@@ -128,6 +128,54 @@ int main(int argc, char** argv) {
     assert(output.Pose.Transforms[0].Translation.X == 1234);
   }
 
+  {
+    // Components with the same file have the same rig, and a batch evaluates them together.
+    constexpr uint32_t kCount = 3;
+    UMienFaceComponent faces[kCount];
+    USkeletalMeshComponent meshes[kCount];
+    AActor actors[kCount];
+    MienInstance* instances[kCount];
+    const uint32_t lods[kCount] = {0, 0, 1};
+    for (uint32_t f = 0; f < kCount; ++f) {
+      faces[f].Owner = meshes[f].Owner = &actors[f];
+      actors[f].Components = {&meshes[f], &faces[f]};
+      faces[f].RigFile = baked.c_str();
+      faces[f].bEvaluates = false;
+      assert(!faces[f].GetRig() && !faces[f].GetInstance());
+      faces[f].BeginPlay();
+      instances[f] = faces[f].GetInstance();
+      assert(instances[f] && faces[f].GetRig() == faces[0].GetRig());
+      MienMutableFloatView controls{};
+      assert(mien_instance_raw_controls(instances[f], &controls) == MIEN_OK);
+      for (size_t c = 0; c < controls.count; ++c)
+        controls.data[c] = static_cast<float>((c * 7 + f) % 11) / 10;
+    }
+    MienBatch* batch = nullptr;
+    assert(mien_batch_create(faces[0].GetRig(), nullptr, &batch, nullptr) == MIEN_OK);
+    assert(mien_rig_evaluate_batch(faces[0].GetRig(), batch, instances, lods, kCount,
+                                   MIEN_STAGE_ALL, nullptr) == MIEN_OK);
+    mien_batch_destroy(batch);
+    faces[0].EndPlay(EEndPlayReason::Destroyed);  // the rig stays open for the others
+    for (uint32_t f = 1; f < kCount; ++f) {
+      faces[f].TickComponent(0.1f, LEVELTICK_All, nullptr);
+      MienMutableFloatView controls{};
+      MienFloatView weights{};
+      assert(mien_instance_raw_controls(instance, &controls) == MIEN_OK);
+      for (size_t c = 0; c < controls.count; ++c)
+        controls.data[c] = static_cast<float>((c * 7 + f) % 11) / 10;
+      assert(mien_rig_evaluate(rig, instance, lods[f]) == MIEN_OK);
+      assert(mien_instance_blend_shapes(instance, &weights) == MIEN_OK);
+      assert(meshes[f].Morphs.size() == weights.count);
+      for (uint32_t c = 0; c < weights.count; ++c) {
+        MienStringView name{};
+        assert(mien_rig_name(rig, MIEN_KIND_BLEND_SHAPE_CHANNEL, c, &name) == MIEN_OK);
+        const FName key(FString::ConstructFromPtrSize(name.data, static_cast<int32>(name.count)));
+        assert(meshes[f].Morphs.at(key) == weights.data[c]);
+      }
+      faces[f].EndPlay(EEndPlayReason::Destroyed);
+    }
+  }
+
   // The node of animation graphs has an animation node, and says what it is.
   const UAnimGraphNode_Mien graph_node;
   const FAnimNode_Base& animation_node = graph_node.Node;

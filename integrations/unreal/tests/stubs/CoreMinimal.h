@@ -44,6 +44,31 @@ struct FString {
   const char* operator*() const { return text.c_str(); }
 };
 
+inline bool operator<(const FString& a, const FString& b) { return a.text < b.text; }
+
+template <class T>
+using TSharedPtr = std::shared_ptr<T>;
+template <class T>
+TSharedPtr<T> MakeShared() {
+  return std::make_shared<T>();
+}
+template <class T>
+struct TWeakPtr {
+  std::weak_ptr<T> pointer;
+  TWeakPtr() = default;
+  TWeakPtr(const TSharedPtr<T>& from) : pointer(from) {}
+  TSharedPtr<T> Pin() const { return pointer.lock(); }
+};
+template <class K, class V>
+struct TMap {
+  std::map<K, V> items;
+  const V* Find(const K& key) const {
+    const auto found = items.find(key);
+    return found == items.end() ? nullptr : &found->second;
+  }
+  void Add(const K& key, const V& value) { items[key] = value; }
+};
+
 struct FName {
   std::string text;
   FName() = default;

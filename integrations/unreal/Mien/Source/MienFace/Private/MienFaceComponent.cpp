@@ -22,7 +22,50 @@ TArray<FName> NamesOf(const MienRig* Rig, uint32_t Kind) {
   return Names;
 }
 
+MienStatus OpenFile(const FString& Path, FMienRigFile& File, MienError& Error) {
+  MienStatus Status;
+  if (Path.EndsWith(TEXT(".dna"))) {
+    MienCoordinateSystem System = mien_coordinate_system_default();
+    MienDnaDesc Desc = mien_dna_desc_default();
+    Desc.system = &System;
+    MienDna* Dna = nullptr;
+    Status = mien_coordinate_system_find("unreal", &System);
+    if (Status == MIEN_OK) Status = mien_dna_open_file(TCHAR_TO_UTF8(*Path), &Desc, &Dna, &Error);
+    if (Status == MIEN_OK) Status = mien_rig_create(Dna, nullptr, &File.Rig, &Error);
+    if (Status == MIEN_OK)
+      Status = mien_deformer_create(Dna, File.Rig, nullptr, &File.Deformer, &Error);
+    mien_dna_close(Dna);
+    return Status;
+  }
+  Status = mien_baked_open_file(TCHAR_TO_UTF8(*Path), nullptr, &File.Baked, &Error);
+  if (Status == MIEN_OK) Status = mien_rig_from_baked(File.Baked, nullptr, &File.Rig, &Error);
+  if (Status == MIEN_OK)
+    Status = mien_deformer_from_baked(File.Baked, File.Rig, nullptr, &File.Deformer, &Error);
+  return Status;
+}
+
+// Files in use, by their paths. Only the game thread opens components.
+TMap<FString, TWeakPtr<FMienRigFile>> Files;
+
+TSharedPtr<FMienRigFile> FindOrOpen(const FString& Path, MienStatus& Status, MienError& Error) {
+  const TWeakPtr<FMienRigFile>* Known = Files.Find(Path);
+  TSharedPtr<FMienRigFile> File = Known ? Known->Pin() : nullptr;
+  Status = MIEN_OK;
+  if (File) return File;
+  File = MakeShared<FMienRigFile>();
+  Status = OpenFile(Path, *File, Error);
+  if (Status != MIEN_OK) return nullptr;
+  Files.Add(Path, File);
+  return File;
+}
+
 }  // namespace
+
+FMienRigFile::~FMienRigFile() {
+  mien_deformer_destroy(Deformer);
+  mien_rig_destroy(Rig);
+  mien_baked_close(Baked);
+}
 
 UMienFaceComponent::UMienFaceComponent() { PrimaryComponentTick.bCanEverTick = true; }
 
@@ -30,32 +73,17 @@ bool UMienFaceComponent::Open() {
   Close();
   MienError Error = mien_error_default();
   MienStatus Status;
-  if (RigFile.EndsWith(TEXT(".dna"))) {
-    MienCoordinateSystem System = mien_coordinate_system_default();
-    MienDnaDesc Desc = mien_dna_desc_default();
-    Desc.system = &System;
-    MienDna* Dna = nullptr;
-    Status = mien_coordinate_system_find("unreal", &System);
-    if (Status == MIEN_OK)
-      Status = mien_dna_open_file(TCHAR_TO_UTF8(*RigFile), &Desc, &Dna, &Error);
-    if (Status == MIEN_OK) Status = mien_rig_create(Dna, nullptr, &Rig, &Error);
-    if (Status == MIEN_OK) Status = mien_deformer_create(Dna, Rig, nullptr, &Deformer, &Error);
-    mien_dna_close(Dna);
-  } else {
-    Status = mien_baked_open_file(TCHAR_TO_UTF8(*RigFile), nullptr, &Baked, &Error);
-    if (Status == MIEN_OK) Status = mien_rig_from_baked(Baked, nullptr, &Rig, &Error);
-    if (Status == MIEN_OK)
-      Status = mien_deformer_from_baked(Baked, Rig, nullptr, &Deformer, &Error);
-  }
-  if (Status == MIEN_OK) Status = mien_instance_create(Rig, nullptr, &Instance, &Error);
-  if (Status == MIEN_OK) Status = mien_deformer_instance_create(Deformer, nullptr, &Pose, &Error);
+  File = FindOrOpen(RigFile, Status, Error);
+  if (Status == MIEN_OK) Status = mien_instance_create(File->Rig, nullptr, &Instance, &Error);
+  if (Status == MIEN_OK)
+    Status = mien_deformer_instance_create(File->Deformer, nullptr, &Pose, &Error);
   if (Status != MIEN_OK) {
     UE_LOG(LogMien, Error, TEXT("%s: %s"), *RigFile, UTF8_TO_TCHAR(Error.message));
     Close();
     return false;
   }
-  Joints = NamesOf(Rig, MIEN_KIND_JOINT);
-  Channels = NamesOf(Rig, MIEN_KIND_BLEND_SHAPE_CHANNEL);
+  Joints = NamesOf(File->Rig, MIEN_KIND_JOINT);
+  Channels = NamesOf(File->Rig, MIEN_KIND_BLEND_SHAPE_CHANNEL);
   Numbers.SetNum(10 * Joints.Num());
   return true;
 }
@@ -63,14 +91,9 @@ bool UMienFaceComponent::Open() {
 void UMienFaceComponent::Close() {
   mien_deformer_instance_destroy(Pose);
   mien_instance_destroy(Instance);
-  mien_deformer_destroy(Deformer);
-  mien_rig_destroy(Rig);
-  mien_baked_close(Baked);
   Pose = nullptr;
   Instance = nullptr;
-  Deformer = nullptr;
-  Rig = nullptr;
-  Baked = nullptr;
+  File = nullptr;
   FScopeLock Scope(&Lock);
   Transforms.SetNum(0);
 }
@@ -89,7 +112,7 @@ bool UMienFaceComponent::SetControl(const FString& Name, float Value) {
   uint32_t Index = 0;
   MienMutableFloatView Controls{};
   if (!Instance ||
-      mien_rig_find(Rig, MIEN_KIND_RAW_CONTROL, TCHAR_TO_UTF8(*Name), &Index) != MIEN_OK)
+      mien_rig_find(File->Rig, MIEN_KIND_RAW_CONTROL, TCHAR_TO_UTF8(*Name), &Index) != MIEN_OK)
     return false;
   if (mien_instance_raw_controls(Instance, &Controls) != MIEN_OK || Index >= Controls.count)
     return false;
@@ -100,8 +123,9 @@ bool UMienFaceComponent::SetControl(const FString& Name, float Value) {
 void UMienFaceComponent::TickComponent(float DeltaTime, ELevelTick TickType,
                                        FActorComponentTickFunction* Function) {
   Super::TickComponent(DeltaTime, TickType, Function);
-  if (!Instance || Lod < 0 ||
-      mien_rig_evaluate(Rig, Instance, static_cast<uint32_t>(Lod)) != MIEN_OK)
+  if (!Instance) return;
+  if (bEvaluates &&
+      (Lod < 0 || mien_rig_evaluate(File->Rig, Instance, static_cast<uint32_t>(Lod)) != MIEN_OK))
     return;
   MienFloatView Weights{};
   if (mien_deformer_instance_update(Pose, Instance) != MIEN_OK ||

@@ -11,6 +11,18 @@
 #include "MienFaceComponent.generated.h"
 // clang-format on
 
+/** What is opened of a file: shared by the components that name it. */
+struct FMienRigFile {
+  MienBaked* Baked = nullptr;
+  MienRig* Rig = nullptr;
+  MienDeformer* Deformer = nullptr;
+
+  FMienRigFile() = default;
+  FMienRigFile(const FMienRigFile&) = delete;
+  FMienRigFile& operator=(const FMienRigFile&) = delete;
+  ~FMienRigFile();
+};
+
 /** One character: controls by name; joints for FAnimNode_Mien, morph targets for the skeletal mesh of its actor. Set
  *  controls on the game thread, before the component ticks. */
 UCLASS(meta = (BlueprintSpawnableComponent))
@@ -27,6 +39,10 @@ class MIENFACE_API UMienFaceComponent : public UActorComponent {
   UPROPERTY(EditAnywhere, BlueprintReadWrite, Category = Mien)
   int32 Lod = 0;
 
+  /** Off for components that you evaluate together, by mien_rig_evaluate_batch(), before they tick. */
+  UPROPERTY(EditAnywhere, BlueprintReadWrite, Category = Mien)
+  bool bEvaluates = true;
+
   /** False, and a message in the log, if the file cannot be used. BeginPlay calls it. */
   UFUNCTION(BlueprintCallable, Category = Mien)
   bool Open();
@@ -40,6 +56,11 @@ class MIENFACE_API UMienFaceComponent : public UActorComponent {
   virtual void TickComponent(float DeltaTime, ELevelTick TickType,
                              FActorComponentTickFunction* Function) override;
 
+  /** For mixers, batches and what else mien.h offers, on the game thread; null if nothing is open. Components with the
+   *  same RigFile have the same rig. */
+  const MienRig* GetRig() const { return File ? File->Rig : nullptr; }
+  MienInstance* GetInstance() const { return Instance; }
+
   /** Of the joints, in the order of the rig. */
   const TArray<FName>& JointNames() const { return Joints; }
 
@@ -49,9 +70,7 @@ class MIENFACE_API UMienFaceComponent : public UActorComponent {
  private:
   void Close();
 
-  MienBaked* Baked = nullptr;
-  MienRig* Rig = nullptr;
-  MienDeformer* Deformer = nullptr;
+  TSharedPtr<FMienRigFile> File;
   MienInstance* Instance = nullptr;
   MienDeformerInstance* Pose = nullptr;
   TArray<FName> Joints, Channels;
