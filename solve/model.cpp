@@ -19,10 +19,17 @@ constexpr uint32_t kModelRounds = 24;
 constexpr uint32_t kBoundRounds = 6;
 constexpr double kShareOfBest = 0.01;  // of the best gain that frees a control held at a bound
 constexpr double kOwnDamping = 1e-9;
+constexpr double kLittle = 0.25;  // together controls gain more than each by itself
+
+/// What a step may still gain: each control by itself.
+struct Gains {
+  double held = 0;  // those at a bound
+  double all = 0;
+};
 
 /// Controls within their bounds; and those at a bound that gain by leaving it, unless `inside_only`. Returns
-/// how many, and in `left` what held controls would gain.
-size_t list_model_free(Frame& f, bool inside_only, double& left) {
+/// how many.
+size_t list_model_free(Frame& f, bool inside_only, Gains& gains) {
   MienFit& fit = f.fit;
   const auto gain_of = [&](size_t i) {
     const float value = fit.raw[fit.controls[i]];
@@ -35,12 +42,13 @@ size_t list_model_free(Frame& f, bool inside_only, double& left) {
     return value > fit.lower[i] && value < fit.upper[i];
   };
   double most = 0;
-  left = 0;
   for (size_t i = 0; i < fit.controls.count; ++i) {
-    if (f.is_locked(fit.controls[i]) || is_inside(i)) continue;
+    if (f.is_locked(fit.controls[i])) continue;
     const double gain = gain_of(i);
+    gains.all += gain;
+    if (is_inside(i)) continue;
     most = std::max(most, gain);
-    left += gain;
+    gains.held += gain;
   }
   size_t count = 0;
   for (size_t i = 0; i < fit.controls.count; ++i) {
@@ -264,10 +272,11 @@ ModelStep minimize_model(Frame& f, double cost, double first, double rounding, d
   bool solved = false;
   for (uint32_t round = 0; round < kModelRounds && !solved; ++round) {
     find_model_gradient(f, damping);
-    double left = 0;
+    Gains left;
     // The first step keeps to the controls that moved in the frame before.
     const size_t free_count = list_model_free(f, round == 0 && any_inside, left);
-    solved = free_count == 0 || (gain <= enough() && left <= enough());
+    solved = free_count == 0 || (gain <= enough() && left.held <= enough()) ||
+             (round != 0 && left.all <= kLittle * enough());
     if (solved) break;
     set_model_matrix(f, free_count, damping);
     std::copy(fit.raw.begin(), fit.raw.end(), fit.kept.begin());
