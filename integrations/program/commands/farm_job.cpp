@@ -303,6 +303,7 @@ Take load_farm_take(const FarmJob& job, uint32_t index) {
     take.names = channel_names(clip);
     take.row_count = clip.info.frame_count;
     take.rate = {clip.info.rate_numerator, clip.info.rate_denominator};
+    take.values.reserve(take.row_count * take.names.size());
     for_each_frame(clip, [&](uint32_t, const float* values) {
       take.values.insert(take.values.end(), values, values + take.names.size());
     });

@@ -19,6 +19,7 @@ namespace mien::cli {
 namespace {
 
 constexpr const char* kCannotRunTask = "cannot run task";
+constexpr uint32_t kFramesAtOnce = 16;
 
 void make_folder_of(const std::string& path) {
   const auto folder = std::filesystem::path(path).parent_path();
@@ -81,10 +82,10 @@ std::unique_ptr<ArrayFile> begin_array(const FarmOutput& output, const std::stri
   return file;
 }
 
-/// The scene is in the pose of the frame.
-void add_frame(PosedScene& scene, uint64_t frame, ArrayFile& file) {
+/// The instance is evaluated, and the scene in its pose.
+void add_frame(PosedScene& scene, const MienInstance* instance, uint64_t frame, ArrayFile& file) {
   if (file.joints) {
-    file.joints->write(frame, scene.rig_lod, scene.instance.get());
+    file.joints->write(frame, scene.rig_lod, instance);
     return;
   }
   const bool is_drawn = std::any_of(scene.meshes.begin(), scene.meshes.end(),
@@ -116,13 +117,39 @@ DoneFile write_whole(const std::string& path, const std::string& bytes) {
 
 }  // namespace
 
-void BoundTake::read(uint64_t number, Frame& frame) const {
-  frame.raw.clear();
+Frame BoundTake::frame(uint64_t number) const {
+  Frame frame;
   const float* values = take.values.data() + number * take.names.size();
   for (size_t c = 0; c < controls.size(); ++c) {
     for (const MienControlShare& share : controls[c]) {
       frame.raw.push_back({share.control, share.weight * values[c]});
     }
+  }
+  return frame;
+}
+
+void BoundTake::set(uint64_t number, float* raw) const {
+  const float* values = take.values.data() + number * take.names.size();
+  for (size_t c = 0; c < controls.size(); ++c) {
+    for (const MienControlShare& share : controls[c]) raw[share.control] = share.weight * values[c];
+  }
+}
+
+FrameBlock::FrameBlock(const MienRig* rig, uint32_t lod) : lods(kFramesAtOnce, lod) {
+  auto error = sized<MienError>();
+  auto desc = sized<MienBatchDesc>();
+  desc.capacity = kFramesAtOnce;
+  MienBatch* made = nullptr;
+  check(mien_batch_create(rig, &desc, &made, &error), &error, kCannotRunTask, "");
+  batch.reset(made);
+  for (uint32_t i = 0; i < kFramesAtOnce; ++i) {
+    MienInstance* instance = nullptr;
+    check(mien_instance_create(rig, nullptr, &instance, &error), &error, kCannotRunTask, "");
+    owners.emplace_back(instance);
+    instances.push_back(instance);
+    MienMutableFloatView view{};
+    check(mien_instance_raw_controls(instance, &view), nullptr, kCannotRunTask, "");
+    raw.push_back(view.data);
   }
 }
 
@@ -130,6 +157,7 @@ void FarmWorker::open_rig(uint32_t rig) {
   if (rig_ == rig || job_.solves()) return;
   rig_.reset();
   take_.reset();
+  block_.reset();
   scene_.reset();
   exported_.reset();
   neutral_.clear();
@@ -147,7 +175,8 @@ void FarmWorker::open_rig(uint32_t rig) {
       if (!output.meshes.empty()) options.meshes = output.meshes;
     }
     scene_ = open_scene(options, session_);
-    if (!draws) scene_->meshes.clear();  // pose_scene() deforms them
+    if (!draws) scene_->meshes.clear();  // deform_scene() deforms them
+    block_.emplace(scene_->rig.get(), scene_->rig_lod);
   }
   if (job_.has(FarmKind::kGlb)) {
     exported_ = std::make_unique<ExportedRig>(path, std::to_string(job_.lod), session_);
@@ -179,13 +208,18 @@ void FarmWorker::open_take(uint32_t take) {
                        "left out: " +
                        missing);
   }
+  if (block_) {
+    for (MienInstance* instance : block_->instances) {
+      check(mien_instance_reset(instance), nullptr, kCannotRunTask, bound_.take.shown);
+    }
+  }
   take_ = take;
 }
 
 DoneFile FarmWorker::write_glb(const FarmOutput& output, const FarmTask& task,
                                const std::string& path) {
   std::vector<Frame> frames(task.count);
-  for (uint64_t f = 0; f < task.count; ++f) bound_.read(task.first + f, frames[f]);
+  for (uint64_t f = 0; f < task.count; ++f) frames[f] = bound_.frame(task.first + f);
   size_t index = 0;
   for (const FarmOutput& other : job_.outputs) {
     if (&other == &output) break;
@@ -217,11 +251,13 @@ void FarmWorker::write_frames(const FarmTask& task, const Name& name,
     if (!is_array || output.per_frame) continue;
     whole.push_back(begin_array(output, name(output, task.first), *scene_, task.count));
   }
-  Frame frame;
-  for (uint64_t f = task.first; f < task.first + task.count; ++f) {
-    bound_.read(f, frame);
-    pose_scene(*scene_, frame);
-    for (const auto& file : whole) add_frame(*scene_, f, *file);
+  const uint64_t end = task.first + task.count;
+  for (uint64_t f = task.first; f < end; ++f) {
+    const auto i = static_cast<uint32_t>((f - task.first) % kFramesAtOnce);
+    if (i == 0) evaluate(f, static_cast<uint32_t>(std::min<uint64_t>(end - f, kFramesAtOnce)));
+    const MienInstance* instance = block_->instances[i];
+    deform_scene(*scene_, instance);
+    for (const auto& file : whole) add_frame(*scene_, instance, f, *file);
     for (const FarmOutput& output : job_.outputs) {
       if (!output.per_frame) continue;
       const std::string path = name(output, f);
@@ -229,12 +265,20 @@ void FarmWorker::write_frames(const FarmTask& task, const Name& name,
         files.push_back(write_whole(path, draw(output)));
       } else {
         const std::unique_ptr<ArrayFile> file = begin_array(output, path, *scene_, 1);
-        add_frame(*scene_, f, *file);
+        add_frame(*scene_, instance, f, *file);
         files.push_back(file->commit());
       }
     }
   }
   for (const auto& file : whole) files.push_back(file->commit());
+}
+
+/// Frames of the take, on the first instances of the block.
+void FarmWorker::evaluate(uint64_t first, uint32_t count) {
+  for (uint32_t i = 0; i < count; ++i) bound_.set(first + i, block_->raw[i]);
+  check(mien_rig_evaluate_batch(scene_->rig.get(), block_->batch.get(), block_->instances.data(),
+                                block_->lods.data(), count, MIEN_STAGE_ALL, nullptr),
+        nullptr, kCannotRunTask, bound_.take.shown);
 }
 
 DoneFile FarmWorker::solve(const FarmOutput& output, const FarmTask& task,

@@ -18,8 +18,22 @@ struct BoundTake {
   Take take;
   std::vector<std::vector<MienControlShare>> controls;  // of each channel
 
-  /// Sets the controls of `frame` alone, to those of frame `number` of the take.
-  void read(uint64_t number, Frame& frame) const;
+  /// The controls of frame `number` of the take.
+  Frame frame(uint64_t number) const;
+  /// The same in raw controls that have no other values but those of another frame of the take.
+  void set(uint64_t number, float* raw) const;
+};
+
+/// Instances for frames of a take that are evaluated together: these move the same controls, so that the rig is read
+/// once for all of them.
+struct FrameBlock {
+  FrameBlock(const MienRig* rig, uint32_t lod);
+
+  std::vector<Instance> owners;
+  std::vector<MienInstance*> instances;
+  std::vector<float*> raw;  // controls of each
+  std::vector<uint32_t> lods;
+  Batch batch;
 };
 
 /// A file that a task wrote, and what was written to it.
@@ -29,8 +43,8 @@ struct DoneFile {
   std::string fingerprint;
 };
 
-/// Does tasks one after the other. Keeps one rig and one take open: that, and the frame in work, is its memory. A GLB
-/// needs all frames of its take.
+/// Does tasks one after the other. Keeps one rig and one take open: that, and the frames of a block, is its memory. A
+/// GLB needs all frames of its take.
 class FarmWorker {
  public:
   FarmWorker(const FarmJob& job, const Session& session) : job_(job), session_(session) {}
@@ -48,6 +62,7 @@ class FarmWorker {
 
  private:
   void write_frames(const FarmTask& task, const Name& name, std::vector<DoneFile>& files);
+  void evaluate(uint64_t first, uint32_t count);
   DoneFile write_glb(const FarmOutput& output, const FarmTask& task, const std::string& path);
   DoneFile solve(const FarmOutput& output, const FarmTask& task, const std::string& path);
   std::string draw(const FarmOutput& output);
@@ -56,6 +71,7 @@ class FarmWorker {
   const Session& session_;
   std::optional<uint32_t> rig_, take_;  // that are open
   std::optional<PosedScene> scene_;
+  std::optional<FrameBlock> block_;
   std::unique_ptr<ExportedRig> exported_;
   std::vector<gltf::RigScene> neutral_;  // of each GLB output
   BoundTake bound_;

@@ -40,35 +40,41 @@ void add_file(const std::string& path, Fingerprint& fingerprint) {
 
 }  // namespace
 
-void Fingerprint::mix(const unsigned char* block) {
-  for (size_t lane = 0; lane < 4; ++lane) {
-    uint64_t word = 0;
-    for (size_t k = 0; k < 8; ++k) word |= uint64_t{block[8 * lane + k]} << (8 * k);
-    const uint64_t bits = (lanes_[lane] ^ word) * kOdd;
-    lanes_[lane] = bits ^ bits >> 31;
+void Fingerprint::mix(const unsigned char* bytes, size_t block_count) {
+  uint64_t lanes[4];  // of their own, so that they stay in registers
+  std::copy(lanes_, lanes_ + 4, lanes);
+  for (const unsigned char* end = bytes + block_count * kLaneBlock; bytes != end;) {
+    for (uint64_t& lane : lanes) {
+      uint64_t word = 0;
+      for (size_t k = 0; k < 8; ++k) word |= uint64_t{bytes[k]} << (8 * k);
+      const uint64_t bits = (lane ^ word) * kOdd;
+      lane = bits ^ bits >> 31;
+      bytes += 8;
+    }
   }
+  std::copy(lanes, lanes + 4, lanes_);
 }
 
 void Fingerprint::add(const void* bytes, size_t size) {
   const auto* at = static_cast<const unsigned char*>(bytes);
   while (size != 0) {
     const size_t filled = size_ % kLaneBlock;
-    if (filled == 0 && size >= kLaneBlock) {
-      mix(at);
-      at += kLaneBlock, size -= kLaneBlock, size_ += kLaneBlock;
-      continue;
+    size_t part = std::min(size, kLaneBlock - filled);
+    if (part == kLaneBlock) {
+      part = size - size % kLaneBlock;
+      mix(at, part / kLaneBlock);
+    } else {
+      std::memcpy(rest_ + filled, at, part);
+      if (filled + part == kLaneBlock) mix(rest_, 1);
     }
-    const size_t part = std::min(size, kLaneBlock - filled);
-    std::memcpy(rest_ + filled, at, part);
     at += part, size -= part, size_ += part;
-    if (filled + part == kLaneBlock) mix(rest_);
   }
 }
 
 std::string Fingerprint::text() const {
   Fingerprint end = *this;
   std::memset(end.rest_ + size_ % kLaneBlock, 0, kLaneBlock - size_ % kLaneBlock);
-  end.mix(end.rest_);
+  end.mix(end.rest_, 1);
   uint64_t bits = size_;
   for (const uint64_t lane : end.lanes_) bits = stirred(bits ^ lane);
   char digits[17];

@@ -18,7 +18,7 @@ class Fingerprint {
   std::string text() const;
 
  private:
-  void mix(const unsigned char* block);
+  void mix(const unsigned char* bytes, size_t block_count);
 
   // Four lanes of eight bytes, so that products do not wait for each other.
   uint64_t lanes_[4] = {0x243f6a8885a308d3, 0x13198a2e03707344, 0xa4093822299f31d0,

@@ -128,6 +128,25 @@ void remove_abandoned_files(const fs::path& folder) {
 #endif
 }
 
+/// Like fwrite(), but large pieces go past the buffer of the stream: in one call of the system, and without a copy.
+bool write_all(FILE* stream, const void* bytes, size_t size) {
+#if !defined(_WIN32)
+  constexpr size_t kLarge = 8192;
+  if (size >= kLarge) {
+    if (std::fflush(stream) != 0) return false;
+    for (const char* at = static_cast<const char*>(bytes); size != 0;) {
+      const ssize_t written = ::write(fileno(stream), at, size);
+      if (written < 0 && errno == EINTR) continue;
+      if (written < 0) return false;
+      at += written;
+      size -= static_cast<size_t>(written);
+    }
+    return true;
+  }
+#endif
+  return std::fwrite(bytes, 1, size, stream) == size;
+}
+
 void make_binary(FILE* stream) {
 #if defined(_WIN32)
   _setmode(_fileno(stream), _O_BINARY);
@@ -195,7 +214,7 @@ Output::~Output() {
 }
 
 void Output::write(const void* bytes, size_t size) {
-  if (size != 0 && std::fwrite(bytes, 1, size, stream_) != size) fail_write(errno);
+  if (size != 0 && !write_all(stream_, bytes, size)) fail_write(errno);
   if (content_) content_->add(bytes, size);
   size_ += size;
 }

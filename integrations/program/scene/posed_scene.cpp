@@ -307,18 +307,22 @@ void show_lod(PosedScene& scene, uint32_t lod, const Session& session) {
 
 void pose_scene(PosedScene& scene, const Frame& frame) {
   MienInstance* instance = scene.instance.get();
+  check(mien_instance_reset(instance), nullptr, kCannot, scene.shown);
+  apply_frame(frame, scene.rig.get(), instance);
+  check(mien_rig_evaluate(scene.rig.get(), instance, scene.rig_lod), nullptr, kCannot, scene.shown);
+  deform_scene(scene, instance, frame.head);
+}
+
+void deform_scene(PosedScene& scene, const MienInstance* instance, const HeadPose& head) {
   MienDeformerInstance* pose = scene.pose.get();
   const std::string& shown = scene.shown;
-  check(mien_instance_reset(instance), nullptr, kCannot, shown);
-  apply_frame(frame, scene.rig.get(), instance);
-  check(mien_rig_evaluate(scene.rig.get(), instance, scene.rig_lod), nullptr, kCannot, shown);
   if (!pose) return;
   check(mien_deformer_instance_update(pose, instance), nullptr, kCannot, shown);
-  if (frame.head.turned()) {
+  if (head.turned()) {
     if (!scene.head) {
       scene.head = std::make_unique<HeadTurn>(scene.rig.get(), scene.deformer.get(), shown);
     }
-    scene.head->apply(pose, frame.head);
+    scene.head->apply(pose, head);
   }
   for (const SceneMesh& mesh : scene.meshes) {
     check(mien_deformer_instance_deform(pose, mesh.mesh, MIEN_NORMALS_DEFAULT, nullptr), nullptr,

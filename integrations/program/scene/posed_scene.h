@@ -81,4 +81,7 @@ void show_lod(PosedScene& scene, uint32_t lod, const Session& session);
 /// Sets the controls of a frame, evaluates and deforms.
 void pose_scene(PosedScene& scene, const Frame& frame);
 
+/// Deforms by the results of an evaluated instance of the rig. Does nothing without geometry.
+void deform_scene(PosedScene& scene, const MienInstance* instance, const HeadPose& head = {});
+
 }  // namespace mien::cli
