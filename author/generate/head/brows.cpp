@@ -90,16 +90,16 @@ void add_lashes(const Form& form, uint32_t lod, HalfMesh& out) {
   const uint32_t end = first + columns - 1;
   out.triangle(end, end + 2 * columns, end + columns);
   if (lod > 2) return;
-  const uint32_t hairs = at_lod(54, 12, lod);
+  const uint32_t hairs = at_lod(66, 12, lod);
   for (uint32_t i = 0; i < hairs; ++i) {
     const double s = mix(-0.88, 0.985, (i + 0.5 + 0.5 * scatter(i)) / hairs);
-    const double full = full_at(s) * (0.84 + 0.26 * scatter(i + 100));
+    const double full = full_at(s) * (0.80 + 0.30 * scatter(i + 100));
     Hair hair;
     hair.root = place(s, kLidRadius - 0.02, 0.005, 0.6);
     hair.middle = place(s, kLidRadius + 0.24 * full, 0.03 + 0.01 * full, 0.8);
     hair.tip = place(s, kLidRadius + 0.42 * full, 0.16 * full, 1);
-    hair.wide = {0.013, 0, 0};
-    const double out_by = full * (0.16 * s + 0.05 * scatter(i + 200));  // they fan out
+    hair.wide = {0.0115, 0, 0};
+    const double out_by = full * (0.20 * s + 0.10 * scatter(i + 200));  // they fan out
     const auto lean = [](Vertex& v, double by) {
       v.closed.x += by;
       v.position.x += by;
@@ -136,7 +136,7 @@ void add_brow(const Form& form, uint32_t lod, HalfMesh& out) {
   const uint32_t first = out.vertices.count();
   for (uint32_t row = 0; row < rows; ++row) {
     for (uint32_t k = 0; k < columns; ++k) {
-      const double t = mix(strands ? 0.06 : 0.0, 1, static_cast<double>(k) / (columns - 1));
+      const double t = mix(strands ? 0.02 : 0.0, 1, static_cast<double>(k) / (columns - 1));
       const double across = 2.0 * row / (rows - 1) - 1;
       const Arch at = arch_at(t);
       const double raise =
@@ -144,7 +144,7 @@ void add_brow(const Form& form, uint32_t lod, HalfMesh& out) {
       // The border fades into the skin; less without hairs, because there are few rows.
       const double square = across * across;
       const double fade = std::max(strands ? square * square : square, 1 - clamp01(3 * t));
-      const double thin = strands ? mix(0.42 - 0.06 * lod, 1, fade)
+      const double thin = strands ? mix(0.50 - 0.07 * lod, 1, fade)
                                   : mix(0.24, rows > 3 ? 0.80 : 0.60, fade * fade);
       const Color color = mix(hair_color, skin, thin);
       out.vertices.add(place(at.x, at.y + across * at.half * (strands ? 0.8 : 1), raise, color, t,
@@ -153,26 +153,27 @@ void add_brow(const Form& form, uint32_t lod, HalfMesh& out) {
   }
   join_rows(out, first, rows, columns);
   if (!strands) return;
-  const uint32_t hairs = lod == 0 ? 250 : lod == 1 ? 120 : 60;
+  const uint32_t hairs = lod == 0 ? 330 : lod == 1 ? 150 : 60;
   for (uint32_t i = 0; i < hairs; ++i) {
     // Hairs lean outwards; the inner ones stand up, and those near the tail lie flat.
     const double t = clamp01((i + 0.5) / hairs + 0.02 * scatter(i + 300));
-    const double across = 0.80 * scatter(i);
+    const double edge = scatter(i);  // dense in the middle
+    const double across = 0.85 * edge * mix(0.55, 1, std::abs(edge));
     const Arch at = arch_at(t);
-    const double size = (0.34 + 0.09 * scatter(i + 500)) * mix(0.85, 1, smooth_step(0, 0.2, t)) *
+    const double size = (0.36 + 0.15 * scatter(i + 500)) * mix(0.85, 1, smooth_step(0, 0.2, t)) *
                         mix(1, 0.7, smooth_step(0.7, 1, t));
     const double lean =
-        mix(0.95, -0.20, smooth_step(-0.05, 0.5, t)) - 0.50 * across + 0.16 * scatter(i + 600);
+        mix(0.80, -0.20, smooth_step(-0.05, 0.5, t)) - 0.50 * across + 0.24 * scatter(i + 600);
     const auto [s, c] = exact_sine_cosine(lean);
     const double x = at.x - 0.3 * size * c, y = at.y + across * at.half - 0.3 * size * s;
     const Color color =
-        mix(hair_color, mix(skin, {60, 40, 30}, 0.4), 0.34 + 0.18 * scatter(i + 700));
+        mix(hair_color, mix(skin, {60, 40, 30}, 0.4), 0.40 + 0.26 * scatter(i + 700));
     Hair hair;
     hair.root = place(x, y, 0.0, color, t, 0.5 + 0.4 * across);
     hair.middle =
         place(x + 0.5 * size * c, y + 0.5 * size * s, 0.055, color, t, 0.55 + 0.4 * across);
     hair.tip = place(x + size * c, y + size * (s - 0.15), 0.02, color, t, 0.6 + 0.4 * across);
-    const double wide = lod == 0 ? 0.015 : lod == 1 ? 0.018 : 0.028;
+    const double wide = lod == 0 ? 0.0125 : lod == 1 ? 0.018 : 0.028;
     hair.fine = true;
     hair.wide = {s * wide, -c * wide, 0};
     add_hair(hair, out);

@@ -25,7 +25,7 @@ Place SkinMaker::ear_root(double sine, double cosine, double size) const {
 
 void SkinMaker::place_ear() {
   ear_.size = 1.2 * form_.person().ear;
-  const auto [sine, cosine] = exact_sine_cosine(0.56);
+  const auto [sine, cosine] = exact_sine_cosine(0.44);
   ear_.back = {sine, 0, -cosine};
   ear_.outward = {cosine, 0, sine};
   ear_.up = unit({0.10, 1, -0.16});
@@ -43,13 +43,41 @@ void SkinMaker::place_ear() {
   ear_block_.right = eye_.right + grid_.columns[3] + (grid_.columns[4] > 6 ? 1 : 0);
 }
 
+namespace {
+
+/// Height of the inside of the ear above its plane; `back` and `up` from its origin, at size 1.
+double inside_ear(double back, double up) {
+  struct Part {
+    double amount, back, up, wide, high;
+  };
+  static constexpr Part kParts[] = {
+      {-0.52, -0.02, -0.50, 0.52, 0.74},  // concha
+      {-0.22, 0.00, 0.42, 0.36, 0.34},    // its upper part, the cymba
+      {0.26, 0.66, -0.35, 0.17, 0.80},    // antihelix
+      {0.20, 0.46, 0.75, 0.20, 0.34},     // where it parts
+      {0.16, 0.55, 1.30, 0.16, 0.36},     // its upper leg
+      {0.16, 0.10, 0.98, 0.40, 0.13},     // its lower leg
+      {-0.10, 0.18, 1.42, 0.24, 0.30},    // the fossa between them
+      {0.26, -0.46, 0.06, 0.46, 0.11},    // crus of the helix
+      {0.32, -0.66, -0.46, 0.20, 0.34},   // tragus
+      {-0.20, -0.42, -1.02, 0.14, 0.22},  // the notch below it
+      {0.24, 0.02, -1.16, 0.26, 0.17},    // antitragus
+  };
+  double height = 0.06;
+  for (const Part& p : kParts) height += p.amount * bump(back, up, p.back, p.up, p.wide, p.high);
+  return height;
+}
+
+}  // namespace
+
 void SkinMaker::make_ear() {
   // Share of the outline's radius, height above the plane of the ear, and minimum height above the head where
-  // the ear grows out of it: from the back, over the rim, into the bowl.
+  // the ear grows out of it: from the back, over the rim, into the bowl. Inside the rim, the finest has the
+  // heights of inside_ear().
   static constexpr double kFine[][3] = {
-      {0.90, -0.34, 0.04}, {1.00, -0.16, 0.08}, {1.04, 0.05, 0.13},   {1.00, 0.25, 0.19},
-      {0.94, 0.29, 0.19},  {0.87, 0.13, 0.11},  {0.80, -0.06, 0.03},  {0.70, 0.02, 0.02},
-      {0.61, 0.17, 0.02},  {0.52, 0.03, -0.08}, {0.40, -0.24, -0.22}, {0.22, -0.38, -0.38}};
+      {0.90, -0.34, 0.04}, {1.00, -0.16, 0.08}, {1.04, 0.05, 0.13}, {1.00, 0.25, 0.19},
+      {0.94, 0.27, 0.19},  {0.88, 0.12, 0.11},  {0.81, 0, 0.03},    {0.72, 0, -0.04},
+      {0.62, 0, -0.10},    {0.51, 0, -0.20},    {0.37, 0, -0.36},   {0.19, 0, -0.42}};
   static constexpr double kPlain[][3] = {
       {1.02, 0.02, 0.12}, {0.92, 0.17, 0.15}, {0.60, -0.05, 0.0}, {0.35, -0.28, -0.30}};
   static constexpr double kPlainest[][3] = {{1.0, 0.1, 0.12}, {0.5, -0.1, -0.05}};
@@ -77,29 +105,31 @@ void SkinMaker::make_ear() {
     const double low = smooth_step(0.2, -1, s);
     // The bowl is in front of the middle, and low.
     const double inner = 1 - smooth_step(0.25, 0.85, step[0]);
-    const double p = c * (c > 0 ? mix(1.65, 1.05, low) : mix(0.95, 0.80, low)) - 0.30 * inner;
+    // The lobe is round.
+    const double round = 1 + 0.35 * bump(s, 0, -0.92, 0, 0.25, 1);
+    const double p =
+        c * (c > 0 ? mix(1.65, 1.05, low) * round : mix(0.95, 0.80, low)) - 0.30 * inner;
     const double q = s * (s > 0 ? 2.4 : 2.1) - 0.35 * inner;
     // The rim fades towards the lobe and where the ear grows out of the head.
     const double rim = mix(1, 0.25, std::max(smooth_step(-0.3, -0.9, s), smooth_step(-0.4, -1, c)));
     double height = step[1] * (step[1] > 0 ? rim : 1);
-    if (step[0] < 0.6) height *= mix(1, 0.35, low);
-    if (step[0] < 0.75) {
-      // The antihelix stands behind the bowl only, and parts into two legs above; below the bowl is the antitragus.
-      if (step[1] > 0) height *= smooth_step(-0.55, 0.25, c) * smooth_step(-0.95, -0.35, s);
-      height -= 0.13 * bump(c, step[0], 0.12, 0.66, 0.20, 0.12) * smooth_step(0.4, 0.8, s);
-      height += 0.15 * bump(c, step[0], -0.30, 0.64, 0.35, 0.10) * smooth_step(-0.5, -0.85, s);
+    // In front the rim ends in the cheek, above the plane of the ear.
+    const double in_front = smooth_step(-0.1, -0.75, c) * smooth_step(0.75, 0.35, s);
+    if (lod_ < 3) {
+      const double inside =
+          inside_ear(p * step[0], q * step[0]) + 0.25 * smooth_step(-0.30, -0.80, p * step[0]);
+      height =
+          mix(height, inside,
+              mix(smooth_step(0.86, 0.83, step[0]), smooth_step(0.99, 0.87, step[0]), in_front));
     }
     const double size = ear_.size;
     const Vertex& from = out_.vertices[root[k]];
     Vec3 at = ear_.origin + ear_.back * (p * step[0] * size) + ear_.up * (q * step[0] * size) +
               ear_.outward * (height * size);
-    // In front the rim ends in the cheek, with a flap before the bowl.
-    const double in_front = smooth_step(-0.1, -0.75, c) * smooth_step(0.75, 0.35, s);
-    const double flap = 0.17 * in_front * bump(s, step[0], -0.12, 0.74, 0.30, 0.13);
-    const double least = step[2] * (step[2] > 0 ? mix(1, 0.2, in_front) : 1) + flap;
+    const double least = step[2] * (step[2] > 0 ? mix(1, 0.1, in_front) : 1);
     at.x = std::max(at.x, from.closed.x + least * size);
     const double left = 1 - (r + 1.0) / (rings + 1);
-    const double shade = smooth_step(-0.05, -0.4, step[1]) * (r > rings / 2);
+    const double shade = smooth_step(-0.02, -0.40, height) * (r > rings / 2);
     return plain(at, mix(mix(from.color, rosy, std::min(1.0, 0.4 * (r + 1))), deep, 0.55 * shade),
                  mix(middle_u, from.u, left), mix(middle_v, from.v, left), Carrier::kSkin);
   };

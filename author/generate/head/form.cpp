@@ -30,15 +30,15 @@ namespace {
 // and 12.1 (n-gn), lower face 6.4 and 7.3 (sn-gn). The eyes are a third larger than life.
 constexpr int kKnotColumns = 5;
 constexpr double kKnots[][kKnotColumns] = {
-    {-22.0, 9.8, 3.4, -6.6, 2.4},   {-21.6, 10.9, 4.3, -7.7, 2.45}, {-20.6, 11.9, 4.8, -8.6, 2.45},
-    {-19.4, 12.0, 4.5, -8.9, 2.4},  {-18.3, 11.2, 3.95, -8.8, 2.3}, {-17.4, 9.6, 3.5, -8.4, 2.2},
-    {-16.6, 7.6, 3.3, -7.9, 2.1},   {-15.8, 6.0, 3.3, -7.4, 2.05},  {-14.4, 5.0, 3.5, -6.8, 2.0},
-    {-12.6, 4.65, 3.9, -6.4, 2.0},  {-11.5, 4.65, 4.95, -6.2, 2.0}, {-10.9, 4.8, 7.0, -6.1, 2.0},
-    {-10.3, 5.2, 8.5, -6.1, 1.82},  {-9.2, 5.4, 8.9, -6.2, 1.88},   {-8.0, 5.6, 9.0, -6.4, 1.96},
-    {-6.0, 5.95, 8.85, -6.9, 2.08}, {-4.0, 6.5, 9.0, -7.8, 2.2},    {-1.5, 6.95, 9.1, -8.9, 2.25},
-    {0.6, 7.15, 9.25, -9.6, 2.2},   {3.0, 7.45, 9.5, -10.0, 2.16},  {5.0, 7.55, 9.12, -10.1, 2.16},
-    {7.5, 7.25, 8.15, -9.7, 2.16},  {9.8, 6.2, 6.6, -8.5, 2.15},    {11.4, 4.6, 4.7, -6.6, 2.12},
-    {12.25, 2.7, 2.2, -4.0, 2.1},   {12.6, 0.6, -0.3, -1.5, 2.0},
+    {-22.0, 10.2, 4.6, -7.4, 2.4}, {-21.6, 11.4, 5.4, -8.6, 2.45}, {-20.6, 12.4, 5.6, -9.3, 2.4},
+    {-19.4, 12.5, 5.0, -9.3, 2.3}, {-18.3, 11.6, 4.2, -8.9, 2.2},  {-17.4, 9.7, 3.55, -8.4, 2.15},
+    {-16.6, 7.5, 3.2, -7.9, 2.1},  {-15.8, 6.1, 3.2, -7.4, 2.05},  {-14.4, 5.2, 3.45, -6.8, 2.0},
+    {-12.6, 4.95, 3.9, -6.4, 2.0}, {-11.5, 4.65, 4.95, -6.2, 2.0}, {-10.9, 4.8, 7.0, -6.1, 2.0},
+    {-10.3, 5.2, 8.5, -6.1, 1.84}, {-9.2, 5.5, 8.9, -6.2, 1.92},   {-8.0, 5.75, 9.0, -6.4, 2.0},
+    {-6.0, 6.05, 8.85, -6.9, 2.1}, {-4.0, 6.5, 9.0, -7.8, 2.2},    {-1.5, 6.95, 9.1, -8.9, 2.25},
+    {0.6, 7.15, 9.25, -9.6, 2.2},  {3.0, 7.45, 9.5, -10.0, 2.16},  {5.0, 7.55, 9.12, -10.1, 2.16},
+    {7.5, 7.25, 8.15, -9.7, 2.16}, {9.8, 6.2, 6.6, -8.5, 2.15},    {11.4, 4.6, 4.7, -6.6, 2.12},
+    {12.25, 2.7, 2.2, -4.0, 2.1},  {12.6, 0.6, -0.3, -1.5, 2.0},
 };
 constexpr int kKnotCount = sizeof(kKnots) / sizeof(kKnots[0]);
 
@@ -78,7 +78,12 @@ double smooth_max(double a, double b, double width) {
   return std::max(a, b) + 0.25 * width * h * h;
 }
 
-constexpr double kCollarY = -16.1;
+/// The collar, in front; its row runs up to the neck at the sides and behind.
+constexpr double kCollarY = -17.5;
+
+double collar_rise(double y, double cosine) {
+  return 1.75 * smooth_step(0.99, -0.05, cosine) * bump(0, y, 0, kCollarY, 1, 2.3);
+}
 
 /// How far a place is inside the jaw, in the view from the side: its border runs from the chin to
 /// the angle below the ear and up from there. Negative on the neck.
@@ -99,8 +104,8 @@ Form::Section Form::section(double y, double cosine) const {
   };
   Section s = {at(1), at(2), at(3), at(4)};
   // The nape has no jaw.
-  static constexpr double kNape[][2] = {{-22.0, 9.8},  {-21.6, 10.9}, {-20.6, 11.9}, {-19.4, 12.0},
-                                        {-18.3, 11.2}, {-17.4, 9.8},  {-16.6, 8.2},  {-15.6, 6.4},
+  static constexpr double kNape[][2] = {{-22.0, 10.2}, {-21.6, 11.4}, {-20.6, 12.4}, {-19.4, 12.5},
+                                        {-18.3, 11.6}, {-17.4, 10.0}, {-16.6, 8.1},  {-15.6, 6.4},
                                         {-13.6, 4.95}, {-10.5, 4.9},  {-7.5, 5.3},   {-4.5, 6.1},
                                         {-1.5, 6.85},  {0.6, 7.15}};
   if (y < 0.6)
@@ -132,9 +137,9 @@ double Form::lip_height(double x, int which) const {
   const double s = std::min(std::abs(x) / (1.04 * kMouthHalfWidth), 1.0), end = 1 - s * s;
   const double full = mix(1, person_.lips, 0.5);
   if (which < 0)
-    return full * (0.80 * exact_pow(end, 0.62) - 0.05 * bump(s, 0, 0, 0, 0.30, 1) * end);
+    return full * (0.80 * exact_pow(end, 0.54) - 0.05 * bump(s, 0, 0, 0, 0.30, 1) * end);
   const double bow = 0.57 + 0.11 * bump(s, 0, 0.24, 0, 0.20, 1) - 0.06 * bump(s, 0, 0, 0, 0.11, 1);
-  return bow * full * exact_pow(end, 0.68);
+  return bow * full * exact_pow(end, 0.58);
 }
 
 FrontPlace Form::lip_curve(double out, int which) const {
@@ -173,8 +178,8 @@ double Form::nose(double x, double y) const {
       {-4.9, 0.00, 0.6, 1.20, 0},     {-4.6, 0.24, 0.84, 1.00, 0},   {-4.35, 0.80, 1.12, 0.76, 0},
       {-4.12, 1.46, 1.38, 0.62, 0},   {-3.85, 2.00, 1.58, 0.62, 0},  {-3.5, 2.32, 1.68, 0.80, 0.2},
       {-3.1, 2.42, 1.66, 1.50, 0.7},  {-2.7, 2.32, 1.60, 2.00, 0.9}, {-2.2, 2.02, 1.56, 2.00, 0.6},
-      {-1.5, 1.62, 1.48, 1.80, 0.25}, {-0.6, 1.16, 1.40, 1.70, 0},   {0.4, 0.66, 1.36, 1.80, 0},
-      {1.3, 0.34, 1.50, 1.90, 0},     {2.4, 0.22, 2.2, 1.80, 0},     {4.2, 0.00, 2.4, 1.50, 0}};
+      {-1.5, 1.62, 1.38, 1.70, 0.25}, {-0.6, 1.14, 1.28, 1.60, 0},   {0.4, 0.60, 1.24, 1.70, 0},
+      {1.3, 0.26, 1.45, 1.90, 0},     {2.4, 0.22, 2.2, 1.80, 0},     {4.2, 0.00, 2.4, 1.50, 0}};
   constexpr int kCount = sizeof(kRows) / sizeof(kRows[0]);
   const double at_x = std::abs(x) / p.nose_width;
   // The rim of the nostril is an arch.
@@ -193,8 +198,8 @@ double Form::nose(double x, double y) const {
   // The tip is a ball of its own, as are the wings; a furrow runs around each wing from the tip to the cheek.
   z += 0.16 * bump(at_x, row, 0, -3.02, 0.62, 0.55);
   const double dx = at_x - 1.30, dy = y + 3.50, apart = std::sqrt(dx * dx + 0.8 * dy * dy) - 0.52;
-  z += 0.30 * bump(dx, dy, 0, 0, 0.34, 0.40);
-  z -= 0.44 * bump(apart, 0, 0, 0, 0.15, 1) * smooth_step(-0.50, 0.05, dy) *
+  z += 0.36 * bump(dx, dy, 0, 0, 0.33, 0.38);
+  z -= 0.54 * bump(apart, 0, 0, 0, 0.14, 1) * smooth_step(-0.50, 0.05, dy) *
        mix(0.25, 1, smooth_step(-0.45, 0.15, dx)) * smooth_step(1.10, 0.85, t);
   return p.nose * z;
 }
@@ -216,9 +221,9 @@ double Form::relief(double x, double y) const {
       {0.10 + 0.5 * p.brow_ridge, 0, 2.5, 1.1, 0.8},   // glabella
       {-0.20, 1.80 * wing, -3.6, 0.26, 0.55},          // behind the wing of the nose
       {0.20 + 0.34 * p.cheek, 4.7, -1.65, 1.7, 1.35},  // cheekbones
-      {0.24, 3.1, -2.4, 1.3, 1.1},                     // apple of the cheek
+      {0.30, 3.2, -2.7, 1.3, 1.2},                     // apple of the cheek
       {-0.16, 2.7, -0.95, 1.0, 0.35},  // from the inner corner of the eye to the cheek
-      {-0.08 - 0.36 * p.cheek, 4.5, -5.0, 1.3, 1.5},    // hollow of the cheek
+      {-0.02 - 0.22 * p.cheek, 4.5, -5.0, 1.4, 1.5},    // hollow of the cheek
       {0.50 + 0.74 * p.muzzle, 0, -5.7, 2.6, 1.9},      // muzzle
       {-0.06 - 0.24 * p.age, 2.25, -4.35, 0.30, 0.85},  // from nose to mouth
       {-0.28, 2.60, -6.05, 0.32, 0.38},                 // corners of the mouth
@@ -251,8 +256,8 @@ double Form::side_relief(double z, double y) const {
   const double lean = 0.5 * person_.cheek;
   const Bump bumps[] = {
       {0.13 + 0.4 * lean, 2.8, -1.2, 2.3, 1.30},  // arch of the cheekbone
-      {-0.12 - 0.4 * lean, 2.9, -4.3, 2.0, 1.4},  // below it
-      {0.34, 0.2, -6.9, 1.4, 1.2},                // angle of the jaw, with the muscle on it
+      {-0.02 - 0.3 * lean, 2.9, -4.3, 2.0, 1.4},  // below it
+      {0.24, 0.5, -7.0, 1.6, 1.5},                // angle of the jaw, with the muscle on it
       {-0.22, 3.8, 2.5, 1.9, 1.5},                // temple
       {0.16, 5.3, 4.4, 1.0, 1.6},                 // line from the brow up, where the forehead turns
   };
@@ -313,8 +318,9 @@ double Form::fold_x(double y) const {
          1.6 * (person_.nose_width - 1) * smooth_step(-5.6, -4.2, y) * smooth_step(-1.2, -2.4, y);
 }
 
-FacePoint Form::face(double angle, double y, Side side) const {
+FacePoint Form::face(double angle, double row, Side side) const {
   const auto [sine, cosine] = exact_sine_cosine(angle);
+  const double y = row + collar_rise(row, cosine);
   const Section at = section(y, cosine);
   const double across = exact_pow(std::max(sine, 0.0), 2 / at.exponent);
   const double along = exact_pow(std::abs(cosine), 2 / at.exponent);
@@ -325,10 +331,10 @@ FacePoint Form::face(double angle, double y, Side side) const {
                    : kCenterZ - (kCenterZ - at.back) * along;
 
   // Rows rise towards the back around the jaw, so that its edge runs up to the ear.
-  const auto lift_at = [c = cosine](double row) {
+  const auto lift_at = [c = cosine](double at_row) {
     return 2.6 * smooth_step(0.98, -0.05, c) * smooth_step(-0.65, 0.05, c) *
-               bump(0, row, 0, -10.2, 1, 3.3) -
-           0.9 * smooth_step(0.2, -0.9, c) * bump(0, row, 0, -9, 1, 3);
+               bump(0, at_row, 0, -10.2, 1, 3.3) -
+           0.9 * smooth_step(0.2, -0.9, c) * bump(0, at_row, 0, -9, 1, 3);
   };
   p.y = y + lift_at(y);
   // Rows of the eyes and of the mouth follow the edges of lids and lips.
@@ -344,9 +350,9 @@ FacePoint Form::face(double angle, double y, Side side) const {
   p.x += standing_out * smooth_step(0.35, 0.9, sine);
   // Below and behind the jaw the neck is narrower.
   if (p.y < 0) {
-    const double neck = smooth_step(0.8, -1.9, inside_jaw(p.y, p.z)) * smooth_step(-5, -0.5, p.z) *
+    const double neck = smooth_step(0.7, -1.9, inside_jaw(p.y, p.z)) * smooth_step(-5, -0.5, p.z) *
                         smooth_step(-1.8, -5.5, p.y) * smooth_step(-15.5, -12.0, p.y);
-    p.x *= 1 - 0.10 * neck;
+    p.x *= 1 - 0.12 * neck;
   }
   // Below the chin fat fills the angle to the neck.
   p.z += 0.9 * std::max(0.0, person_.weight) * bump(p.x, p.y, 0, -11.8, 3.2, 1.3) *
@@ -354,24 +360,32 @@ FacePoint Form::face(double angle, double y, Side side) const {
   // The muscle from behind the ear to the breast bone, and the larynx.
   if (cosine > -0.1 && p.y < -8 && p.y > -17) {
     const double down = (-5.0 - p.y) / 11.2;
-    const double muscle = 0.40 * bump(p.x, 0, mix(5.1, 0.8, down), 0, 0.70, 1) *
+    const double muscle = 0.50 * bump(p.x, 0, mix(5.1, 0.8, down), 0, 0.70, 1) *
                           smooth_step(0.40, 0.65, down) * smooth_step(1.06, 0.90, down);
     p.x += muscle * sine;
     p.z += muscle * cosine + 0.20 * bump(p.x, p.y, 0, -13.3, 0.8, 1.1) -
-           0.22 * bump(p.x, p.y, 0, -15.2, 0.8, 0.5);
+           0.30 * bump(p.x, p.y, 0, -15.9, 0.55, 0.55);
+  }
+  // Clavicles from the breast bone to the shoulders, and hollows above them.
+  if (cosine > 0 && p.y < -14) {
+    const double bone = -16.45 + 0.035 * p.x, beside = smooth_step(0.5, 1.3, p.x);
+    const double ridge =
+        0.36 * beside * smooth_step(9.5, 6.5, p.x) *
+        (bump(p.y, 0, bone, 0, 0.42, 1) + 0.2 * bump(p.x, p.y, 1.2, bone, 0.6, 0.5));
+    const double hollow = 0.34 * bump(p.x, p.y, 4.0, bone + 0.85, 2.0, 0.50) * beside;
+    p.z += (ridge - hollow) * smooth_step(0, 0.3, cosine);
+    p.y += 0.4 * ridge;
   }
   // Long and short chins; high and low skulls.
   p.y -= person_.chin_drop * smooth_step(-7.3, -9.6, y) * smooth_step(-16.0, -11.5, y);
   p.y = raised(p.y);
   // The bust is cut along an arch: deep at the breast bone, high at the shoulders.
-  p.y += 0.012 * p.x * p.x * smooth_step(-16.5, kBottomY, y);
+  p.y += 0.006 * p.x * p.x * smooth_step(-17.5, kBottomY, y);
   // The collar of a shirt.
-  const double cloth = 0.20 * smooth_step(-0.10, 0.12, kCollarY - y) *
-                       mix(0.7, 1, bump(0, y, 0, kCollarY - 0.35, 1, 0.3));
+  const double cloth = 0.20 * smooth_step(-0.10, 0.12, kCollarY - row) *
+                       mix(0.7, 1, bump(0, row, 0, kCollarY - 0.35, 1, 0.3));
   p.x += cloth * sine;
   p.z += cloth * cosine;
-  p.y += (0.020 * std::min(p.x * p.x, 50.0) + 0.9 * smooth_step(3, -5, p.z)) *
-         bump(0, y, 0, kCollarY, 1, 1.6);
   // Lids lie on a ball around the eye, and the face runs smoothly into it.
   const double dx = p.x - kEye.x, dy = p.y - kEye.y, from = from_lids(p.x, p.y);
   if (front_mask > 0 && from < 5) {

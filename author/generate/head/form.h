@@ -53,7 +53,7 @@ Person make_person(uint64_t seed);
 
 constexpr Vec3 kEye = {3.2, 0.3, 6.8};  // center of the left eyeball
 constexpr double kEyeRadius = 1.60;
-constexpr double kLidRadius = 1.72;          // outside of the lids
+constexpr double kLidRadius = 1.78;          // outside of the lids
 constexpr double kEyeHalfWidth = 1.52;       // of the opening between the lids
 constexpr Vec3 kNostril = {0.80, -3.97, 0};  // of a nose of width 1, seen from the front
 constexpr double kMouthY = -6.0;
@@ -82,9 +82,9 @@ class Form {
 
   const Person& person() const { return person_; }
 
-  /// `angle`: 0 in front, pi behind; `y`: height of the row. Beyond the ends of the lids' slit both sides are
+  /// `angle`: 0 in front, pi behind; `row`: its height in front. Beyond the ends of the lids' slit both sides are
   /// the same.
-  FacePoint face(double angle, double y, Side side) const;
+  FacePoint face(double angle, double row, Side side) const;
 
   /// The height, on a skull of this size, of the place that is at `y` on others.
   double raised(double y) const;

@@ -20,19 +20,19 @@ namespace {
 struct Style {
   double low, high;       // thickness at the line and above
   double wave;            // the sweep over the forehead from the parting
-  double lock, strand;    // how deep locks and strands are
-  double locks, strands;  // how many of them
+  double lock, strand;    // how high the ridges of locks and strands are
+  double locks, strands;  // how many of them around the head
   double raise_front, raise_temple;
   double hang;  // height that the sides hang down to; 0: they do not hang
 };
 
 Style style_of(HairStyle style) {
   switch (style) {
-    case HairStyle::kCropped: return {0.18, 0.42, 0.0, 0.03, 0.035, 9, 5, 0.1, 0.2, 0};
-    case HairStyle::kCurly: return {0.75, 1.75, 0.0, 0.10, 0.04, 9, 3, -0.2, 0.0, 0};
-    case HairStyle::kReceding: return {0.12, 0.40, 0.1, 0.03, 0.03, 7, 5, 1.7, 2.6, 0};
-    case HairStyle::kBob: return {0.70, 1.35, 0.7, 0.09, 0.045, 7, 5, 0.0, 0.2, -6.8};
-    default: return {0.45, 1.10, 1.0, 0.10, 0.045, 6, 5, 0.0, 0.0, 0};
+    case HairStyle::kCropped: return {0.18, 0.46, 0.0, 0.02, 0.035, 27, 71, 0.1, 0.2, 0};
+    case HairStyle::kCurly: return {0.75, 1.75, 0.0, 0.10, 0.04, 9, 23, -0.2, 0.0, 0};
+    case HairStyle::kReceding: return {0.12, 0.42, 0.1, 0.02, 0.03, 25, 71, 1.7, 2.6, 0};
+    case HairStyle::kBob: return {0.65, 1.30, 0.7, 0.08, 0.06, 23, 71, 0.0, 0.2, -6.8};
+    default: return {0.40, 1.05, 1.0, 0.09, 0.06, 23, 71, 0.0, 0.0, 0};
   }
 }
 
@@ -52,11 +52,6 @@ double hair_line(const Style& style, double share) {
   return mix(y, style.hang - 0.8 * smooth_step(0.5, 1, share), smooth_step(0.27, 0.37, share));
 }
 
-/// A hair from (`around`, `t`) to (`to_around`, `to`), thin at both ends.
-struct Strand {
-  double around, t, to_around, to;
-};
-
 class HairMaker {
  public:
   HairMaker(const Form& form, uint32_t lod, HalfMesh& out)
@@ -66,8 +61,7 @@ class HairMaker {
   void make() {
     out_.mirrored = false;  // parted on the left
     make_cap();
-    if (lod_ < 3 && form_.person().style != HairStyle::kParted && !out_.failed()) make_strips();
-    if (lod_ < 3 && !out_.failed()) make_border();
+    if (lod_ < 3 && form_.person().style == HairStyle::kCurly && !out_.failed()) make_strips();
   }
 
  private:
@@ -101,8 +95,8 @@ class HairMaker {
     const double share = std::abs(around) / kPi, front = smooth_step(0.46, 0.0, share);
     const double wave = wave_at(around);
     double thick = mix(style_.low, style_.high, smooth_step(0.15, 0.8, t));
-    thick += 1.25 * wave * bump(t, 0, 0.22, 0, 0.24, 1) +
-             0.35 * style_.wave * front * bump(t, 0, 0.25, 0, 0.2, 1);
+    thick += 1.05 * wave * bump(t, 0, 0.27, 0, 0.22, 1) +
+             0.30 * style_.wave * front * bump(t, 0, 0.28, 0, 0.2, 1);
     // Hanging hair covers the ears and turns in at its end.
     if (root.below > 0) {
       thick += 0.75 * smooth_step(0, 2.5, root.below) - 0.9 * smooth_step(4.6, 6.6, root.below);
@@ -114,15 +108,10 @@ class HairMaker {
     return style_.wave * bump(around - kPart, 0, -0.55, 0, 0.75, 1);
   }
 
-  /// Combed hair is one smooth surface with furrows in front; other hair is made of locks.
-  bool sculpted() const {
-    const HairStyle style = form_.person().style;
-    return (style == HairStyle::kParted || style == HairStyle::kBob) && lod_ < 3;
-  }
+  double combed(double around, double t) const;
+  double ridges(double around, double count) const;
   void make_cap();
   void make_strips();
-  void make_border();
-  void make_strand(const Strand& strand, double wide, double shade);
   void make_strip(uint32_t number, double from, double to, double start, double end, double wide,
                   double raise);
 
@@ -133,58 +122,80 @@ class HairMaker {
   const double parted_;
 };
 
+/// Columns follow the hairs: in front they are combed away from the parting.
+double HairMaker::combed(double around, double t) const {
+  const double share = std::abs(around) / kPi, away = around - kPart;
+  const double left = clamp01(1 - t / 0.85);
+  const double sweep = 0.50 * parted_ * smooth_step(0.50, 0.10, share) * left * left;
+  return around + sweep * (away < 0 ? -1 : 0.7) * smooth_step(0, 0.6, std::abs(away));
+}
+
+/// Round ridges between furrows, `count` of them around the head, of different widths.
+double HairMaker::ridges(double around, double count) const {
+  const double place = 0.5 + 0.5 * around / kPi;
+  const double at = count * place + 0.9 * exact_sine(10 * kPi * place + count) +
+                    0.5 * exact_sine(26 * kPi * place + 2 * count);
+  const double within = at - std::floor(at);
+  return 2 * std::sqrt(std::max(0.0, 4 * within * (1 - within))) - 1;
+}
+
 void HairMaker::make_cap() {
-  const uint32_t columns = 2 * at_lod(sculpted() ? 76 : 56, 7, lod_),
-                 rows = at_lod(sculpted() ? 32 : 24, 4, lod_) + 1;
-  const bool curly = form_.person().style == HairStyle::kCurly;
+  const bool fine = lod_ < 3, curly = form_.person().style == HairStyle::kCurly;
+  const uint32_t columns = 2 * (fine ? at_lod(100, 40, lod_) : at_lod(56, 7, lod_)),
+                 rows = at_lod(fine ? 34 : 24, 4, lod_) + 1;
   const Color hair = form_.person().hair;
+  const bool hangs = style_.hang < 0;
   const uint32_t first = out_.vertices.count();
   for (uint32_t row = 0; row < rows; ++row) {
-    const double t = static_cast<double>(row) / rows;
+    // Rows are dense at the hair line.
+    const double even = static_cast<double>(row) / rows, t = even * mix(0.55, 1, even);
     for (uint32_t k = 0; k < columns; ++k) {
-      const double around = mix(-kPi, kPi, static_cast<double>(k) / columns);
+      const double column = mix(-kPi, kPi, static_cast<double>(k) / columns);
+      const double around = combed(column, t);
       const double share = std::abs(around) / kPi, front = smooth_step(0.46, 0.0, share);
-      // Locks: round ridges between furrows, swept away from the parting in front, straight behind.
-      const double from_part = around - kPart;
-      const double sweep = -9.0 * t * front * parted_ * (from_part < 0 ? 1 : -0.6);
-      const double fade = smooth_step(1.0, 0.55, t);  // towards the crown, where all locks meet
-      const double phase =
-          1.2 * t * t + style_.locks * around + 0.9 * exact_sine(2 * around + 0.7) + sweep;
-      double lock = 2 * std::sqrt(std::abs(exact_sine(phase))) - 1;
-      double fine = exact_sine(style_.strands * phase + 1.3 * exact_sine(3 * around));
+      const double from_part = column - kPart;
+      // Locks, which part into smaller ones, and hairs, one for each column. All fade at the crown.
+      const double fade = smooth_step(1.0, 0.60, t);
+      double lock = ridges(column + 0.10 * exact_sine(4 * t + 1), style_.locks);
+      double small = ridges(column + 0.04 * exact_sine(9 * t), style_.strands);
+      const double single = fine ? scatter(k + 15000) : 0;
       if (curly) {
         lock = exact_sine(11 * around + 3 * exact_sine(9 * t)) * exact_sine(26 * t + 2 * lock);
-        fine = exact_sine(23 * around + 40 * t);
+        small = exact_sine(23 * around + 40 * t);
       }
       // The parting is a furrow from the hair line to near the crown.
       const double parting =
-          parted_ * bump(from_part, 0, 0, 0, 0.10, 1) * smooth_step(0.75, 0.35, t);
-      // Where there are strips, their ends cover the border of the cap.
-      const double beyond = (lod_ < 3 && !sculpted() ? 0.30 * front : 0) -
-                            front * (1.6 * style_.lock * lock + 2.5 * style_.strand * fine) +
-                            parted_ * 0.35 * bump(from_part, 0, 0, 0, 0.16, 1) -
-                            parted_ * 0.30 * front * smooth_step(0.3, -0.7, from_part) *
-                                smooth_step(-1.6, -0.7, from_part);
-      const Root root = root_at(around, t, beyond);
+          parted_ * bump(from_part, 0, 0, 0, 0.09, 1) * smooth_step(0.80, 0.40, t);
+      // Locks end in points: below the line behind, above the forehead in front.
+      const double tips = 0.22 * lock + 0.10 * small + 0.05 * single;
+      const double beyond = mix(hangs && share > 0.3 ? -1.6 : -0.7, -1.6, front) * tips *
+                                smooth_step(0.20, 0, t) * std::min(1.0, 3 * style_.low) +
+                            parted_ * 0.30 * bump(from_part, 0, 0, 0, 0.16, 1);
+      Root root = root_at(around, t, beyond);
       const double wave = wave_at(around);
       double thick = thickness(around, t, root);
-      thick += ((lod_ < 3 && !sculpted() ? 0.5 : 1) * style_.lock * (1 + 0.4 * wave) * lock +
-                style_.strand * fine) *
+      thick += (style_.lock * (1 + 0.6 * wave) * lock +
+                style_.strand * (1 + 0.6 * wave) * (0.8 * small + 0.4 * single)) *
                fade;
       thick -= 0.42 * parting;
-      const double grown =
-          style_.hang < 0 && share > 0.35 ? 1 : smooth_step(0, 0.10 + 0.05 * front, t);
-      Vec3 at = root.skin + root.normal * mix(-0.30, thick, grown);
+      const double grown = hangs && share > 0.35 ? 1 : smooth_step(0, 0.07 + 0.13 * front, t);
+      Vec3 at = root.skin + root.normal * mix(-0.22, thick, grown);
       at.y += 0.55 * wave * bump(t, 0, 0.20, 0, 0.2, 1) * smooth_step(0, 0.1, t);
-      Color c =
-          mix(hair, {14, 9, 8},
-              (0.45 * smooth_step(0.1, -0.9, lock) - 0.24 * fine) * fade + 0.22 + 0.3 * parting);
-      c = mix(c, mix(hair, {255, 222, 180}, 0.25), 0.40 * fade * smooth_step(0.3, 0.95, lock));
+      // Hanging hair ends in an edge that turns inwards.
+      if (hangs && row == 0 && share > 0.33)
+        at = at - root.normal * (0.55 * thick) + Vec3{0, 0.25, 0};
+      const double depth =
+          0.30 * smooth_step(0.3, -1, lock) + 0.28 * smooth_step(0.5, -1, small) - 0.11 * single;
+      Color c = mix(hair, {12, 8, 7}, clamp01(depth * fade + 0.12 + 0.45 * parting));
+      c = mix(c, mix(hair, {255, 220, 176}, 0.26),
+              clamp01(fade * (0.30 * smooth_step(0.2, 1, lock) * smooth_step(-0.2, 1, small) +
+                              0.16 * single)));
       // Short hair lets the skin show through where it begins.
-      c = mix(c, mix(hair, form_.person().skin, 0.45),
-              smooth_step(0.3, 0.15, style_.low) * smooth_step(0.12, 0.0, t));
+      c = mix(c, mix(hair, form_.person().skin, 0.50),
+              smooth_step(0.6, 0.15, style_.low) * smooth_step(0.10, 0.0, t));
+      c = mix(c, mix(hair, {12, 8, 7}, 0.5), hangs && row == 0 && share > 0.33 ? 1 : 0);
       // Texture coordinates as seen from above, so that no seam is needed.
-      const auto [s, cosine] = exact_sine_cosine(around);
+      const auto [s, cosine] = exact_sine_cosine(column);
       out_.vertices.add(
           plain(at, c, 0.5 + 0.49 * (1 - t) * s, 0.5 - 0.49 * (1 - t) * cosine, Carrier::kSkull));
     }
@@ -249,92 +260,25 @@ void HairMaker::make_strip(uint32_t number, double from, double to, double start
   out_.triangle(before[1], before[2], tip);
 }
 
-/// Layers of locks, those of the lowest at the hair line, like shingles.
+/// Layers of curls, those of the lowest at the hair line, like shingles.
 void HairMaker::make_strips() {
-  const bool is_short = style_.high < 0.5, curly = form_.person().style == HairStyle::kCurly;
-  const uint32_t layers = is_short || curly ? 5 : 3;
+  constexpr uint32_t kLayers = 5;
   const double share = lod_ == 0 ? 1 : lod_ == 1 ? 0.7 : 0.5;
   uint32_t number = 0;
-  for (uint32_t layer = 0; layer < layers; ++layer) {
-    const double low = static_cast<double>(layer) / layers;
-    const uint32_t count =
-        static_cast<uint32_t>(share * (is_short || curly ? 60 : 64) * mix(1, 0.40, low));
+  for (uint32_t layer = 0; layer < kLayers; ++layer) {
+    const double low = static_cast<double>(layer) / kLayers;
+    const uint32_t count = static_cast<uint32_t>(share * 60 * mix(1, 0.40, low));
     for (uint32_t i = 0; i < count; ++i, ++number) {
-      double to = mix(-kPi, kPi, (i + 0.5 + 0.4 * scatter(number)) / count);
-      const double front = smooth_step(0.46, 0.15, std::abs(to) / kPi);
-      if (sculpted() && front > 0.3) continue;
-      double end = 0.85 * low + 0.035 + (layer == 0 ? 0.018 : 0.045) * scatter(number + 1000);
-      double size = (is_short ? 0.20 : curly ? 0.22 : 0.55) * (1 + 0.25 * scatter(number + 2000));
-      double from = to, raise = is_short ? 0.10 : 0.16;
-      if (curly) {
-        from += 0.45 * scatter(number + 3000);
-        raise = 0.30 + 0.15 * scatter(number + 4000);
-      } else if (parted_ > 0) {
-        // From the parting to the side.
-        const double away = to - kPart;
-        from = mix(to, kPart + (away < 0 ? -0.10 : 0.10), front * 0.75);
-        if (std::abs(away) < 0.12) continue;
-      } else {
-        from += 0.10 * scatter(number + 3000);
-      }
-      const double start = std::min(end + size, 0.93);
+      const double to = mix(-kPi, kPi, (i + 0.5 + 0.4 * scatter(number)) / count);
+      const double end = 0.85 * low + 0.035 + (layer == 0 ? 0.018 : 0.045) * scatter(number + 1000);
+      const double start = std::min(end + 0.22 * (1 + 0.25 * scatter(number + 2000)), 0.93);
       if (start - end < 0.06) continue;
-      const double wide = (is_short ? 0.26
-                           : curly  ? 0.42
-                                    : 0.46) *
-                          (1 + 0.3 * scatter(number + 5000)) * mix(1, 0.75, low) / std::sqrt(share);
-      make_strip(number, from, to, start, end, wide, raise + 0.05 * scatter(number + 6000));
+      const double from = to + 0.45 * scatter(number + 3000);
+      const double raise = 0.30 + 0.15 * scatter(number + 4000) + 0.05 * scatter(number + 6000);
+      const double wide =
+          0.42 * (1 + 0.3 * scatter(number + 5000)) * mix(1, 0.75, low) / std::sqrt(share);
+      make_strip(number, from, to, start, end, wide, raise);
     }
-  }
-}
-
-void HairMaker::make_strand(const Strand& strand, double wide, double shade) {
-  const Color hair = form_.person().hair, skin = form_.person().skin;
-  const auto point = [&](double share) {
-    const double t = mix(strand.t, strand.to, share);
-    const double around = mix(strand.around, strand.to_around, share);
-    const Root root = root_at(around, t, 0);
-    const double over = smooth_step(-0.01, 0.13, t);
-    return root.skin +
-           root.normal * mix(0.02, thickness(around, std::max(t, 0.0), root) + 0.03, over);
-  };
-  const auto color = [&](double share) {
-    const double t = mix(strand.t, strand.to, share);
-    return mix(mix(hair, {14, 9, 8}, 0.25 + 0.2 * shade), mix(hair, skin, 0.62),
-               smooth_step(0.05, -0.04, t));
-  };
-  const Vec3 root = point(0), middle = point(0.5), tip = point(1);
-  const Vec3 across = unit(cross(tip - root, middle)) * wide;
-  const auto add = [&](Vec3 at, double share, double v) {
-    return out_.vertices.add(plain(at, color(share), v, share, Carrier::kSkull));
-  };
-  const uint32_t a = add(root, 0, 0.5), b = add(middle - across, 0.5, 0.45),
-                 c = add(middle + across, 0.5, 0.55), d = add(tip, 1, 0.5);
-  out_.triangle(a, b, c);
-  out_.triangle(c, b, d);
-}
-
-/// Single hairs along the line: in front they grow out of it, in the back they hang over it.
-void HairMaker::make_border() {
-  const uint32_t count = lod_ == 0 ? 700 : lod_ == 1 ? 320 : 140;
-  const double wide = lod_ == 0 ? 0.012 : lod_ == 1 ? 0.03 : 0.05;
-  for (uint32_t i = 0; i < count; ++i) {
-    const double around = mix(-kPi, kPi, (i + 0.5 + 0.45 * scatter(i + 9000)) / count);
-    const double share = std::abs(around) / kPi;
-    // None over the ears, nor where hair hangs.
-    if (sculpted() && share > 0.30 && share < 0.60) continue;
-    if (style_.hang < 0 ? share > 0.30 : share > 0.47 && share < 0.555) continue;
-    const double jitter = scatter(i + 10000), size = 1 + 0.35 * scatter(i + 11000);
-    const double side = around < kPart ? -1 : 1;
-    Strand strand;
-    if (share < 0.40) {
-      strand = {around, -0.010 + 0.016 * jitter, around + side * 0.09 * (0.4 + parted_),
-                0.10 * size};
-    } else {
-      strand = {around, 0.075 + 0.030 * jitter, around + 0.02 * scatter(i + 12000),
-                -0.004 - 0.012 * size * (0.6 + 0.4 * jitter)};
-    }
-    make_strand(strand, wide, scatter(i + 13000));
   }
 }
 

@@ -53,7 +53,7 @@ Person make_person(uint64_t seed) {
   p.length += by(0.135);
   p.height += by(0.125);
   p.jaw += by(0.16) + 0.05 * p.sex;
-  p.chin_drop += by(1.0) + 0.25 * p.sex;
+  p.chin_drop += by(1.0) + 0.25 * p.sex - 0.30;
   p.face += by(0.08);
   p.neck += by(0.06) + 0.08 * p.sex + 0.07 * p.weight;
   p.nose += by(0.24) + 0.05 * p.sex;

@@ -88,7 +88,7 @@ void SkinMaker::place_rows() {
   const auto density = [](double y) {
     return 1 + 1.0 * bump(0, y, 0, kMouthBlockLow, 1, 1.6) +
            3.2 * bump(0, y, 0, kNostril.y, 1, 0.45) + 0.8 * bump(0, y, 0, kEyeBlockHigh, 1, 1.2) +
-           0.9 * bump(0, y, 0, -16.6, 1, 1.3) - 0.35 * smooth_step(-12, -14, y) -
+           0.9 * bump(0, y, 0, -17.0, 1, 1.5) - 0.35 * smooth_step(-12, -14, y) -
            0.35 * smooth_step(6, 9, y);
   };
   for (int k = 0; k < 7; ++k) {
@@ -213,35 +213,37 @@ void SkinMaker::make_eye() {
   if (!out_.failed()) make_lid_edges();
 }
 
-uint32_t SkinMaker::lid_edge_vertex(uint32_t from, Color color) {
+uint32_t SkinMaker::lid_edge_vertex(uint32_t from, Color color, bool at_ball) {
   Vertex v = out_.vertices[from];
   const Vec3 out = v.closed - kEye;
-  const double flesh = smooth_step(-0.74, -0.90, Form::along_eye(v.closed.x));
-  const double radius = mix(kEyeRadius - 0.12, kEyeRadius + 0.04, flesh);
+  const double flesh = smooth_step(-0.72, -0.88, Form::along_eye(v.closed.x));
+  const double radius =
+      at_ball ? kEyeRadius + mix(0.045, 0.13, flesh) : kEyeRadius + mix(-0.12, 0.04, flesh);
   v.closed = kEye + out * (radius / std::max(length(out), kEyeRadius));
   const double middle = 0.5 * (form_.upper_opening(v.closed.x) + form_.lower_opening(v.closed.x));
   v.lid = mix(v.lid, middle, flesh);
   v.position = turn_lid(v.closed, v.lid);
-  v.color = mix(color, {198, 112, 104}, flesh);
-  v.v += v.lid < 0 ? 0.004 : -0.004;
+  v.color = mix(color, {206, 132, 122}, flesh);
+  const double deep = at_ball ? 0.002 : 0.004;
+  v.v += v.lid < 0 ? deep : -deep;
   return out_.vertices.add(v);
 }
 
 void SkinMaker::make_lid_edges() {
-  const Color pink = mix(form_.person().skin, {196, 96, 92}, 0.5),
-              dark = mix(form_.person().skin, {50, 26, 24}, 0.75);
-  uint32_t deep[kMaxRing];
+  // The rim of the lid is pink; where it meets the ball, tears shine. Roots of lashes darken the upper one.
+  const Color skin = form_.person().skin, rim = mix(skin, {206, 126, 118}, 0.50),
+              tears = mix(rim, {244, 226, 222}, 0.60), dark = mix(skin, {50, 26, 24}, 0.65);
+  uint32_t ball[kMaxRing], deep[kMaxRing];
   for (uint32_t k = 0; k < ring_size_; ++k) {
-    Color c = pink;
-    if (k > half_) {
-      c = mix(pink, dark,
-              smooth_step(-0.9, -0.3, Form::along_eye(out_.vertices[ring_[k]].closed.x)));
-    }
-    deep[k] = lid_edge_vertex(ring_[k], c);
+    const double roots =
+        k > half_ ? smooth_step(-0.9, -0.3, Form::along_eye(out_.vertices[ring_[k]].closed.x)) : 0;
+    ball[k] = lid_edge_vertex(ring_[k], mix(k > half_ ? rim : tears, dark, 0.8 * roots), true);
+    deep[k] = lid_edge_vertex(ring_[k], mix(rim, dark, roots), false);
   }
   for (uint32_t k = 0; k < ring_size_; ++k) {
     const uint32_t other = (k + 1) % ring_size_;
-    out_.quad(ring_[k], ring_[other], deep[other], deep[k]);
+    out_.quad(ring_[k], ring_[other], ball[other], ball[k]);
+    out_.quad(ball[k], ball[other], deep[other], deep[k]);
   }
 }
 

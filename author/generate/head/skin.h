@@ -164,9 +164,9 @@ class SkinMaker {
 
   void make_eye();
 
-  /// From the edge of a lid inwards, until behind the surface of the eyeball; in the inner corner over it to
-  /// the other lid's edge, which makes the pink flesh there.
-  uint32_t lid_edge_vertex(uint32_t from, Color color);
+  /// From the edge of a lid inwards, to the surface of the eyeball or until behind it; in the inner corner over
+  /// it to the other lid's edge, which makes the pink flesh there.
+  uint32_t lid_edge_vertex(uint32_t from, Color color, bool at_ball);
 
   void make_lid_edges();
 

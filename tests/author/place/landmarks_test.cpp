@@ -113,8 +113,9 @@ void expect_marks_move_with_the_mouth(TestMesh mesh, const char* name, const cha
     Kind kind;
     int side;
     double close;  // in centimeters
-  } marks[] = {{Kind::kLipUpper, 1, 0.6},   {Kind::kLipLower, -1, 0.4}, {Kind::kMouthLeft, 0, 0.7},
-               {Kind::kMouthRight, 0, 0.7}, {Kind::kChin, 0, 0.8},      {Kind::kNose, 0, 0.8}};
+  } marks[] = {{Kind::kLipUpper, 1, 0.6},   {Kind::kLipLower, -1, 0.4},
+               {Kind::kMouthLeft, 0, 0.72}, {Kind::kMouthRight, 0, 0.72},
+               {Kind::kChin, 0, 0.8},       {Kind::kNose, 0, 0.8}};
   size_t vertices[std::size(marks)] = {};
   Vec3 jaw, throat;
   for (const double share : {0.05, 0.4, 0.7, 1.0}) {
