@@ -144,7 +144,7 @@ void add_brow(const Form& form, uint32_t lod, HalfMesh& out) {
       // The border fades into the skin; less without hairs, because there are few rows.
       const double square = across * across;
       const double fade = std::max(strands ? square * square : square, 1 - clamp01(3 * t));
-      const double thin = strands ? mix(0.50 - 0.07 * lod, 1, fade)
+      const double thin = strands ? mix(0.40 - 0.06 * lod, 1, fade)
                                   : mix(0.24, rows > 3 ? 0.80 : 0.60, fade * fade);
       const Color color = mix(hair_color, skin, thin);
       out.vertices.add(place(at.x, at.y + across * at.half * (strands ? 0.8 : 1), raise, color, t,
@@ -153,7 +153,7 @@ void add_brow(const Form& form, uint32_t lod, HalfMesh& out) {
   }
   join_rows(out, first, rows, columns);
   if (!strands) return;
-  const uint32_t hairs = lod == 0 ? 330 : lod == 1 ? 150 : 60;
+  const uint32_t hairs = lod == 0 ? 270 : lod == 1 ? 125 : 60;
   for (uint32_t i = 0; i < hairs; ++i) {
     // Hairs lean outwards; the inner ones stand up, and those near the tail lie flat.
     const double t = clamp01((i + 0.5) / hairs + 0.02 * scatter(i + 300));

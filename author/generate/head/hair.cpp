@@ -141,8 +141,8 @@ double HairMaker::ridges(double around, double count) const {
 
 void HairMaker::make_cap() {
   const bool fine = lod_ < 3, curly = form_.person().style == HairStyle::kCurly;
-  const uint32_t columns = 2 * (fine ? at_lod(100, 40, lod_) : at_lod(56, 7, lod_)),
-                 rows = at_lod(fine ? 34 : 24, 4, lod_) + 1;
+  const uint32_t columns = 2 * (fine ? at_lod(77, 36, lod_) : at_lod(56, 7, lod_)),
+                 rows = at_lod(fine ? 30 : 24, 4, lod_) + 1;
   const Color hair = form_.person().hair;
   const bool hangs = style_.hang < 0;
   const uint32_t first = out_.vertices.count();
