@@ -160,6 +160,57 @@ class Fits(unittest.TestCase):
         with self.assertRaises(mien.Error):
             mien.FitSurface([[1, 2, 3]], [[0, 0, 1]])
 
+    def test_constraints_and_stages(self):
+        rig = rig_of()
+        fit = mien.Fit(rig, deformer_of(), positions=[0, 1, 2])
+        apart = fit.solve(points=numpy.full((3, 3), numpy.nan), constraints=[
+            mien.FitConstraint(mien.FitConstraintKind.POINT_DISTANCE, points=(0, 1), distances=(0, 1e6))])
+        self.assertEqual(apart.constraint_residual, 0)
+        self.assertFalse(apart.jumped)
+        nearer = [fit.solve(prior_weight=1e-3, constraints=[mien.FitConstraint(
+            mien.FitConstraintKind.JOINT_POSITION, joint=1, target=(0, 0, 0), weight=weight)])
+            for weight in (1, 100)]
+        self.assertLessEqual(nearer[1].constraint_worst, nearer[0].constraint_worst + 1e-4)
+        stages = numpy.arange(len(nearer[0].controls)) % 2
+        staged = fit.solve(prior_weight=1e-3, stages=stages, constraints=[
+            mien.FitConstraint(mien.FitConstraintKind.JOINT_AIM, joint=1, target=(0, 0, 10))])
+        self.assertGreater(staged.constraint_worst, 0)
+        for wrong in ({"stages": stages + 16}, {"constraints": [mien.FitConstraint(99)]}):
+            with self.assertRaises(mien.Error):
+                fit.solve(prior_weight=1, **wrong)
+        with self.assertRaises(mien.Error):
+            fit.solve(stages=[0])
+
+    def test_takes_of_joints(self):
+        faces = [posed(phase) for phase in (0, 0.1, 0.2)]
+        joints = numpy.stack([numpy.array(face.joints, "f").reshape(-1) for face in faces])
+        fit = mien.Fit(rig_of())
+        found = fit.solve_joints(joints)
+        start = None
+        for f in range(len(joints)):
+            one = fit.solve(joints=joints[f], start=start)
+            start = one.controls
+            self.assertLess(abs(found[f] - one.controls).max(), 0.05)
+        self.assertEqual(found.shape, (3, len(start)))
+        with self.assertRaises(mien.Error):
+            fit.solve_joints(joints[:, 1:])
+        with self.assertRaises(mien.Error):
+            fit.solve_joints(joints, start=[0])
+
+    def test_deformers_of_some_positions(self):
+        whole, face = deformer_of(), posed()
+        some = whole.subset(0, [1, 3])
+        rows = []
+        for deformer in (whole, some):
+            pose = deformer.instance()
+            pose.update(face)
+            pose.deform(0)
+            rows.append(numpy.array(pose.positions(0)))
+        self.assertTrue((rows[1] == rows[0][[1, 3]]).all())
+        for wrong in ([3, 1], [10 ** 9]):
+            with self.assertRaises(mien.Error):
+                whole.subset(0, wrong)
+
     def test_stops(self):
         fit, face = mien.Fit(rig_of()), posed()
         self.assertEqual(fit.solve(joints=face.joints, canceled=lambda: True).status, mien.FitStatus.CANCELED)
