@@ -133,10 +133,11 @@ double bytes_of(uint32_t normals, bool targets) {
       size(mesh.sorted_positions, mesh.weights, mesh.joints, mesh.position_indices, mesh.positions);
   if (targets) bytes += size(mesh.deltas, mesh.delta_indices);
   if (normals != MIEN_NORMALS_NONE) bytes += size(mesh.first_vertex, mesh.vertices, mesh.normals);
-  if (normals == MIEN_NORMALS_SKINNED) bytes += size(mesh.normals);
+  if (normals == MIEN_NORMALS_SKINNED) bytes += size(mesh.sorted_normals);
   if (normals == MIEN_NORMALS_RECOMPUTED) {
-    bytes += size(mesh.positions, mesh.first_adjacent_face, mesh.adjacent_faces);
-    bytes += size(mesh.faces, mesh.faces, mesh.faces);  // areas are as large, written and read
+    bytes += size(mesh.positions, mesh.first_adjacent_face, mesh.adjacent_faces.narrow);
+    bytes += size(mesh.adjacent_faces.wide, mesh.faces.narrow, mesh.faces.wide);
+    bytes += 2.0 * 4 * sizeof(float) * mesh.face_count();  // areas, written and read
   }
   return bytes;
 }

@@ -69,6 +69,7 @@ MienStatus mien_deformer_info(const MienDeformer* deformer, MienDeformerInfo* ou
   info.mesh_count = static_cast<uint32_t>(of.meshes.count);
   info.deformer_bytes = of.block_size + of.baked_size;
   info.instance_bytes = deformer_instance_size(of, 0);
+  info.storage = of.half_storage ? MIEN_STORAGE_16_BIT : MIEN_STORAGE_32_BIT;
   write_struct(out_info, info);
   return MIEN_OK;
 }
@@ -106,6 +107,7 @@ MienStatus mien_deformer_influences(const MienDeformer* deformer, uint32_t mesh,
   if (mesh >= object(deformer)->meshes.count) return MIEN_ERROR_INDEX;
   const DeformMesh& shape = object(deformer)->meshes[mesh];
   if (position >= shape.position_count) return MIEN_ERROR_INDEX;
+  if (!shape.fixed_weights.empty()) return MIEN_ERROR_UNSUPPORTED;
   Span<const uint16_t> joints;
   Span<const float> weights;
   find_influences(shape, position, joints, weights);

@@ -55,7 +55,7 @@ MienStatus mien_deformer_create(const MienDna* dna, const MienRig* rig,
       check_fields({{"MienDeformerDesc.compose", known.compose, MIEN_COMPOSE_EULER_ADD},
                     {"MienDeformerDesc.weights", known.weights, MIEN_WEIGHTS_FIX},
                     {"MienDeformerDesc.normals", known.normals, MIEN_NORMALS_RECOMPUTED},
-                    {"MienDeformerDesc.reserved", known.reserved, 0}},
+                    {"MienDeformerDesc.storage", known.storage, MIEN_STORAGE_16_BIT}},
                    error);
   if (in_range != MIEN_OK) return in_range;
   const Rig& of = *object(rig);
@@ -77,6 +77,7 @@ MienStatus mien_deformer_create(const MienDna* dna, const MienRig* rig,
   options.compose = static_cast<Compose>(known.compose);
   options.fix_weights = known.weights == MIEN_WEIGHTS_FIX;
   options.tangents = known.with_tangents != 0;
+  options.half_storage = known.storage == MIEN_STORAGE_16_BIT;
   if (known.normals != MIEN_NORMALS_DEFAULT) options.normals = static_cast<Normals>(known.normals);
   Deformer* deformer = nullptr;
   Error detail;

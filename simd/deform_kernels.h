@@ -2,20 +2,25 @@
 // Vertices: blend shape targets, linear blend skinning, normals.
 #pragma once
 
+#include <stddef.h>
 #include <stdint.h>
 
 namespace mien {
 
-/// positions[4 * indices[i] + k] += weight * deltas[3 * i + k] for k = 0, 1, 2. Reads one float past
-/// the last delta; the fourth float of a position becomes meaningless.
+/// positions[4 * indices[i] + k] += weight * deltas[3 * i + k] for k = 0, 1, 2. Reads one number past
+/// the last delta; the fourth float of a position becomes meaningless. add_target takes floats,
+/// add_target_fixed 16-bit integers.
 struct TargetArgs {
-  const float* deltas;
+  const void* deltas;  // float, or int16_t
   const uint16_t* indices;
   float* positions;
   float weight;
   uint32_t count;
 };
 using AddTargetKernel = void(const TargetArgs& args);
+
+/// to[i] = from[i] * scale.
+using FloatsFromFixedKernel = void(const int16_t* from, float scale, size_t count, float* to);
 
 /// How skinning transforms normals: by the blended matrix, or by its cofactor matrix, which is right
 /// for any scale.
@@ -29,12 +34,12 @@ constexpr uint32_t kHardEdge = 0x8000'0000;
 ///     positions   x y z * of each
 ///     weights     `influences` for each position; joints likewise
 ///     matrices    skin matrices by joint, 64-byte aligned
-///     normals     x y z * of vertices[k] at 4 * k
-///     tangents    x y z w of vertices[k] at 4 * k
+///     normals     x y z of each vertex; sorted_normals: x y z * of vertices[k] at 4 * k, or null
+///     tangents    x y z w of each vertex
 ///
 /// Writes position i to out_positions[3 * position_indices[i]]. Its vertices are vertices[k] for
 /// first_vertex[i] <= k < first_vertex[i + 1]; their normals are transformed, normalized, and
-/// written to out_normals[3 * vertex]. A normal that loses its direction is copied instead. Unless
+/// written to out_normals[3 * vertex]. Reads one float past each normal. A normal that loses its direction is copied instead. Unless
 /// out_tangents is null, their tangents are transformed by the blended matrix and written to
 /// out_tangents[4 * vertex], not normalized, with their w.
 struct SkinArgs {
@@ -47,6 +52,7 @@ struct SkinArgs {
   const uint32_t* first_vertex;
   const uint32_t* vertices;
   const float* normals;
+  const float* sorted_normals;
   float* out_normals;
   const float* tangents;
   float* out_tangents;
@@ -60,25 +66,32 @@ using SkinPositionsKernel = void(const SkinArgs& args);
 /// vector. Reads one float past each position.
 struct AreaArgs {
   const float* positions;
-  const uint32_t* faces;
+  const void* faces;  // 16-bit integers if `narrow`, else 32-bit ones
   float* areas;
   uint32_t count;
+  bool narrow;
 };
 using FaceAreasKernel = void(const AreaArgs& args);
 
 /// Normals of the vertices of `count` positions: the normalized sum of the area vectors of the
 /// adjacent faces. On a hard edge the neutral normal is rotated instead, by the shortest rotation
 /// from the neutral direction to that sum. Without a direction the neutral normal is copied.
+/// Reads one float past each normal.
 struct NormalArgs {
   const float* areas;
   const uint32_t* first_adjacent_face;  // [position], + 1
-  const uint32_t* adjacent_faces;
-  const uint32_t* first_vertex;  // [position], + 1
+  const void* adjacent_faces;           // 16-bit integers if `narrow`, else 32-bit ones
+  const uint32_t* first_vertex;         // [position], + 1
   const uint32_t* vertices;
-  const float* normals;             // neutral: x y z * of vertices[k] at 4 * k
-  const float* neutral_directions;  // [position] x y z *
+  const float* normals;  // neutral: x y z of each vertex
+  // Ascending: first_position + i for each of the positions i that has vertices on hard edges, perhaps more.
+  const uint32_t* hard_positions;
+  const float* neutral_directions;  // x y z * of each of these
   float* out_normals;
+  uint32_t first_position;
+  uint32_t hard_count;
   uint32_t count;
+  bool narrow;
 };
 using SumNormalsKernel = void(const NormalArgs& args);
 

@@ -11,12 +11,14 @@
 namespace mien::MIEN_KERNEL_ISA {
 namespace {
 
-void add_target(const TargetArgs& given) {
+template <class Number>
+inline void add_deltas(const TargetArgs& given) {
   const TargetArgs args = given;  // a local copy: no store can alias it
+  const Number* const deltas = static_cast<const Number*>(args.deltas);
   const Quad weight = broadcast4(args.weight);
   const auto add = [&](size_t i) {
     float* at = args.positions + size_t{args.indices[i]} * 4;
-    store4(at, mul_add4(weight, load4(args.deltas + i * 3), load4(at)));
+    store4(at, mul_add4(weight, load4(deltas + i * 3), load4(at)));
   };
   size_t i = 0;
   for (; i + 4 <= args.count; i += 4) {
@@ -26,6 +28,14 @@ void add_target(const TargetArgs& given) {
     add(i + 3);
   }
   for (; i < args.count; ++i) add(i);
+}
+void add_target(const TargetArgs& args) { add_deltas<float>(args); }
+void add_target_fixed(const TargetArgs& args) { add_deltas<int16_t>(args); }
+
+void floats_from_fixed(const int16_t* from, float scale, size_t count, float* to) {
+  size_t i = 0;
+  for (; i + 4 <= count; i += 4) store4(to + i, load4(from + i) * broadcast4(scale));
+  for (; i < count; ++i) to[i] = static_cast<float>(from[i]) * scale;
 }
 
 // Normals -----------------------------------------------------------------------------------------
@@ -86,7 +96,8 @@ inline void for_each_chunk(const uint32_t* first_vertex, uint32_t count, F&& run
   }
   for (size_t k = 0; any_lost != 0 && k < count; ++k) {
     if ((lost[k / kWidth] >> k % kWidth & 1) == 0) continue;
-    store3(normals + size_t{vertices[k] & ~kHardEdge} * 3, load4(neutral + k * 4));
+    const size_t at = size_t{vertices[k] & ~kHardEdge} * 3;
+    store3(normals + at, load4(neutral + at));
   }
 }
 
@@ -157,9 +168,9 @@ void skin_chunk(const SkinArgs& given, float* vectors) {
     const size_t end = args.first_vertex[i + 1] - first_vertex;
     if (kOut == Skinned::kAny && args.out_tangents) {
       for (size_t k = vertex; k != end; ++k) {
-        const Quad t = load_lanes4(args.tangents + k * 4);
-        store4(args.out_tangents + size_t{args.vertices[k] & ~kHardEdge} * 4,
-               mul_add4(unit_w, lane4<3>(t), turned4(c, t)));
+        const size_t at = size_t{args.vertices[k] & ~kHardEdge} * 4;
+        const Quad t = load_lanes4(args.tangents + at);
+        store4(args.out_tangents + at, mul_add4(unit_w, lane4<3>(t), turned4(c, t)));
       }
     }
     if (kOut == Skinned::kAny && args.mode == SkinNormals::kCofactors) {
@@ -173,7 +184,7 @@ void skin_chunk(const SkinArgs& given, float* vectors) {
       continue;
     }
     for (; vertex != end; ++vertex) {
-      store4(vectors + vertex * 4, turned4(c, load_lanes4(args.normals + vertex * 4)));
+      store4(vectors + vertex * 4, turned4(c, load_lanes4(args.sorted_normals + vertex * 4)));
     }
   }
 }
@@ -203,7 +214,7 @@ void skin_positions(const SkinArgs& args) {
   const SkinChunk skin = args.mode == SkinNormals::kMatrix && !args.out_tangents
                              ? skin_chunk_for<Skinned::kNormals>(args)
                              : skin_chunk_for<Skinned::kAny>(args);
-  alignas(64) float vectors[kChunkVertices * 4];
+  alignas(64) float vectors[kChunkVertices * 4], gathered[kChunkVertices * 4];
   for_each_chunk(args.first_vertex, args.count,
                  [&](uint32_t first, uint32_t count, const uint32_t* first_vertex) {
                    SkinArgs chunk = args;
@@ -213,25 +224,36 @@ void skin_positions(const SkinArgs& args) {
                    chunk.position_indices += first;
                    chunk.first_vertex = first_vertex;
                    chunk.vertices += first_vertex[0];
-                   chunk.normals += size_t{first_vertex[0]} * 4;
-                   chunk.tangents += args.out_tangents ? size_t{first_vertex[0]} * 4 : 0;
                    chunk.count = count;
+                   const size_t vertices = first_vertex[count] - first_vertex[0];
+                   if (args.sorted_normals) {
+                     chunk.sorted_normals += size_t{first_vertex[0]} * 4;
+                   } else if (args.mode != SkinNormals::kNone) {
+                     chunk.sorted_normals = gathered;
+                     for (size_t k = 0; k < vertices; ++k) {
+                       const size_t vertex = chunk.vertices[k] & ~kHardEdge;
+                       store4(gathered + k * 4, load4(args.normals + vertex * 3));
+                     }
+                   }
                    skin(chunk, vectors);
                    if (args.mode == SkinNormals::kNone) return;
-                   put_normals(vectors, chunk.vertices, first_vertex[count] - first_vertex[0],
-                               chunk.normals, args.out_normals);
+                   put_normals(vectors, chunk.vertices, vertices, args.normals, args.out_normals);
                  });
 }
 
 // Recomputed normals ------------------------------------------------------------------------------
 
-void face_areas(const AreaArgs& given) {
+template <class Index>
+inline void find_areas(const AreaArgs& given) {
   const AreaArgs args = given;
   for (size_t i = 0; i < args.count; ++i) {
-    const uint32_t* face = args.faces + i * 4;
+    const Index* face = static_cast<const Index*>(args.faces) + i * 4;
     const auto position = [&](size_t k) { return load4(args.positions + size_t{face[k]} * 3); };
     store4(args.areas + i * 4, cross4(position(2) - position(0), position(3) - position(1)));
   }
+}
+void face_areas(const AreaArgs& args) {
+  args.narrow ? find_areas<uint16_t>(args) : find_areas<uint32_t>(args);
 }
 
 inline float dot3(const float* a, const float* b) {
@@ -256,17 +278,16 @@ inline Quad rotated_normal(const Quad& sum, const float* neutral_direction, cons
                   mul_add4(n, broadcast4(cosine), cross4(axis, n)));
 }
 
-void sum_normals(const NormalArgs& given) {
+template <class Index>
+inline void sum_areas(const NormalArgs& given) {
   const NormalArgs args = given;
+  const Index* const adjacent_faces = static_cast<const Index*>(args.adjacent_faces);
   alignas(64) float vectors[kChunkVertices * 4];
+  uint32_t hard = 0;
   const auto run = [&](uint32_t first, uint32_t count, const uint32_t* first_vertex) {
     const uint32_t* const vertices = args.vertices + first_vertex[0];
-    const float* const normals = args.normals + size_t{first_vertex[0]} * 4;
-    const auto area = [&](size_t k) {
-      return load4(args.areas + size_t{args.adjacent_faces[k]} * 4);
-    };
+    const auto area = [&](size_t k) { return load4(args.areas + size_t{adjacent_faces[k]} * 4); };
     size_t face = args.first_adjacent_face[first], vertex = 0;
-    uint32_t any_hard = 0;
     for (size_t i = 0; i < count; ++i) {
       const size_t faces_end = args.first_adjacent_face[first + i + 1];
       Quad sum = broadcast4(0.0f);
@@ -277,21 +298,29 @@ void sum_normals(const NormalArgs& given) {
       for (; face != faces_end; ++face) sum = sum + area(face);
       for (const size_t end = first_vertex[i + 1] - first_vertex[0]; vertex != end; ++vertex) {
         store4(vectors + vertex * 4, sum);
-        any_hard |= vertices[vertex] & kHardEdge;
       }
     }
     // A separate loop: in the loop above, the rare case would take registers from the sums.
-    for (size_t i = 0; any_hard != 0 && i < count; ++i) {
-      const float* direction = args.neutral_directions + (first + i) * 4;
+    // A position may come in several chunks.
+    while (hard != args.hard_count && args.hard_positions[hard] < args.first_position + first)
+      ++hard;
+    for (uint32_t h = hard; h != args.hard_count; ++h) {
+      const size_t i = args.hard_positions[h] - args.first_position - first;
+      if (i >= count) break;
+      const float* direction = args.neutral_directions + size_t{h} * 4;
       for (size_t k = first_vertex[i] - first_vertex[0]; k < first_vertex[i + 1] - first_vertex[0];
            ++k) {
         if ((vertices[k] & kHardEdge) == 0) continue;
-        store4(vectors + k * 4, rotated_normal(load4(vectors + k * 4), direction, normals + k * 4));
+        const float* normal = args.normals + size_t{vertices[k] & ~kHardEdge} * 3;
+        store4(vectors + k * 4, rotated_normal(load4(vectors + k * 4), direction, normal));
       }
     }
-    put_normals(vectors, vertices, vertex, normals, args.out_normals);
+    put_normals(vectors, vertices, vertex, args.normals, args.out_normals);
   };
   for_each_chunk(args.first_vertex, args.count, run);
+}
+void sum_normals(const NormalArgs& args) {
+  args.narrow ? sum_areas<uint16_t>(args) : sum_areas<uint32_t>(args);
 }
 
 }  // namespace

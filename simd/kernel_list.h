@@ -49,6 +49,8 @@
   KERNEL(joint_locals, JointLocalsKernel)               \
   KERNEL(joint_tree, JointTreeKernel)                   \
   KERNEL(add_target, AddTargetKernel)                   \
+  KERNEL(add_target_fixed, AddTargetKernel)             \
+  KERNEL(floats_from_fixed, FloatsFromFixedKernel)      \
   KERNEL(skin_positions, SkinPositionsKernel)           \
   KERNEL(skin_transposed, SkinTransposedKernel)         \
   KERNEL(face_areas, FaceAreasKernel)                   \

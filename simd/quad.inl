@@ -4,7 +4,8 @@
 //
 // | name                   | meaning                                                              |
 // |------------------------|----------------------------------------------------------------------|
-// | load4, store4, store3  | from and to any address; store3 writes the first three               |
+// | load4, store4, store3  | from and to any address; store3 writes the first three; load4 also   |
+// |                        | converts 16-bit integers                                             |
 // | load_lanes4            | load4 for lane4: one load, not one for each lane                     |
 // | broadcast4             | the same float in each lane                                          |
 // | + - *                  | rounded once each, never fused                                       |
@@ -53,6 +54,9 @@ inline Quad load_big_endian4(const uint8_t* from) {
 }
 [[gnu::always_inline]] inline Quad load4(const float* from) {
   return {{from[0], from[1], from[2], from[3]}};
+}
+[[gnu::always_inline]] inline Quad load4(const int16_t* from) {
+  return lanes4([&](int i) { return static_cast<float>(from[i]); });
 }
 [[gnu::always_inline]] inline Quad load_lanes4(const float* from) { return load4(from); }
 [[gnu::always_inline]] inline void store4(float* to, const Quad& q) {
@@ -150,6 +154,7 @@ inline Quad join_bits4(Quad low, Quad high, int n) {
 
 #if defined(MIEN_KERNEL_NEON)
 
+inline Quad load4(const int16_t* from) { return vcvtq_f32_s32(vmovl_s16(vld1_s16(from))); }
 inline void store3(float* to, Quad q) {
   vst1_f32(to, vget_low_f32(q));
   vst1q_lane_f32(to + 2, q, 2);
@@ -190,6 +195,14 @@ inline void transpose4(Quad& a, Quad& b, Quad& c, Quad& d) {
 
 #else
 
+inline Quad load4(const int16_t* from) {
+  const __m128i narrow = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(from));
+#if defined(MIEN_KERNEL_SSE2)
+  return _mm_cvtepi32_ps(_mm_srai_epi32(_mm_unpacklo_epi16(narrow, narrow), 16));
+#else
+  return _mm_cvtepi32_ps(_mm_cvtepi16_epi32(narrow));
+#endif
+}
 inline void store3(float* to, Quad q) {
   _mm_storel_pi(reinterpret_cast<__m64*>(to), q);
   _mm_store_ss(to + 2, _mm_movehl_ps(q, q));

@@ -63,7 +63,7 @@ const StatusIsa Status = 9
 // the allocator returned NULL
 const StatusMemory Status = 10
 
-// this build of the library only opens baked files
+// this build of the library only opens baked files, or the object is stored in a form that does not have what was asked for
 const StatusUnsupported Status = 11
 
 // the file cannot be opened
@@ -1000,8 +1000,8 @@ type DeformerDesc struct {
 	Normals Normals
 	// compute tangents, for mien_deformer_instance_write_vertices()
 	WithTangents uint32
-	// 0
-	reserved  uint32
+	// MIEN_STORAGE_...; 16-bit: blend shape deltas and skin weights as 16-bit integers with scales, and neutral positions stored once. Positions differ by about 1/65000 of what they move; see docs/deformation.md, 2 "Positions"
+	Storage   Storage
 	allocator unsafe.Pointer
 }
 
@@ -1025,6 +1025,10 @@ type DeformerInfo struct {
 	DeformerBytes uint64
 	// memory of a deformer instance for all meshes
 	InstanceBytes uint64
+	// MIEN_STORAGE_...
+	Storage Storage
+	// 0
+	reserved uint32
 }
 
 type DeformerInstanceDesc struct {
@@ -1387,7 +1391,7 @@ var structSizes = [][2]uintptr{
 	{unsafe.Sizeof(InstanceStatistics{}), 40},
 	{unsafe.Sizeof(BatchDesc{}), 24},
 	{unsafe.Sizeof(DeformerDesc{}), 40},
-	{unsafe.Sizeof(DeformerInfo{}), 56},
+	{unsafe.Sizeof(DeformerInfo{}), 64},
 	{unsafe.Sizeof(DeformerInstanceDesc{}), 24},
 	{unsafe.Sizeof(BakedDesc{}), 24},
 	{unsafe.Sizeof(BakedInfo{}), 48},

@@ -17,6 +17,12 @@ struct DeformerChecker : Checker {
   const Rig& rig;
 };
 
+/// Indices below `limit`, in one of the two arrays.
+bool all_below(const IndexList& list, uint64_t limit) {
+  return (list.narrow.empty() || list.wide.empty()) && below(list.narrow, limit) &&
+         below(list.wide, limit);
+}
+
 /// Every joint once, after its parent.
 bool is_ordered(const Skeleton& skeleton) {
   uint64_t seen[0x10000 / 64] = {};
@@ -66,10 +72,14 @@ bool check_mesh_arrays(const DeformerChecker& c, const DeformMesh& mesh) {
 /// Runs follow each other, and their rows of weights too.
 bool check_skin(const DeformerChecker& c, const DeformMesh& mesh) {
   const uint64_t positions = mesh.position_count;
-  if (!c.ok(mesh.position_indices.count == positions && mesh.sorted_indices.count == positions &&
-                mesh.sorted_positions.count == positions * 4 &&
-                mesh.neutral_directions.count == positions * 4 &&
-                mesh.joints.count == mesh.weights.count && below(mesh.joints, c.rig.joint_count),
+  const bool half = c.deformer.half_storage;
+  const bool fixed = half && mesh.max_influences <= kMaxFixedInfluences;
+  if (!c.ok(mesh.position_indices.count == positions && mesh.sorted_indices.count() == positions &&
+                all_below(mesh.sorted_indices, positions) &&
+                mesh.sorted_positions.count == (half ? 0 : positions * 4) &&
+                mesh.weights.count == (fixed ? 0 : mesh.joints.count) &&
+                mesh.fixed_weights.count == (fixed ? mesh.joints.count : 0) &&
+                below(mesh.joints, c.rig.joint_count),
             "skin weights")) {
     return false;
   }
@@ -81,13 +91,13 @@ bool check_skin(const DeformerChecker& c, const DeformMesh& mesh) {
     next += run.count;
     weight += uint64_t{run.count} * run.influences;
     max_influences = std::max(max_influences, run.influences);
-    if (!c.ok(good && next <= positions && weight <= mesh.weights.count, "runs of skin weights")) {
+    if (!c.ok(good && next <= positions && weight <= mesh.joints.count, "runs of skin weights")) {
       return false;
     }
   }
-  if (!c.ok(next == positions && weight == mesh.weights.count &&
-                max_influences == mesh.max_influences,
-            "runs of skin weights")) {
+  if (!c.ok(
+          next == positions && weight == mesh.joints.count && max_influences == mesh.max_influences,
+          "runs of skin weights")) {
     return false;
   }
   // The two are inverse to each other, so each position has one sorted index.
@@ -102,11 +112,15 @@ bool check_skin(const DeformerChecker& c, const DeformMesh& mesh) {
 /// In each block, runs of ascending targets, whose deltas follow each other.
 bool check_targets(const DeformerChecker& c, const DeformMesh& mesh) {
   const uint32_t blocks = mesh.block_count();
+  const bool half = c.deformer.half_storage;
+  const uint64_t numbers = mesh.delta_count * 3 + 1;
   if (!c.ok(is_runs(mesh.first_target_run, blocks, mesh.target_runs.count) &&
                 mesh.first_target_run.count == size_t{blocks} + 1 &&
                 mesh.first_target_run[blocks] == mesh.target_runs.count &&
                 mesh.delta_indices.count == mesh.delta_count &&
-                mesh.deltas.count == mesh.delta_count * 3 + 1,
+                mesh.deltas.count == (half ? 0 : numbers) &&
+                mesh.fixed_deltas.count == (half ? numbers : 0) &&
+                mesh.delta_scales.count == (half ? mesh.target_runs.count : 0),
             "blend shape targets")) {
     return false;
   }
@@ -147,20 +161,39 @@ bool check_vertex_lists(const DeformMesh& mesh) {
   return true;
 }
 
+/// Positions with vertices on hard edges, in ascending order, and no others.
+bool lists_hard_positions(const DeformMesh& mesh) {
+  const uint32_t* next = mesh.hard_positions.begin();
+  for (uint32_t p = 0; p < mesh.position_count; ++p) {
+    uint32_t marks = 0;
+    for (uint32_t i = mesh.first_vertex[p]; i < mesh.first_vertex[p + 1]; ++i) {
+      marks |= mesh.vertices[i] & kHardEdge;
+    }
+    if (marks == 0) continue;
+    if (next == mesh.hard_positions.end() || *next++ != p) return false;
+  }
+  return next == mesh.hard_positions.end();
+}
+
 bool check_surface(const DeformerChecker& c, const DeformMesh& mesh) {
   const size_t positions = mesh.position_count;
-  return c.ok(mesh.faces.count % 4 == 0 && mesh.faces.count / 4 <= ~uint32_t{0} &&
-                  below(mesh.faces, positions) && mesh.first_adjacent_face.count == positions + 1 &&
-                  is_runs(mesh.first_adjacent_face, positions, mesh.adjacent_faces.count) &&
-                  below(mesh.adjacent_faces, mesh.face_count()),
+  return c.ok(mesh.faces.count() % 4 == 0 && mesh.faces.count() / 4 <= ~uint32_t{0} &&
+                  all_below(mesh.faces, positions) &&
+                  mesh.first_adjacent_face.count == positions + 1 &&
+                  is_runs(mesh.first_adjacent_face, positions, mesh.adjacent_faces.count()) &&
+                  all_below(mesh.adjacent_faces, mesh.face_count()),
               "faces") &&
          c.ok(mesh.vertices.count == mesh.vertex_count &&
-                  mesh.sorted_normals.count == size_t{mesh.vertex_count} * 4 &&
-                  mesh.sorted_tangents.count == mesh.tangents.count &&
                   mesh.first_vertex.count == positions + 1 &&
                   is_runs(mesh.first_vertex, positions, mesh.vertices.count) &&
                   mesh.first_vertex[positions] == mesh.vertex_count && check_vertex_lists(mesh),
-              "vertices of positions");
+              "vertices of positions") &&
+         c.ok(mesh.sorted_normals.count ==
+                  (c.deformer.half_storage ? 0 : size_t{mesh.vertex_count} * 4),
+              "normals of positions") &&
+         c.ok(mesh.neutral_directions.count == mesh.hard_positions.count * 4 &&
+                  lists_hard_positions(mesh),
+              "hard edges");
 }
 
 }  // namespace

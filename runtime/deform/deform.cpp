@@ -39,30 +39,24 @@ void run_all(Job& job, uint32_t count, void (*task)(void*, uint32_t)) {
 
 // Targets and skin --------------------------------------------------------------------------------
 
-/// The neutral positions of a block plus its active targets. Uses `scratch` only if a target is
-/// active, so most blocks are not copied.
+/// The neutral positions of a block plus its active targets. If the mesh stores the positions in order,
+/// only blocks with active targets are copied to `scratch`.
 const float* add_targets(const Job& job, const DeformerInstance& instance, uint32_t block,
                          float* scratch) {
   const DeformMesh& mesh = job.mesh;
   const uint32_t first = block * kBlockPositions;
-  const float* neutral = mesh.sorted_positions.data + size_t{first} * 4;
+  const float* neutral = neutral_positions(mesh, block, scratch);
   const float* positions = neutral;
   for (uint32_t i = mesh.first_target_run[block]; i < mesh.first_target_run[block + 1]; ++i) {
     const TargetRun& run = mesh.target_runs[i];
     const float weight = instance.channels[run.channel];
     if (std::fabs(weight) < kMinChannelWeight) continue;
-    if (positions == neutral) {
+    if (positions != scratch) {
       const size_t count = std::min(kBlockPositions, mesh.position_count - first);
       memcpy(scratch, neutral, count * 4 * sizeof(float));
       positions = scratch;
     }
-    TargetArgs args;
-    args.deltas = mesh.deltas.data + size_t{run.first_delta} * 3;
-    args.indices = mesh.delta_indices.data + run.first_delta;
-    args.positions = scratch;
-    args.weight = weight;
-    args.count = run.count;
-    job.kernels().add_target(args);
+    add_target_run(job.kernels(), mesh, run, weight, scratch);
   }
   return positions;
 }
@@ -104,26 +98,31 @@ void skin_block(const Job& job, DeformerInstance& instance, uint32_t block) {
       copy_unskinned(job, positions + size_t{from - first} * 4, from, to - from, instance);
       continue;
     }
-    const size_t weight = run->first_weight + size_t{from - run->first} * run->influences;
     SkinArgs args;
-    args.positions = positions + size_t{from - first} * 4;
-    args.weights = mesh.weights.data + weight;
-    args.joints = mesh.joints.data + weight;
     args.matrices = instance.joints.skin.data;
-    args.position_indices = mesh.position_indices.data + from;
     args.out_positions = out.positions.data;
-    args.first_vertex = mesh.first_vertex.data + from;
     args.vertices = mesh.vertices.data;
-    args.normals = mesh.sorted_normals.data;
+    args.normals = mesh.normals.data;
+    args.sorted_normals = mesh.sorted_normals.empty() ? nullptr : mesh.sorted_normals.data;
     args.out_normals = out.normals.data;
-    args.tangents = mesh.sorted_tangents.data;
+    args.tangents = mesh.tangents.data;
     args.out_tangents = job.tangents ? instance.tangents.data : nullptr;
-    args.count = to - from;
     args.influences = run->influences;
     args.mode = job.normals != Normals::kSkinned    ? SkinNormals::kNone
                 : instance.joints.non_uniform_scale ? SkinNormals::kCofactors
                                                     : SkinNormals::kMatrix;
-    job.kernels().skin_positions(args);
+    for_each_weights(job.kernels(), mesh, *run, from, to - from,
+                     [&](uint32_t at, uint32_t count, const float* weights) {
+                       const size_t row =
+                           run->first_weight + size_t{at - run->first} * run->influences;
+                       args.positions = positions + size_t{at - first} * 4;
+                       args.weights = weights;
+                       args.joints = mesh.joints.data + row;
+                       args.position_indices = mesh.position_indices.data + at;
+                       args.first_vertex = mesh.first_vertex.data + at;
+                       args.count = count;
+                       job.kernels().skin_positions(args);
+                     });
   }
 }
 
@@ -150,7 +149,8 @@ void area_task(void* context, uint32_t index) {
   const uint32_t first = index % tasks * kTaskPositions;
   AreaArgs args;
   args.positions = instance.meshes[job.mesh_index].positions.data;
-  args.faces = job.mesh.faces.data + size_t{first} * 4;
+  args.faces = job.mesh.faces.from(size_t{first} * 4);
+  args.narrow = job.mesh.faces.wide.empty();
   args.areas = instance.face_areas.data + size_t{first} * 4;
   args.count = std::min(kTaskPositions, job.mesh.face_count() - first);
   job.kernels().face_areas(args);
@@ -165,11 +165,18 @@ void normal_task(void* context, uint32_t index) {
   NormalArgs args;
   args.areas = instance.face_areas.data;
   args.first_adjacent_face = mesh.first_adjacent_face.data + first;
-  args.adjacent_faces = mesh.adjacent_faces.data;
+  args.adjacent_faces = mesh.adjacent_faces.from(0);
+  args.narrow = mesh.adjacent_faces.wide.empty();
   args.first_vertex = mesh.first_vertex.data + first;
   args.vertices = mesh.vertices.data;
-  args.normals = mesh.sorted_normals.data;
-  args.neutral_directions = mesh.neutral_directions.data + size_t{first} * 4;
+  args.normals = mesh.normals.data;
+  const uint32_t* hard =
+      std::lower_bound(mesh.hard_positions.begin(), mesh.hard_positions.end(), first);
+  args.first_position = first;
+  args.hard_positions = hard;
+  args.hard_count = static_cast<uint32_t>(mesh.hard_positions.end() - hard);
+  args.neutral_directions =
+      mesh.neutral_directions.data + static_cast<size_t>(hard - mesh.hard_positions.begin()) * 4;
   args.out_normals = instance.meshes[job.mesh_index].normals.data;
   args.count = std::min(kTaskPositions, mesh.position_count - first);
   job.kernels().sum_normals(args);

@@ -36,10 +36,35 @@ struct TargetRun {
   uint32_t first_delta, count;
 };
 
+/// Weights of meshes with more influences per position keep 32 bits in 16-bit storage, too.
+constexpr uint32_t kMaxFixedInfluences = 64;
+
+/// Indices of 16 bits, or of 32 where 16 are too few.
+struct IndexList {
+  Span<uint16_t> narrow;
+  Span<uint32_t> wide;  // empty, or `narrow` is
+
+  size_t count() const { return narrow.count + wide.count; }
+  uint32_t operator[](size_t i) const { return wide.empty() ? narrow[i] : wide[i]; }
+  void set(size_t i, uint32_t index) {
+    if (wide.empty()) {
+      narrow[i] = static_cast<uint16_t>(index);
+    } else {
+      wide[i] = index;
+    }
+  }
+  /// As kernels take them.
+  const void* from(size_t i) const {
+    if (wide.empty()) return narrow.data + i;
+    return wide.data + i;
+  }
+};
+
 /// One mesh. Kernels load four floats to get x y z, so arrays of x y z end with one more float ("+ 1").
 struct DeformMesh {
   uint32_t position_count = 0, vertex_count = 0, triangle_count = 0;
   uint32_t max_influences = 0, target_count = 0;
+  float weight_scale = 0;  // of fixed_weights
   uint64_t delta_count = 0;
   uint64_t lods = 0;  // bit l: LOD l shows the mesh
 
@@ -54,31 +79,39 @@ struct DeformMesh {
 
   // Skin weights.
   Span<uint32_t> position_indices;  // [sorted index] position
-  Span<uint32_t> sorted_indices;    // [position] sorted index
-  Span<float> sorted_positions;     // [sorted index] x y z 0
+  IndexList sorted_indices;         // [position] sorted index
+  Span<float> sorted_positions;     // [sorted index] x y z 0; empty in 16-bit storage
   Span<SkinRun> skin_runs;
-  Span<float> weights;
+  Span<float> weights;          // or
+  Span<int16_t> fixed_weights;  // the same in units of weight_scale
   Span<uint16_t> joints;
 
   // Blend shape targets, by block, then by target.
   Span<uint32_t> first_target_run;  // [block], + 1
   Span<TargetRun> target_runs;
-  Span<float> deltas;            // [delta] x y z, + 1
+  Span<float> deltas;            // [delta] x y z, + 1; or
+  Span<int16_t> fixed_deltas;    // the same in units of their run's scale
+  Span<float> delta_scales;      // [target run], beside fixed_deltas
   Span<uint16_t> delta_indices;  // [delta] sorted index, minus that of the block
 
   // Normals. A face has four positions; a triangle repeats the last. Its area vector
   // (p2 - p0) x (p3 - p1) / 2 points out of the mesh.
-  Span<uint32_t> faces;                // [face][4] positions
+  IndexList faces;                     // [face][4] positions
   Span<uint32_t> first_adjacent_face;  // [sorted index], + 1
-  Span<uint32_t> adjacent_faces;       // faces around each position
+  IndexList adjacent_faces;            // faces around each position
   Span<uint32_t> first_vertex;         // [sorted index], + 1
   Span<uint32_t> vertices;             // vertices of each position, some with kHardEdge
-  Span<float> sorted_normals;          // normals in the order of `vertices`: x y z 0
-  Span<float> sorted_tangents;         // tangents in the order of `vertices`, if requested
-  Span<float> neutral_directions;      // [sorted index] x y z 0: recomputed neutral normal
+  Span<float> sorted_normals;          // normals in the order of `vertices`: x y z 0; empty in
+                                       // 16-bit storage
+  Span<uint32_t> hard_positions;       // sorted indices of those with vertices on hard edges
+  Span<float> neutral_directions;      // [hard position] x y z 0: recomputed neutral normal
 
+  /// Of a run of fixed_deltas.
+  float scale_of(const TargetRun& run) const {
+    return delta_scales[static_cast<size_t>(&run - target_runs.data)];
+  }
   uint32_t block_count() const { return (position_count + kBlockPositions - 1) / kBlockPositions; }
-  uint32_t face_count() const { return static_cast<uint32_t>(faces.count / 4); }
+  uint32_t face_count() const { return static_cast<uint32_t>(faces.count() / 4); }
 
   /// A file can list a mesh with six bytes, so a mesh without geometry must take almost no memory.
   bool is_empty() const { return position_count == 0 && vertex_count == 0; }
@@ -100,6 +133,7 @@ struct Deformer : Object {
   Normals normals = Normals::kRecomputed;  // what Normals::kDefault means
   bool fix_weights = false;
   bool has_tangents = false;
+  bool half_storage = false;
   Skeleton skeleton;
   Span<DeformMesh> meshes;
 };
@@ -115,7 +149,37 @@ Deformer* create_subset(const Deformer& whole, uint32_t mesh, Span<const uint32_
 /// The run that contains a sorted index.
 const SkinRun* skin_run_of(const DeformMesh& mesh, uint32_t sorted_index);
 
-/// The joints that move a position, in file order, and their weights.
+/// The neutral positions of a block, x y z * each: those of the mesh, or a copy in `scratch`.
+const float* neutral_positions(const DeformMesh& mesh, uint32_t block, float* scratch);
+
+/// positions += weight * deltas of the run; `positions` are those of its block, x y z * each.
+void add_target_run(const KernelTable& kernels, const DeformMesh& mesh, const TargetRun& run,
+                    float weight, float* positions);
+
+/// to[i] = from[i] * scale.
+void expand_fixed(const KernelTable& kernels, const int16_t* from, float scale, size_t count,
+                  float* to);
+
+/// Calls f(first, count, weights) for parts of `count` positions of a run, from sorted index `first` on. Weights
+/// in 16-bit storage are expanded, those of one part at a time.
+template <class F>
+void for_each_weights(const KernelTable& kernels, const DeformMesh& mesh, const SkinRun& run,
+                      uint32_t first, uint32_t count, F&& f) {
+  const size_t row = run.first_weight + size_t{first - run.first} * run.influences;
+  if (mesh.fixed_weights.empty()) return f(first, count, mesh.weights.data + row);
+  constexpr uint32_t kAtOnce = 1024;
+  static_assert(kMaxFixedInfluences <= kAtOnce, "at least one position");
+  float weights[kAtOnce];
+  const uint32_t step = kAtOnce / run.influences;
+  for (uint32_t done = 0; done < count; done += step) {
+    const uint32_t part = count - done < step ? count - done : step;
+    expand_fixed(kernels, mesh.fixed_weights.data + row + size_t{done} * run.influences,
+                 mesh.weight_scale, size_t{part} * run.influences, weights);
+    f(first + done, part, static_cast<const float*>(weights));
+  }
+}
+
+/// The joints that move a position, in file order, and their weights. Not for fixed_weights.
 void find_influences(const DeformMesh& mesh, uint32_t position, Span<const uint16_t>& joints,
                      Span<const float>& weights);
 

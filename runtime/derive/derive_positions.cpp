@@ -36,32 +36,20 @@ void for_each_target(const DeformMesh& mesh, uint32_t block, F&& f) {
   }
 }
 
-/// positions += weight * deltas.
-void add(const Deformer& deformer, const DeformMesh& mesh, const TargetRun& run, float weight,
-         float* positions) {
-  TargetArgs args;
-  args.deltas = mesh.deltas.data + size_t{run.first_delta} * 3;
-  args.indices = mesh.delta_indices.data + run.first_delta;
-  args.positions = positions;
-  args.weight = weight;
-  args.count = run.count;
-  deformer.kernels->add_target(args);
-}
-
 /// The positions of a block before skinning; `shaped` has room for them.
 const float* shape(const Derivatives& d, const DeformMesh& mesh, uint32_t block) {
   const uint32_t first = block * kBlockPositions;
-  const float* neutral = mesh.sorted_positions.data + size_t{first} * 4;
+  const float* neutral = neutral_positions(mesh, block, d.shaped.data);
   const size_t count = std::min(kBlockPositions, mesh.position_count - first);
   const float* positions = neutral;
   for_each_target(mesh, block, [&](const TargetRun& run) {
     const float weight = d.channels[run.channel];
     if (std::fabs(weight) < kMinChannelWeight) return;
-    if (positions == neutral) {
+    if (positions != d.shaped.data) {
       memcpy(d.shaped.data, neutral, count * 4 * sizeof(float));
       positions = d.shaped.data;
     }
-    add(*d.deformer, mesh, run, weight, d.shaped.data);
+    add_target_run(*d.deformer->kernels, mesh, run, weight, d.shaped.data);
   });
   return positions;
 }
@@ -69,22 +57,23 @@ const float* shape(const Derivatives& d, const DeformMesh& mesh, uint32_t block)
 /// Skins part of a run of positions, given from the beginning of its block, into `out` in file order.
 void skin(const Derivatives& d, const DeformMesh& mesh, const SkinRun& run, uint32_t first,
           uint32_t count, const float* positions, const float* matrices, float* out) {
-  const size_t weight = run.first_weight + size_t{first - run.first} * run.influences;
   SkinArgs args = {};
-  args.positions = positions + size_t{first % kBlockPositions} * 4;
-  args.weights = mesh.weights.data + weight;
-  args.joints = mesh.joints.data + weight;
   args.matrices = matrices;
-  args.position_indices = mesh.position_indices.data + first;
   args.out_positions = out;
-  args.first_vertex = mesh.first_vertex.data + first;
   args.vertices = mesh.vertices.data;
-  args.normals = mesh.sorted_normals.data;
-  args.tangents = mesh.sorted_tangents.data;
-  args.count = count;
   args.influences = run.influences;
   args.mode = SkinNormals::kNone;
-  d.deformer->kernels->skin_positions(args);
+  const KernelTable& kernels = *d.deformer->kernels;
+  for_each_weights(
+      kernels, mesh, run, first, count, [&](uint32_t at, uint32_t part, const float* weights) {
+        args.positions = positions + size_t{at % kBlockPositions} * 4;
+        args.weights = weights;
+        args.joints = mesh.joints.data + run.first_weight + size_t{at - run.first} * run.influences;
+        args.position_indices = mesh.position_indices.data + at;
+        args.first_vertex = mesh.first_vertex.data + at;
+        args.count = part;
+        kernels.skin_positions(args);
+      });
 }
 
 /// Skin matrices without their translation.
@@ -122,7 +111,7 @@ void push_positions(Derivatives& d, uint32_t mesh_index, uint32_t lane, uint32_t
         if (weight == 0.0f) return;
         if (!moved) memset(d.shaped_change.data, 0, count * 4 * sizeof(float));
         moved = true;
-        add(*d.deformer, mesh, run, weight, d.shaped_change.data);
+        add_target_run(*d.deformer->kernels, mesh, run, weight, d.shaped_change.data);
       });
     }
     for_each_run(mesh, block, [&](const SkinRun& run, uint32_t first, uint32_t n) {
@@ -171,29 +160,39 @@ void pull_positions(Derivatives& d, uint32_t mesh_index, uint32_t lane, uint32_t
         }
         return;
       }
-      const size_t weight = run.first_weight + size_t{first - run.first} * run.influences;
       SkinTransposedArgs args;
-      args.positions = positions + size_t{first % kBlockPositions} * 4;
-      args.weights = mesh.weights.data + weight;
-      args.joints = mesh.joints.data + weight;
-      args.position_indices = mesh.position_indices.data + first;
       args.gradients = d.skinned_change.data;
       args.skins = d.pose.skin.data;
       args.matrices = d.matrices.data;
-      args.out_positions = shapes ? change : nullptr;
-      args.count = n;
       args.influences = run.influences;
-      d.deformer->kernels->skin_transposed(args);
+      const KernelTable& kernels = *d.deformer->kernels;
+      for_each_weights(
+          kernels, mesh, run, first, n, [&](uint32_t at, uint32_t part, const float* weights) {
+            args.positions = positions + size_t{at % kBlockPositions} * 4;
+            args.weights = weights;
+            args.joints =
+                mesh.joints.data + run.first_weight + size_t{at - run.first} * run.influences;
+            args.position_indices = mesh.position_indices.data + at;
+            args.out_positions = shapes ? change + size_t{at - first} * 4 : nullptr;
+            args.count = part;
+            kernels.skin_transposed(args);
+          });
     });
     if (!shapes) continue;
     for_each_target(mesh, block, [&](const TargetRun& run) {
-      const float* delta = mesh.deltas.data + size_t{run.first_delta} * 3;
       const uint16_t* indices = mesh.delta_indices.data + run.first_delta;
-      float sum = 0;
-      for (uint32_t i = 0; i < run.count; ++i, delta += 3) {
-        const float* g = d.shaped_change.data + size_t{indices[i]} * 4;
-        sum += delta[0] * g[0] + delta[1] * g[1] + delta[2] * g[2];
-      }
+      const auto sum_of = [&](const auto* delta) {
+        float sum = 0;
+        for (uint32_t i = 0; i < run.count; ++i, delta += 3) {
+          const float* g = d.shaped_change.data + size_t{indices[i]} * 4;
+          sum += float(delta[0]) * g[0] + float(delta[1]) * g[1] + float(delta[2]) * g[2];
+        }
+        return sum;
+      };
+      const size_t first = size_t{run.first_delta} * 3;
+      const float sum = mesh.fixed_deltas.empty()
+                            ? sum_of(mesh.deltas.data + first)
+                            : sum_of(mesh.fixed_deltas.data + first) * mesh.scale_of(run);
       d.weights[size_t{run.channel} * lanes + lane] += sum;
     });
   }

@@ -348,12 +348,22 @@ TEST(CheckBakedDeformer, CountsAndIndices) {
        [](Deformer&, DeformMesh& m) { --m.first_vertex[m.position_count]; }},
       {"a vertex without a sorted normal",
        [](Deformer&, DeformMesh& m) { m.sorted_normals.count -= 4; }},
-      {"sorted tangents of a mesh without tangents",
-       [](Deformer&, DeformMesh& m) { m.sorted_tangents.count += 4; }},
+      {"a hard edge of no position", [](Deformer&, DeformMesh& m) { m.hard_positions.count += 1; }},
+      {"a direction too many", [](Deformer&, DeformMesh& m) { m.neutral_directions.count += 4; }},
+      {"faces of both sizes", [](Deformer&, DeformMesh& m) { m.faces.wide = m.vertices; }},
+      {"sorted indices of both sizes",
+       [](Deformer&, DeformMesh& m) {
+         m.sorted_indices.narrow.count -= 1;
+         m.sorted_indices.wide = m.vertices.slice(0, 1);
+       }},
+      {"16-bit storage with floats", [](Deformer& d, DeformMesh&) { d.half_storage = true; }},
       {"normals that are no choice",
        [](Deformer& d, DeformMesh&) { d.normals = Normals::kDefault; }},
       {"more faces than can be numbered",
-       [](Deformer&, DeformMesh& m) { m.faces.count = SIZE_MAX / 4 * 4; }},
+       [](Deformer&, DeformMesh& m) {
+         m.faces.narrow.count = 0;
+         m.faces.wide.count = SIZE_MAX / 4 * 4;
+       }},
   };
   // Where sizes have 32 bits, faces cannot be as many as the last says.
   size_t left = std::size(all) - (sizeof(size_t) == 4);

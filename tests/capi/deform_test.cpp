@@ -229,7 +229,7 @@ TEST_F(DeformMisuse, DescriptionsThatAreNone) {
   EXPECT_EQ(create([](Desc& d) { d.compose = 2; }), MIEN_ERROR_INVALID_ARGUMENT);
   EXPECT_EQ(create([](Desc& d) { d.weights = 2; }), MIEN_ERROR_INVALID_ARGUMENT);
   EXPECT_EQ(create([](Desc& d) { d.normals = 4; }), MIEN_ERROR_INVALID_ARGUMENT);
-  EXPECT_EQ(create([](Desc& d) { d.reserved = 1; }), MIEN_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(create([](Desc& d) { d.storage = 2; }), MIEN_ERROR_INVALID_ARGUMENT);
   const MienAllocator half = {nullptr, kept.interface.allocate, nullptr};
   EXPECT_EQ(create([&](Desc& d) { d.allocator = &half; }), MIEN_ERROR_INVALID_ARGUMENT);
   for (uint32_t isa = MIEN_ISA_SCALAR; isa <= MIEN_ISA_NEON; ++isa) {

@@ -304,6 +304,100 @@ TEST(Deform, WeightsAreAsStoredOrFixed) {
   }
 }
 
+// 16-bit storage ----------------------------------------------------------------------------------
+
+TEST(Deform, SixteenBitsMovePositionsLittle) {
+  for (const double height : {0.0, 150.0}) {  // the sums of weights must stay
+    DeformRigOptions options;
+    options.height = height;
+    options.rows = options.columns = 40;  // several blocks
+    const std::vector<uint8_t> file = random_deform_rig(6, options);
+    MienDeformerDesc half = {};
+    half.storage = MIEN_STORAGE_16_BIT;
+    half.weights = MIEN_WEIGHTS_FIX;
+    MienDeformerDesc exact = half;
+    exact.storage = MIEN_STORAGE_32_BIT;
+    Deformed d(file, half), as_floats(file, exact);
+    auto info = sized<MienDeformerInfo>(), other = info;
+    ASSERT_EQ(mien_deformer_info(d.deformer.get(), &info), MIEN_OK);
+    ASSERT_EQ(mien_deformer_info(as_floats.deformer.get(), &other), MIEN_OK);
+    EXPECT_EQ(info.storage, uint32_t{MIEN_STORAGE_16_BIT});
+    EXPECT_EQ(other.storage, uint32_t{MIEN_STORAGE_32_BIT});
+    EXPECT_LT(info.deformer_bytes, other.deformer_bytes * 9 / 10);
+    const double diagonal = PlainDeformer{d.dna->view}.diagonal(0);
+    for (const uint32_t seed : {1u, 2u, 3u}) {
+      const DeformValues values = random_values(d.rig.get(), seed);
+      for (Deformed* each : {&d, &as_floats}) {
+        each->update(values);
+        each->deform(0, MIEN_NORMALS_SKINNED);
+      }
+      const double off = largest_difference(d.positions(0), as_floats.positions(0));
+      EXPECT_GT(off, 0);
+      EXPECT_LT(off, 1e-3 * diagonal);
+      EXPECT_LT(largest_difference(d.normals(0), as_floats.normals(0)), 1e-2);
+    }
+  }
+}
+
+TEST(Deform, SixteenBitsOfATargetAreWithinHalfAStep) {
+  MienDeformerDesc half = {};
+  half.storage = MIEN_STORAGE_16_BIT;
+  const std::vector<uint8_t> file = random_deform_rig(7, {});
+  Deformed d(file, half), as_floats(file);
+  const MienMesh mesh = mesh_of(d.deformer.get(), 0);
+  std::vector<float> rounded(mesh.position_count * size_t{3}), exact = rounded;
+  ASSERT_GT(mesh.target_count, 0u);
+  for (uint32_t t = 0; t < mesh.target_count; ++t) {
+    ASSERT_EQ(mien_deformer_target(d.deformer.get(), 0, t, rounded.data(), rounded.size()),
+              MIEN_OK);
+    ASSERT_EQ(mien_deformer_target(as_floats.deformer.get(), 0, t, exact.data(), exact.size()),
+              MIEN_OK);
+    EXPECT_LE(largest_difference(span_of(rounded), span_of(exact)), 2 * 0.5 / 32767 * 1.01);
+  }
+  EXPECT_NE(rounded, exact);
+  MienIndex16View joints = {};
+  MienFloatView weights = {};
+  EXPECT_EQ(mien_deformer_influences(d.deformer.get(), 0, 0, &joints, &weights),
+            MIEN_ERROR_UNSUPPORTED);
+  EXPECT_EQ(joints.count + weights.count, 0u);
+}
+
+TEST(Deform, SixteenBitsTakeAnyWeightsAndDeltas) {
+  const std::vector<uint8_t> file = changed_rig([](Arena& arena, DnaView& view) {
+    Mesh& mesh = view.geom.meshes[0];
+    mesh.skin_weights[0] = {be<float>(arena, {1.5f, -0.5f}), be<uint16_t>(arena, {0, 1})};
+    mesh.skin_weights[1] = {be<float>(arena, {1e-45f}), be<uint16_t>(arena, {1})};
+    mesh.skin_weights[2] = {be<float>(arena, {3e38f, -3e38f}), be<uint16_t>(arena, {0, 1})};
+    mesh.blend_shape_targets[0].deltas.zs = be<float>(arena, {1e-45f, 3e38f});
+  });
+  MienDeformerDesc half = {};
+  half.storage = MIEN_STORAGE_16_BIT;
+  Deformed d(file, half);
+  d.update(random_values(d.rig.get(), 3));
+  d.deform(0);
+  const MienMesh mesh = mesh_of(d.deformer.get(), 0);
+  std::vector<float> target(mesh.position_count * size_t{3});
+  ASSERT_EQ(mien_deformer_target(d.deformer.get(), 0, 0, target.data(), target.size()), MIEN_OK);
+  EXPECT_NEAR(*std::max_element(target.begin(), target.end()) / 3e38f, 1, 1e-4);
+}
+
+TEST(Deform, ManyInfluencesKeepTheirWeights) {
+  DeformRigOptions options;
+  options.joints = 90;
+  options.least_influences = options.max_influences = 70;
+  MienDeformerDesc half = {};
+  half.storage = MIEN_STORAGE_16_BIT;
+  Deformed d(random_deform_rig(4, options), half);
+  MienIndex16View joints = {};
+  MienFloatView weights = {};
+  EXPECT_EQ(mien_deformer_influences(d.deformer.get(), 0, 0, &joints, &weights), MIEN_OK);
+  const DeformValues values = random_values(d.rig.get(), 1);
+  d.update(values);
+  d.deform(0);
+  const PlainDeformer plain{d.dna->view};
+  EXPECT_LE(largest_error(d.positions(0), plain.positions(0, values)), 1e-3 * plain.diagonal(0));
+}
+
 // Normals -----------------------------------------------------------------------------------------
 
 TEST(Deform, NormalsOfTheDescAreTheDefault) {

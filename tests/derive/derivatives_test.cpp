@@ -347,6 +347,7 @@ TEST(Derivatives, OfMatricesAndPositionsFollowTheModel) {
     const bool quaternions = round % 3 == 2, adds = round % 6 == 1;
     MienDeformerDesc desc = sized<MienDeformerDesc>();
     desc.compose = adds ? MIEN_COMPOSE_EULER_ADD : MIEN_COMPOSE_PRODUCT;
+    desc.storage = round % 4 == 3 ? MIEN_STORAGE_16_BIT : MIEN_STORAGE_32_BIT;
     const Deformed made(random_deform_rig(round, options), desc,
                         quaternions ? MIEN_ROTATION_OUTPUT_QUATERNION : MIEN_ROTATION_OUTPUT_EULER);
     const PlainDeformer plain = {made.dna->view, quaternions, adds, false};

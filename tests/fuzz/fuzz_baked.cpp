@@ -40,7 +40,10 @@ void add_seeds(const MienDna* dna) {
     MienRig* rig = nullptr;
     MienDeformer* deformer = nullptr;
     if (mien_rig_create(dna, &desc, &rig, nullptr) != MIEN_OK) abort();
-    if (kind >= 4 && mien_deformer_create(dna, rig, nullptr, &deformer, nullptr) != MIEN_OK)
+    MienDeformerDesc geometry = {};
+    geometry.struct_size = sizeof(geometry);
+    geometry.storage = desc.storage;
+    if (kind >= 4 && mien_deformer_create(dna, rig, &geometry, &deformer, nullptr) != MIEN_OK)
       abort();
     size_t size = 0;
     if (mien_bake_memory(rig, deformer, nullptr, 0, &size, nullptr) != MIEN_OK) abort();

@@ -133,11 +133,9 @@ struct MeshPart {
   explicit MeshPart(uint32_t seed)
       : numbers(seed), positions(kPositions * 4, &numbers),
         weights(kPositions * kMaxInfluences, &numbers), matrices(kJoints * 16, &numbers),
-        deltas(kPositions * 3 * 3 + 1, &numbers), normals(kPositions * 3 * 4, nullptr),
+        deltas(kPositions * 3 * 3 + 1, &numbers), normals(kPositions * 3 * 3 + 1, nullptr),
         directions(kPositions * 4, &numbers) {
-    for (uint32_t i = 0; i < kPositions * 3 * 4; ++i) {
-      normals.data[i] = i % 4 < 3 ? deltas.data[i / 4 * 3 + i % 4] : 9;
-    }
+    std::copy(deltas.data, deltas.data + kPositions * 3 * 3, normals.data);
     for (uint32_t i = 0; i < kPositions * kMaxInfluences; ++i) {
       joints.push_back(static_cast<uint16_t>(numbers.below(kJoints)));
     }
@@ -177,23 +175,76 @@ struct MeshPart {
     args.influences = influences;
     args.mode = mode;
     kernels.skin_positions(args);
+    const std::vector<float> gathered = out_normals;
+    Aligned sorted(vertices.size() * 4, nullptr);
+    for (size_t k = 0; k < vertices.size(); ++k) {
+      const size_t vertex = vertices[k] & ~kHardEdge;
+      std::copy(normals.data + vertex * 3, normals.data + vertex * 3 + 3, sorted.data + k * 4);
+    }
+    args.sorted_normals = sorted.data;
+    kernels.skin_positions(args);
+    EXPECT_EQ(out_normals, gathered);
     out.insert(out.end(), out_normals.begin(), out_normals.end());
     return out;
   }
-  std::vector<float> recomputed(const KernelTable& kernels, uint32_t count) {
+  /// The positions with hard edges, counted from `first`, and their directions.
+  std::vector<uint32_t> hard_positions(uint32_t first, std::vector<float>& of_hard) const {
+    std::vector<uint32_t> hard;
+    for (uint32_t i = 0; i + 1 < first_vertex.size(); ++i) {
+      uint32_t marks = 0;
+      for (uint32_t k = first_vertex[i]; k < first_vertex[i + 1]; ++k) marks |= vertices[k];
+      if ((marks & kHardEdge) == 0) continue;
+      hard.push_back(first + i);
+      of_hard.insert(of_hard.end(), directions.data + i * 4, directions.data + i * 4 + 4);
+    }
+    return hard;
+  }
+  std::vector<float> recomputed(const KernelTable& kernels, uint32_t count, bool narrow) {
     Aligned points(kPositions * 3 + 1, nullptr), areas(kFaces * 4, nullptr);
     for (uint32_t i = 0; i < kPositions * 3; ++i) {
       points.data[i] = positions.data[i / 3 * 4 + i % 3];
     }
-    kernels.face_areas({points.data, faces.data(), areas.data, kFaces});
-    std::vector<float> result(vertices.size() * 3, -9);
-    kernels.sum_normals({areas.data, first_adjacent_face.data(), adjacent_faces.data(),
-                         first_vertex.data(), vertices.data(), normals.data, directions.data,
-                         result.data(), count});
+    const std::vector<uint16_t> few_faces(faces.begin(), faces.end()),
+        few_adjacent(adjacent_faces.begin(), adjacent_faces.end());
+    const auto either = [narrow](const auto& few, const auto& many) {
+      return narrow ? static_cast<const void*>(few.data()) : many.data();
+    };
+    kernels.face_areas({points.data, either(few_faces, faces), areas.data, kFaces, narrow});
+    std::vector<float> result(vertices.size() * 3, -9), of_hard;
+    const std::vector<uint32_t> hard = hard_positions(100, of_hard);
+    EXPECT_LT(hard.size(), kPositions);
+    kernels.sum_normals({areas.data, first_adjacent_face.data(),
+                         either(few_adjacent, adjacent_faces), first_vertex.data(), vertices.data(),
+                         normals.data, hard.data(), of_hard.data(), result.data(), 100,
+                         static_cast<uint32_t>(hard.size()), count, narrow});
     for (uint32_t f = 0; f < kFaces; ++f) {
       result.insert(result.end(), areas.data + f * 4, areas.data + f * 4 + 3);
     }
     return result;
+  }
+  /// The deltas rounded to 16 bits, by either kernel.
+  std::vector<float> with_rounded_target(const KernelTable& kernels, uint32_t count, bool fixed) {
+    constexpr float kScale = 1.0f / 32768;
+    std::vector<int16_t> numbers_of(deltas.count);
+    Aligned rounded(deltas.count, nullptr);
+    for (size_t i = 0; i < deltas.count; ++i) {
+      numbers_of[i] = static_cast<int16_t>(deltas.data[i] * 32767);
+    }
+    kernels.floats_from_fixed(numbers_of.data(), kScale, rounded.count, rounded.data);
+    for (size_t i = 0; i < rounded.count; ++i) {
+      EXPECT_EQ(rounded.data[i], float(numbers_of[i]) * kScale);
+    }
+    std::vector<uint16_t> at;
+    for (uint32_t i = 0; i < count; ++i) at.push_back(static_cast<uint16_t>(i * 7 % kPositions));
+    Aligned result(kPositions * 4, nullptr);
+    std::copy(positions.data, positions.data + kPositions * 4, result.data);
+    if (fixed) {
+      kernels.add_target_fixed({numbers_of.data(), at.data(), result.data, 0.7f * kScale, count});
+    } else {
+      kernels.add_target({rounded.data, at.data(), result.data, 0.7f, count});
+    }
+    for (uint32_t i = 0; i < kPositions; ++i) result.data[i * 4 + 3] = 0;
+    return {result.data, result.data + result.count};
   }
   std::vector<float> with_target(const KernelTable& kernels, uint32_t count) {
     std::vector<uint16_t> at;
@@ -225,7 +276,8 @@ TEST(KernelsDeform, MeshesHaveTheSameBitsWithinAFamily) {
         skin.add(made.data(), made.size());
       }
     }
-    const std::vector<float> recomputed = part.recomputed(*kernels, kPositions);
+    const std::vector<float> recomputed = part.recomputed(*kernels, kPositions, false);
+    EXPECT_EQ(part.recomputed(*kernels, kPositions, true), recomputed);
     normals.add(recomputed.data(), recomputed.size());
     const std::vector<float> shaped = part.with_target(*kernels, 100);
     targets.add(shaped.data(), shaped.size());
@@ -246,8 +298,12 @@ TEST(KernelsDeform, AnyCount) {
         expect_near(part.skinned(*kernels, count, 5, mode), part.skinned(scalar, count, 5, mode),
                     1e-4f);
       }
-      expect_near(part.recomputed(*kernels, count), part.recomputed(scalar, count), 1e-4f);
+      expect_near(part.recomputed(*kernels, count, count % 2 == 0),
+                  part.recomputed(scalar, count, false), 1e-4f);
       expect_near(part.with_target(*kernels, count), part.with_target(scalar, count), 1e-6f);
+      // The scale is a power of two, so both round alike.
+      EXPECT_EQ(part.with_rounded_target(*kernels, count, true),
+                part.with_rounded_target(*kernels, count, false));
     }
   }
 }
@@ -268,8 +324,10 @@ TEST(KernelsDeform, AnyNumberOfVerticesOfAPosition) {
     part.first_vertex.push_back(static_cast<uint32_t>(part.vertices.size()));
   }
   const size_t vertices = part.vertices.size();
-  Aligned normals(vertices * 4, &part.numbers), areas(kFaces * 4, &part.numbers);
-  for (int i = 0; i < 3; ++i) normals.data[40 + i] = 0;  // without a direction
+  Aligned normals(vertices * 3 + 1, &part.numbers), areas(kFaces * 4, &part.numbers);
+  for (int i = 0; i < 3; ++i) normals.data[30 + i] = 0;  // without a direction
+  std::vector<uint32_t> hard(count);                     // all: those without hard edges do no harm
+  for (uint32_t i = 0; i < count; ++i) hard[i] = i;
   for (const KernelTable* kernels : present_kernels()) {
     SCOPED_TRACE(kernels->name);
     std::vector<float> points(kPositions * 3), out[2], alone[2];
@@ -295,8 +353,9 @@ TEST(KernelsDeform, AnyNumberOfVerticesOfAPosition) {
       kernels->skin_positions(skin);
       kernels->sum_normals({areas.data, part.first_adjacent_face.data() + position,
                             part.adjacent_faces.data(), first_vertex, part.vertices.data(),
-                            normals.data, part.directions.data + position * 4, made[1].data(),
-                            positions});
+                            normals.data, hard.data() + position,
+                            part.directions.data + position * 4, made[1].data(), position,
+                            count - position, positions, false});
     };
     make(0, count, part.first_vertex.data(), out);
     for (uint32_t p = 0; p < count; ++p) {

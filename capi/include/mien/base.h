@@ -85,7 +85,8 @@ enum MienStatusCode {
     MIEN_ERROR_NAME = 8,             /* no such name or path */
     MIEN_ERROR_ISA = 9,              /* an instruction set that the CPU or the build does not support */
     MIEN_ERROR_MEMORY = 10,          /* the allocator returned NULL */
-    MIEN_ERROR_UNSUPPORTED = 11,     /* this build of the library only opens baked files */
+    MIEN_ERROR_UNSUPPORTED = 11,     /* this build of the library only opens baked files, or the object is
+                                        stored in a form that does not have what was asked for */
     MIEN_ERROR_FILE_OPEN = 20,       /* the file cannot be opened */
     MIEN_ERROR_FILE_READ = 21,       /* the file or stream cannot be read */
     MIEN_ERROR_FILE_WRITE = 22,      /* the file cannot be written */

@@ -65,7 +65,8 @@ typedef struct MienDeformerDesc {
     uint32_t weights; /* MIEN_WEIGHTS_... */
     uint32_t normals; /* MIEN_NORMALS_...: what MIEN_NORMALS_DEFAULT means for this deformer */
     uint32_t with_tangents; /* boolean: compute tangents, for mien_deformer_instance_write_vertices() */
-    uint32_t reserved;      /* 0 */
+    uint32_t storage;       /* MIEN_STORAGE_... of blend shape deltas and skin weights. With 16 bits they
+                               are integers with scales. See docs/deformation.md, 2.1 "16-bit storage" */
     const MienAllocator* allocator;
 } MienDeformerDesc;
 MIEN_DEFAULT(MienDeformerDesc, mien_deformer_desc_default)
@@ -118,6 +119,8 @@ typedef struct MienDeformerInfo {
     uint32_t mesh_count;     /* same as in the rig, which has their names: MIEN_KIND_MESH */
     uint64_t deformer_bytes; /* memory of the deformer, including its part of a baked file */
     uint64_t instance_bytes; /* memory of a deformer instance for all meshes */
+    uint32_t storage;        /* MIEN_STORAGE_... */
+    uint32_t reserved;       /* 0 */
 } MienDeformerInfo;
 MIEN_DEFAULT(MienDeformerInfo, mien_deformer_info_default)
 
@@ -154,7 +157,8 @@ MIEN_CHECKED MienStatus mien_deformer_mesh(const MienDeformer* deformer, uint32_
 
 /* Returns the influences of a position, as used for skinning: `out_joints` gets one index per influence,
  * `out_weights` gets one float per influence. There may be none.
- * Fails with MIEN_ERROR_INDEX if there is no such mesh or position. */
+ * Fails with MIEN_ERROR_INDEX if there is no such mesh or position, MIEN_ERROR_UNSUPPORTED if the weights
+ * are stored with 16 bits (MienDeformerDesc.storage). */
 MIEN_CHECKED MienStatus mien_deformer_influences(const MienDeformer* deformer, uint32_t mesh,
                                                  uint32_t position, MienIndex16View* out_joints,
                                                  MienFloatView* out_weights);

@@ -29,7 +29,7 @@ namespace Mien {
     Isa = 9,
     /// <summary>the allocator returned NULL</summary>
     Memory = 10,
-    /// <summary>this build of the library only opens baked files</summary>
+    /// <summary>this build of the library only opens baked files, or the object is stored in a form that does not have what was asked for</summary>
     Unsupported = 11,
     /// <summary>the file cannot be opened</summary>
     FileOpen = 20,
@@ -659,7 +659,7 @@ namespace Mien.Native {
       new[] { sizeof(MienInstanceStatistics), 40 },
       new[] { sizeof(MienBatchDesc), 24 },
       new[] { sizeof(MienDeformerDesc), 40 },
-      new[] { sizeof(MienDeformerInfo), 56 },
+      new[] { sizeof(MienDeformerInfo), 64 },
       new[] { sizeof(MienMesh), 152 },
       new[] { sizeof(MienDeformerInstanceDesc), 24 },
       new[] { sizeof(MienVertexStream), 16 },
@@ -1186,8 +1186,8 @@ namespace Mien.Native {
     public Normals Normals;
     /// <summary>compute tangents, for mien_deformer_instance_write_vertices()</summary>
     public uint WithTangents;
-    /// <summary>0</summary>
-    public uint Reserved;
+    /// <summary>MIEN_STORAGE_...; 16-bit: blend shape deltas and skin weights as 16-bit integers with scales, and neutral positions stored once. Positions differ by about 1/65000 of what they move; see docs/deformation.md, 2 "Positions"</summary>
+    public Storage Storage;
     public MienAllocator* Allocator;
 
     /// <summary>All fields zero but StructSize.</summary>
@@ -1217,6 +1217,10 @@ namespace Mien.Native {
     public ulong DeformerBytes;
     /// <summary>memory of a deformer instance for all meshes</summary>
     public ulong InstanceBytes;
+    /// <summary>MIEN_STORAGE_...</summary>
+    public Storage Storage;
+    /// <summary>0</summary>
+    public uint Reserved;
 
     /// <summary>All fields zero but StructSize.</summary>
     public static MienDeformerInfo Create() {
@@ -3591,7 +3595,8 @@ namespace Mien.Native {
 
     /// <summary>Returns the influences of a position, as used for skinning: `out_joints` gets one index per influence,
     /// `out_weights` gets one float per influence. There may be none.
-    /// Fails with MIEN_ERROR_INDEX if there is no such mesh or position.</summary>
+    /// Fails with MIEN_ERROR_INDEX if there is no such mesh or position, MIEN_ERROR_UNSUPPORTED if the weights
+    /// are stored with 16 bits (MienDeformerDesc.storage).</summary>
     [DllImport("mien", CallingConvention = CallingConvention.Cdecl)]
     public static extern Status mien_deformer_influences(DeformerHandle deformer, uint mesh, uint position, MienIndex16View* out_joints, MienFloatView* out_weights);
 

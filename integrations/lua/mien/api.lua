@@ -276,7 +276,7 @@ typedef struct MienDeformerDesc {
     uint32_t weights; /* MIEN_WEIGHTS_... */
     uint32_t normals; /* MIEN_NORMALS_...: what MIEN_NORMALS_DEFAULT means for this deformer */
     uint32_t with_tangents; /* compute tangents, for mien_deformer_instance_write_vertices() */
-    uint32_t reserved; /* 0 */
+    uint32_t storage; /* MIEN_STORAGE_...; 16-bit: blend shape deltas and skin weights as 16-bit integers with scales, and neutral positions stored once. Positions differ by about 1/65000 of what they move; see docs/deformation.md, 2 "Positions" */
     MienAllocator const* allocator;
 } MienDeformerDesc;
 
@@ -293,6 +293,8 @@ typedef struct MienDeformerInfo {
     uint32_t mesh_count; /* same as in the rig, which has their names: MIEN_KIND_MESH */
     uint64_t deformer_bytes; /* memory of the deformer, including its part of a baked file */
     uint64_t instance_bytes; /* memory of a deformer instance for all meshes */
+    uint32_t storage; /* MIEN_STORAGE_... */
+    uint32_t reserved; /* 0 */
 } MienDeformerInfo;
 
 /* A neutral mesh. Its views are valid until the deformer is destroyed. */
@@ -1641,7 +1643,8 @@ MienStatus mien_deformer_mesh(MienDeformer const* deformer, uint32_t mesh, MienM
 
 /* Returns the influences of a position, as used for skinning: `out_joints` gets one index per influence,
 `out_weights` gets one float per influence. There may be none.
-Fails with MIEN_ERROR_INDEX if there is no such mesh or position. */
+Fails with MIEN_ERROR_INDEX if there is no such mesh or position, MIEN_ERROR_UNSUPPORTED if the weights
+are stored with 16 bits (MienDeformerDesc.storage). */
 MienStatus mien_deformer_influences(MienDeformer const* deformer, uint32_t mesh, uint32_t position, MienIndex16View* out_joints, MienFloatView* out_weights);
 
 /* Writes a blend shape target to `out_deltas`: 3 floats per position, the offset at channel weight 1.
@@ -3147,7 +3150,7 @@ api.sizes = {
   MienInstanceStatistics = 40,
   MienBatchDesc = 24,
   MienDeformerDesc = 40,
-  MienDeformerInfo = 56,
+  MienDeformerInfo = 64,
   MienMesh = 152,
   MienDeformerInstanceDesc = 24,
   MienVertexStream = 16,

@@ -4,6 +4,8 @@
 #include <cstdlib>
 
 #include "integrations/program/commands/options.h"
+#include "integrations/program/io/bound_clip.h"
+#include "integrations/program/io/clip_file.h"
 #include "integrations/program/io/output.h"
 #include "integrations/program/io/rig_file.h"
 #include "integrations/program/reduce/reduce.h"
@@ -17,35 +19,72 @@ struct BakeOptions {
   OutputFile output;
   bool no_geometry = false;
   std::string tolerance, report;
+  std::vector<std::string> regions, clips;
   LoadOptions load;
   RigOptions evaluation;
 };
 
-/// "0.02mm,0.1mm" -> tolerances in the unit of the file.
-std::vector<double> parse_tolerances(const std::string& list, bool file_in_meters) {
+/// "0.02mm" -> a distance in the unit of the file. `option` is for the message.
+double parse_distance(const std::string& option, const std::string& word, bool file_in_meters) {
   constexpr struct {
     const char* name;
     double meters;
   } kUnits[] = {{"mm", 1e-3}, {"cm", 1e-2}, {"um", 1e-6}, {"m", 1}};
-  std::vector<double> tolerances;
+  char* rest = nullptr;
+  double distance = std::strtod(word.c_str(), &rest);
+  bool known = *rest == 0;
+  for (const auto& unit : kUnits) {
+    if (known || rest != std::string(unit.name)) continue;
+    distance *= unit.meters * (file_in_meters ? 1 : 100);
+    known = true;
+  }
+  if (!known || rest == word.c_str() || !(distance > 0) || !std::isfinite(distance)) {
+    fail_usage(option, "\"" + word + "\" is not a distance above 0",
+               "give numbers with um, mm, cm, m or nothing for the unit of the file: 0.02mm");
+  }
+  return distance;
+}
+
+/// "0.02mm,0.1mm", and regions such as "lip*=0.01mm".
+Tolerances parse_tolerances(const BakeOptions& options, bool file_in_meters) {
+  const std::string& list = options.tolerance;
+  std::vector<double> lods;
   for (size_t first = 0, end = 0; end != std::string::npos; first = end + 1) {
     end = list.find(',', first);
-    const std::string word = list.substr(first, end - first);
-    char* rest = nullptr;
-    double tolerance = std::strtod(word.c_str(), &rest);
-    bool known = *rest == 0;
-    for (const auto& unit : kUnits) {
-      if (known || rest != std::string(unit.name)) continue;
-      tolerance *= unit.meters * (file_in_meters ? 1 : 100);
-      known = true;
+    lods.push_back(
+        parse_distance("--tolerance " + list, list.substr(first, end - first), file_in_meters));
+  }
+  Tolerances tolerances(lods);
+  for (const std::string& region : options.regions) {
+    const size_t sign = region.rfind('=');
+    if (sign == std::string::npos || sign == 0) {
+      fail_usage("--region " + region, "there are no names and a distance with = between",
+                 "give names of joints or meshes and a distance: --region \"*lip*=0.01mm\"");
     }
-    if (!known || rest == word.c_str() || !(tolerance > 0) || !std::isfinite(tolerance)) {
-      fail_usage("--tolerance " + list, "\"" + word + "\" is not a distance above 0",
-                 "give numbers with um, mm, cm, m or nothing for the unit of the file: 0.02mm");
-    }
-    tolerances.push_back(tolerance);
+    tolerances.regions.push_back(
+        {region.substr(0, sign),
+         parse_distance("--region " + region, region.substr(sign + 1), file_in_meters)});
   }
   return tolerances;
+}
+
+/// All frames of a clip, on a rig.
+Performance read_performance(const std::string& path, const MienRig* rig, const Session& session) {
+  const ClipFile clip = open_clip_file(path);
+  const ClipBinding binding =
+      bind_clip(clip.clip.get(), rig, NamesFile(), "cannot bind clip", clip.shown, session);
+  MienFloatView initial{};
+  check(mien_rig_initial_raw_controls(rig, &initial), nullptr, "cannot reduce", clip.shown);
+  Performance performance;
+  performance.shown = clip.shown;
+  for_each_frame(clip, [&](uint32_t, const float* values) {
+    std::vector<float>& raw =
+        performance.frames.emplace_back(initial.data, initial.data + initial.count);
+    check(mien_clip_binding_apply(binding.get(), values, clip.info.channel_count, raw.data(),
+                                  raw.size()),
+          nullptr, "cannot reduce", clip.shown);
+  });
+  return performance;
 }
 
 void write_baked(const MienRig* rig, const MienDeformer* deformer, const std::string& path,
@@ -67,7 +106,13 @@ void bake_reduced(const BakeOptions& options, const MienRigDesc& desc, const Rig
                   const Session& session) {
   const bool meters = file.info.translation_unit == MIEN_TRANSLATION_UNIT_METERS;
   const std::string unit = meters ? "m" : "cm";
-  const ReduceOptions how = {parse_tolerances(options.tolerance, meters), desc, file.shown};
+  ReduceOptions how = {parse_tolerances(options, meters), desc, file.shown, {}};
+  if (!options.clips.empty()) {
+    const Rig rig = create_rig(file, desc);
+    for (const std::string& path : options.clips) {
+      how.performances.push_back(read_performance(path, rig.get(), session));
+    }
+  }
   Reduced reduced;
   {
     const Progress progress(session, "reducing " + file.shown);
@@ -79,11 +124,11 @@ void bake_reduced(const BakeOptions& options, const MienRigDesc& desc, const Rig
          "give a larger --tolerance, or leave out --storage");
   }
   if (!session.quiet) {
-    std::fputs(reduction_text(reduced, how.tolerances, unit).c_str(), stderr);
+    std::fputs(reduction_text(reduced, unit).c_str(), stderr);
   }
   write_baked(reduced.rig.get(), reduced.deformer.get(), options.output.path, session);
   if (options.report.empty()) return;
-  const std::string json = reduction_json(reduced, how.tolerances, unit);
+  const std::string json = reduction_json(reduced, unit);
   Output report(options.report);
   report.write(json);
   report.commit();
@@ -104,7 +149,12 @@ void run(const BakeOptions& options, const Session& session) {
     refuse_missing_folder(options.report);
     refuse_replacing({options.report, options.output.force}, {options.rig, options.output.path});
   }
-  if (!options.tolerance.empty()) parse_tolerances(options.tolerance, false);
+  if (!options.tolerance.empty()) {
+    parse_tolerances(options, false);
+  } else if (!options.regions.empty() || !options.clips.empty()) {
+    fail_usage(options.regions.empty() ? "--clip" : "--region",
+               "nothing is reduced without --tolerance", "add --tolerance");
+  }
   const RigFile file = open_rig_file(options.rig, desc, session);
   if (!options.tolerance.empty()) {
     if ((desc.layers & MIEN_LAYER_GEOMETRY) == 0 || !has_geometry(file)) {
@@ -140,6 +190,18 @@ Command add_bake_command(CLI::App& app, const Session& session) {
                    "Reduce the rig: no position of a mesh moves farther than this. A list\nis for "
                    "LODs 0, 1, ..., the last one for all others")
       ->type_name("0.02mm");
+  bake->add_option(
+          "--region", options->regions,
+          "With --tolerance: another one for positions of a mesh or a joint, the\none that "
+          "moves them most; the first of several that fit counts")
+      ->type_name("NAMES=0.01mm")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  bake->add_option("--clip", options->clips,
+                   "With --tolerance: measure the distance in all frames of this clip, too")
+      ->type_name("CLIP")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   bake->add_option("--report", options->report, "Write what --tolerance did as JSON")
       ->type_name("R.json");
   add_load_options(*bake, options->load);
@@ -161,6 +223,8 @@ Command add_bake_command(CLI::App& app, const Session& session) {
       "  mien bake head.dna -o head.rig\n"
       "  mien bake head.dna -o phone.rig --max-lod 3 --storage f16\n"
       "  mien bake head.dna -o small.rig --tolerance 0.02mm,0.1mm --report small.json\n"
+      "  mien bake head.dna -o small.rig --tolerance 0.05mm --region \"*lip*=0.01mm\" --clip "
+      "a.clip\n"
       "  mien bake head.dna -o server.rig --no-geometry\n"
       "  mien eval head.rig --input frames.json");
   return {bake, [options, &session] { run(*options, session); }};

@@ -9,13 +9,16 @@ void must(MienStatus status, const MienError* error = nullptr, const std::string
 }
 }  // namespace
 
-Character::Character(const MienDna* dna, const MienRigDesc& desc, const std::string& shown) {
+Character::Character(const MienDna* dna, const MienRigDesc& desc, uint32_t deformer_storage,
+                     const std::string& shown) {
   auto error = sized<MienError>();
   MienRig* made_rig = nullptr;
   must(mien_rig_create(dna, &desc, &made_rig, &error), &error, shown);
   rig.reset(made_rig);
   MienDeformer* made_deformer = nullptr;
-  must(mien_deformer_create(dna, made_rig, nullptr, &made_deformer, &error), &error, shown);
+  MienDeformerDesc geometry = mien_deformer_desc_default();
+  geometry.storage = deformer_storage;
+  must(mien_deformer_create(dna, made_rig, &geometry, &made_deformer, &error), &error, shown);
   deformer.reset(made_deformer);
   MienInstance* made_instance = nullptr;
   must(mien_instance_create(made_rig, nullptr, &made_instance, &error), &error, shown);

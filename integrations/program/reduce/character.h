@@ -15,7 +15,8 @@ struct Character {
   Instance instance;
   DeformerInstance pose;
 
-  Character(const MienDna* dna, const MienRigDesc& desc, const std::string& shown);
+  Character(const MienDna* dna, const MienRigDesc& desc, uint32_t deformer_storage,
+            const std::string& shown);
 
   MienMutableFloatView raw() const;
   void evaluate(uint32_t lod);
@@ -25,7 +26,7 @@ struct Character {
   uint64_t deformer_bytes() const;
   MienMesh mesh(uint32_t index) const;
   MienIndex16View meshes_of(uint32_t lod) const;
-  /// The influences of a position: as many joints as weights.
+  /// The influences of a position: as many joints as weights. With 32-bit storage only.
   void influences(uint32_t mesh, uint32_t position, MienIndex16View& joints,
                   MienFloatView& weights) const;
 };

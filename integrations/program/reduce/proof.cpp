@@ -6,15 +6,29 @@
 
 namespace mien::cli {
 
-ProofPoses::ProofPoses(const MienRig* rig)
-    : rig_(rig), raw_count_(rig_count(rig, MIEN_KIND_RAW_CONTROL)),
+ProofPoses::ProofPoses(const MienRig* rig, const std::vector<Performance>& performances)
+    : rig_(rig), performances_(performances), raw_count_(rig_count(rig, MIEN_KIND_RAW_CONTROL)),
       psd_count_(rig_count(rig, MIEN_KIND_PSD_CONTROL)) {
   MienFloatView initial{};
   check(mien_rig_initial_raw_controls(rig, &initial), nullptr, "cannot reduce", "");
   initial_.assign(initial.data, initial.data + initial.count);
+  for (const Performance& performance : performances) frame_count_ += performance.frames.size();
+}
+
+const Performance* ProofPoses::performance_of(size_t& pose) const {
+  if (pose < single_count() + kSparse) return nullptr;
+  pose -= single_count() + kSparse;
+  const Performance* performance = performances_.data();
+  for (; pose >= performance->frames.size(); ++performance) pose -= performance->frames.size();
+  return performance;
 }
 
 void ProofPoses::set(size_t pose, MienMutableFloatView raw) const {
+  if (const Performance* performance = performance_of(pose)) {
+    const std::vector<float>& frame = performance->frames[pose];
+    std::copy(frame.begin(), frame.end(), raw.data);
+    return;
+  }
   std::copy(initial_.begin(), initial_.end(), raw.data);
   if (pose < raw_count_) {
     raw.data[pose] = 1;
@@ -38,6 +52,9 @@ void ProofPoses::set(size_t pose, MienMutableFloatView raw) const {
 }
 
 std::string ProofPoses::describe(size_t pose) const {
+  if (const Performance* performance = performance_of(pose)) {
+    return "frame " + std::to_string(pose) + " of " + performance->shown;
+  }
   if (pose < raw_count_) {
     return rig_name(rig_, MIEN_KIND_RAW_CONTROL, static_cast<uint32_t>(pose)) + " at 1";
   }
@@ -58,17 +75,21 @@ std::string ProofPoses::describe(size_t pose) const {
   return "sample " + std::to_string(pose - single_count()) + ": " + text;
 }
 
-double tolerance_at(const std::vector<double>& tolerances, uint32_t lod) {
-  return tolerances[std::min<size_t>(lod, tolerances.size() - 1)];
-}
+namespace {
+struct Farthest {
+  double square = 0;
+  uint32_t mesh = 0, position = 0;
+};
+}  // namespace
 
-Proof prove(Character& original, Character& reduced, const std::vector<double>& tolerances,
-            double limit) {
-  const ProofPoses poses(original.rig.get());
+Proof prove(Character& original, Character& reduced, const Tolerances& tolerances, double limit,
+            const std::vector<Performance>& performances) {
+  const ProofPoses poses(original.rig.get(), performances);
   const uint32_t lod_count = rig_info(original.rig.get()).lod_count;
   Proof proof;
   proof.pose_count = poses.count();
   proof.lods.resize(lod_count);
+  proof.regions.resize(tolerances.regions.size() + 1);
   std::vector<double> squares(lod_count);
   std::vector<uint64_t> compared(lod_count);
   size_t worst = 0;
@@ -79,7 +100,8 @@ Proof prove(Character& original, Character& reduced, const std::vector<double>& 
       LodProof& of_lod = proof.lods[lod];
       original.evaluate(lod);
       reduced.evaluate(lod);
-      double farthest = of_lod.worst * of_lod.worst;
+      // Of each region, in this pose.
+      std::vector<Farthest> farthest(proof.regions.size());
       const MienIndex16View meshes = original.meshes_of(lod);
       for (size_t m = 0; m < meshes.count; ++m) {
         const MienFloatView before = original.deformed(meshes.data[m]);
@@ -92,24 +114,35 @@ Proof prove(Character& original, Character& reduced, const std::vector<double>& 
             square += off * off;
           }
           sum += square;
-          if (square <= farthest) continue;
-          farthest = square;
-          of_lod.pose = pose;
-          of_lod.mesh = meshes.data[m];
-          of_lod.position = static_cast<uint32_t>(i / 3);
+          const auto position = static_cast<uint32_t>(i / 3);
+          Farthest& of_region = farthest[tolerances.region_at(meshes.data[m], position)];
+          if (square > of_region.square) of_region = {square, meshes.data[m], position};
         }
         squares[lod] += sum;
         compared[lod] += before.count / 3;
       }
-      of_lod.worst = std::sqrt(farthest);
-      const double share = of_lod.worst / tolerance_at(tolerances, lod);
-      // Not a number is too far, too.
-      if (!(share <= proof.share) || !std::isfinite(squares[lod])) {
-        proof.share = std::isfinite(squares[lod]) ? share : INFINITY;
-        worst = pose;
+      for (size_t r = 0; r < farthest.size(); ++r) {
+        const double distance = std::sqrt(farthest[r].square);
+        const double share = distance / tolerances.at(lod, r);
+        if (distance > of_lod.worst) {
+          of_lod.worst = distance;
+          of_lod.pose = pose;
+          of_lod.mesh = farthest[r].mesh;
+          of_lod.position = farthest[r].position;
+        }
+        if (share > proof.regions[r].share) {
+          proof.regions[r] = {distance, share, pose, lod, farthest[r].mesh, farthest[r].position,
+                              ""};
+        }
+        // Not a number is too far, too.
+        if (!(share <= proof.share) || !std::isfinite(squares[lod])) {
+          proof.share = std::isfinite(squares[lod]) ? share : INFINITY;
+          worst = pose;
+        }
       }
     }
   }
+  for (RegionProof& region : proof.regions) region.shown_pose = poses.describe(region.pose);
   for (uint32_t lod = 0; lod < lod_count; ++lod) {
     if (compared[lod]) proof.lods[lod].rms = std::sqrt(squares[lod] / double(compared[lod]));
   }

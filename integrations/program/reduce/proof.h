@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "integrations/program/reduce/character.h"
+#include "integrations/program/reduce/tolerances.h"
 
 namespace mien::cli {
 
@@ -14,37 +14,54 @@ struct LodProof {
   uint32_t mesh = 0, position = 0;
 };
 
+/// Over all LODs.
+struct RegionProof {
+  double worst = 0, share = 0;  // the largest share of its tolerance, and the distance there
+  size_t pose = 0;
+  uint32_t lod = 0, mesh = 0, position = 0;
+  std::string shown_pose;
+};
+
 struct Proof {
   size_t pose_count = 0;
   std::vector<LodProof> lods;
-  std::string worst_pose;  // of all LODs, in shares of their tolerances
-  double share = 0;        // the largest distance by the tolerance of its LOD
+  std::vector<RegionProof> regions;  // those without a region, then each region
+  std::string worst_pose;            // of all LODs, in shares of their tolerances
+  double share = 0;                  // the largest distance by the tolerance of its LOD
+};
+
+/// Frames that the caller gives.
+struct Performance {
+  std::string shown;                       // the file
+  std::vector<std::vector<float>> frames;  // raw controls
 };
 
 /// Each raw control at 1; the raw controls of each corrective at 1; then sparse poses: 2 to 10 % of the raw
-/// controls at random values. Always the same ones. What is not set keeps its initial value.
+/// controls at random values; then performances. Always the same ones. What is not set keeps its initial value.
 class ProofPoses {
  public:
-  explicit ProofPoses(const MienRig* rig);
+  ProofPoses(const MienRig* rig, const std::vector<Performance>& performances);
 
   static constexpr size_t kSparse = 1000;
   size_t single_count() const { return raw_count_ + psd_count_; }
-  size_t count() const { return single_count() + kSparse; }
+  size_t count() const { return single_count() + kSparse + frame_count_; }
   void set(size_t pose, MienMutableFloatView raw) const;
   std::string describe(size_t pose) const;
 
  private:
+  /// The performance of a pose, which becomes the number of its frame; null for other poses.
+  const Performance* performance_of(size_t& pose) const;
+
   const MienRig* rig_;
+  const std::vector<Performance>& performances_;
   uint32_t raw_count_, psd_count_;
+  size_t frame_count_ = 0;
   std::vector<float> initial_;
 };
 
-/// The tolerance of a LOD: the last one of the list serves all others.
-double tolerance_at(const std::vector<double>& tolerances, uint32_t lod);
-
 /// Compares all positions of all LODs in all poses. Stops at the first pose in which a distance exceeds
 /// `limit` times its tolerance: then `share` is above `limit`, and the rest of the result incomplete.
-Proof prove(Character& original, Character& reduced, const std::vector<double>& tolerances,
-            double limit);
+Proof prove(Character& original, Character& reduced, const Tolerances& tolerances, double limit,
+            const std::vector<Performance>& performances = {});
 
 }  // namespace mien::cli

@@ -63,10 +63,10 @@ std::vector<size_t> rows_in_order(const PrunedGroup& group) {
 
 }  // namespace
 
-Pruning::Pruning(const MienDna* dna, Character& original, const std::vector<double>& tolerances)
+Pruning::Pruning(const MienDna* dna, Character& original, const Tolerances& tolerances)
     : original_(original), reaches_(joint_reaches(original, tolerances)),
       influence_importance_(mien::cli::influence_importance(original, tolerances)),
-      least_tolerance_(*std::min_element(tolerances.begin(), tolerances.end())) {
+      least_tolerance_(tolerances.least()) {
   const bool degrees = rig_info(original.rig.get()).rotation_unit == MIEN_ROTATION_UNIT_DEGREES;
   radians_ = degrees ? 3.14159265358979323846 / 180 : 1;
   MienDocument* made = nullptr;

@@ -23,7 +23,7 @@ struct PrunedGroup {
 
 class Pruning {
  public:
-  Pruning(const MienDna* dna, Character& original, const std::vector<double>& tolerances);
+  Pruning(const MienDna* dna, Character& original, const Tolerances& tolerances);
 
   /// The original without what is below the limits.
   Dna prune(const PruneLimits& limits);

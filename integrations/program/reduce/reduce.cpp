@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "integrations/program/reduce/reduce.h"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -34,26 +35,33 @@ Reduced reduce_rig(const MienDna* dna, const ReduceOptions& options) {
   constexpr double kOfStorage = 0.5, kOfDeformer = 0.5;  // the share that each may take
   MienRigDesc exact = options.rig, desc = options.rig;
   exact.storage = MIEN_STORAGE_32_BIT;
-  desc.storage = MIEN_STORAGE_16_BIT;
-  Character original(dna, exact, options.shown);
-  Pruning pruning(dna, original, options.tolerances);
+  Character original(dna, exact, MIEN_STORAGE_32_BIT, options.shown);
   Reduced reduced;
+  reduced.tolerances = options.tolerances;
+  find_regions(original, reduced.tolerances);
+  Pruning pruning(dna, original, reduced.tolerances);
   const auto measure = [&](double limit) {
     reduced.dna = pruning.prune(reduced.limits);
-    Character character(reduced.dna.get(), desc, options.shown);
-    reduced.proof = prove(original, character, options.tolerances, limit);
+    Character character(reduced.dna.get(), desc, reduced.deformer_storage, options.shown);
+    reduced.proof = prove(original, character, reduced.tolerances, limit, options.performances);
     reduced.after = sizes_of(character, pruning);
     reduced.rig = std::move(character.rig);
     reduced.deformer = std::move(character.deformer);
     return reduced.proof.share <= limit;
   };
-  measure(kOfStorage);
-  reduced.before = {original.rig_bytes(), original.deformer_bytes(), pruning.matrix_entries,
-                    pruning.deltas, pruning.influences};
-  if (reduced.proof.share > kOfStorage && options.rig.storage == MIEN_STORAGE_32_BIT) {
-    desc.storage = MIEN_STORAGE_32_BIT;
+  constexpr struct {
+    uint32_t rig, deformer;
+  } kStorages[] = {{MIEN_STORAGE_16_BIT, MIEN_STORAGE_16_BIT},
+                   {MIEN_STORAGE_32_BIT, MIEN_STORAGE_16_BIT},
+                   {MIEN_STORAGE_32_BIT, MIEN_STORAGE_32_BIT}};
+  for (const auto& storage : kStorages) {
+    desc.storage = std::max(storage.rig, options.rig.storage);
+    reduced.deformer_storage = storage.deformer;
+    if (measure(kOfStorage)) break;
   }
   reduced.storage = desc.storage;
+  reduced.before = {original.rig_bytes(), original.deformer_bytes(), pruning.matrix_entries,
+                    pruning.deltas, pruning.influences};
   reduced.limits.deformer = limit_of(first_that_holds([&](int step) {
     reduced.limits = {0, limit_of(step)};
     return measure(kOfDeformer);
@@ -67,8 +75,7 @@ Reduced reduce_rig(const MienDna* dna, const ReduceOptions& options) {
   return reduced;
 }
 
-std::string reduction_text(const Reduced& reduced, const std::vector<double>& tolerances,
-                           const std::string& unit) {
+std::string reduction_text(const Reduced& reduced, const std::string& unit) {
   std::string text;
   const auto add = [&text](const char* format, auto... values) {
     char line[256];
@@ -81,7 +88,9 @@ std::string reduction_text(const Reduced& reduced, const std::vector<double>& to
     add("  %-22s %12llu -> %12llu  (%.1f %%)\n", name, static_cast<unsigned long long>(before),
         static_cast<unsigned long long>(after), share);
   };
-  add("Reduced, %s storage\n", reduced.storage == MIEN_STORAGE_16_BIT ? "16-bit" : "32-bit");
+  const auto bits = [](uint32_t storage) { return storage == MIEN_STORAGE_16_BIT ? 16 : 32; };
+  add("Reduced, with %d-bit storage of the rig and %d-bit storage of the deformer\n",
+      bits(reduced.storage), bits(reduced.deformer_storage));
   row("bytes of the rig", reduced.before.rig_bytes, reduced.after.rig_bytes);
   row("bytes of the deformer", reduced.before.deformer_bytes, reduced.after.deformer_bytes);
   row("matrix entries not 0", reduced.before.matrix_entries, reduced.after.matrix_entries);
@@ -92,13 +101,18 @@ std::string reduction_text(const Reduced& reduced, const std::vector<double>& to
   for (uint32_t lod = 0; lod < reduced.proof.lods.size(); ++lod) {
     const LodProof& of = reduced.proof.lods[lod];
     add("  LOD %u: at most %.3g, rms %.3g; tolerance %.3g\n", lod, of.worst, of.rms,
-        tolerance_at(tolerances, lod));
+        reduced.tolerances.at(lod, 0));
+  }
+  for (size_t r = 1; r < reduced.proof.regions.size(); ++r) {
+    const RegionProof& of = reduced.proof.regions[r];
+    const Region& region = reduced.tolerances.regions[r - 1];
+    add("  region %.60s: at most %.3g at LOD %u; tolerance %.3g\n", region.pattern.c_str(),
+        of.worst, of.lod, region.tolerance);
   }
   return text + "  worst pose: " + reduced.proof.worst_pose + "\n";
 }
 
-std::string reduction_json(const Reduced& reduced, const std::vector<double>& tolerances,
-                           const std::string& unit) {
+std::string reduction_json(const Reduced& reduced, const std::string& unit) {
   using ReduceJson = nlohmann::ordered_json;
   const auto sizes = [](const Sizes& of) {
     return ReduceJson{{"rig_bytes", of.rig_bytes},
@@ -109,7 +123,9 @@ std::string reduction_json(const Reduced& reduced, const std::vector<double>& to
   };
   ReduceJson root;
   root["unit"] = unit;
-  root["storage"] = reduced.storage == MIEN_STORAGE_16_BIT ? "f16" : "f32";
+  const auto name = [](uint32_t storage) { return storage == MIEN_STORAGE_16_BIT ? "f16" : "f32"; };
+  root["storage"] = name(reduced.storage);
+  root["deformer_storage"] = name(reduced.deformer_storage);
   root["limits"] = {{"matrix", reduced.limits.matrix}, {"deformer", reduced.limits.deformer}};
   root["before"] = sizes(reduced.before);
   root["after"] = sizes(reduced.after);
@@ -118,12 +134,24 @@ std::string reduction_json(const Reduced& reduced, const std::vector<double>& to
   root["lods"] = ReduceJson::array();
   for (uint32_t lod = 0; lod < reduced.proof.lods.size(); ++lod) {
     const LodProof& of = reduced.proof.lods[lod];
-    root["lods"].push_back({{"tolerance", tolerance_at(tolerances, lod)},
+    root["lods"].push_back({{"tolerance", reduced.tolerances.at(lod, 0)},
                             {"worst", of.worst},
                             {"rms", of.rms},
                             {"pose", of.pose},
                             {"mesh", of.mesh},
                             {"position", of.position}});
+  }
+  root["regions"] = ReduceJson::array();
+  for (size_t r = 1; r < reduced.proof.regions.size(); ++r) {
+    const RegionProof& of = reduced.proof.regions[r];
+    const Region& region = reduced.tolerances.regions[r - 1];
+    root["regions"].push_back({{"names", region.pattern},
+                               {"tolerance", region.tolerance},
+                               {"worst", of.worst},
+                               {"worst_pose", of.shown_pose},
+                               {"lod", of.lod},
+                               {"mesh", of.mesh},
+                               {"position", of.position}});
   }
   return root.dump(1, ' ', false, ReduceJson::error_handler_t::replace) + "\n";
 }

@@ -18,10 +18,10 @@
 namespace mien::cli {
 
 struct ReduceOptions {
-  std::vector<double>
-      tolerances;     // [LOD] in the unit of the file; the last one serves the LODs after it
-  MienRigDesc rig;    // 16-bit storage is tried if it says 32 bits
+  Tolerances tolerances;
+  MienRigDesc rig;    // 16-bit storage is tried if it says 32 bits; for the deformer always
   std::string shown;  // the file, for messages
+  std::vector<Performance> performances;  // more poses to prove it in
 };
 
 struct Sizes {
@@ -32,8 +32,9 @@ struct Reduced {
   Dna dna;
   Rig rig;
   Deformer deformer;
-  uint32_t storage = 0;  // MIEN_STORAGE_... that was chosen
+  uint32_t storage = 0, deformer_storage = 0;  // MIEN_STORAGE_... that were chosen
   PruneLimits limits;
+  Tolerances tolerances{0.0};  // with their regions
   Sizes before, after;
   Proof proof;
 };
@@ -42,9 +43,7 @@ struct Reduced {
 Reduced reduce_rig(const MienDna* dna, const ReduceOptions& options);
 
 /// What was reduced and proven, as text or JSON.
-std::string reduction_text(const Reduced& reduced, const std::vector<double>& tolerances,
-                           const std::string& unit);
-std::string reduction_json(const Reduced& reduced, const std::vector<double>& tolerances,
-                           const std::string& unit);
+std::string reduction_text(const Reduced& reduced, const std::string& unit);
+std::string reduction_json(const Reduced& reduced, const std::string& unit);
 
 }  // namespace mien::cli

@@ -9,16 +9,7 @@
 
 namespace mien::cli {
 
-double tolerance_of(const MienMesh& mesh, const std::vector<double>& tolerances) {
-  double least = INFINITY;
-  for (uint32_t lod = 0; lod < 64; ++lod) {
-    if (mesh.lods >> lod & 1) least = std::min(least, tolerance_at(tolerances, lod));
-  }
-  return least;
-}
-
-std::vector<JointReach> joint_reaches(const Character& character,
-                                      const std::vector<double>& tolerances) {
+std::vector<JointReach> joint_reaches(const Character& character, const Tolerances& tolerances) {
   MienIndex16View parents{};
   check(mien_rig_joint_parents(character.rig.get(), &parents), nullptr, "cannot reduce", "");
   MienFloatView binds{};
@@ -30,8 +21,8 @@ std::vector<JointReach> joint_reaches(const Character& character,
   const uint32_t mesh_count = rig_count(character.rig.get(), MIEN_KIND_MESH);
   for (uint32_t m = 0; m < mesh_count; ++m) {
     const MienMesh mesh = character.mesh(m);
-    const double tolerance = tolerance_of(mesh, tolerances);
     for (uint32_t p = 0; p < mesh.position_count; ++p) {
+      const double tolerance = tolerances.of_position(mesh.lods, m, p);
       MienIndex16View joints{};
       MienFloatView weights{};
       character.influences(m, p, joints, weights);
@@ -103,8 +94,8 @@ bool is_identity(const float* matrix) {
 /// The influences of a mesh in one list.
 struct MeshInfluences {
   MienMesh mesh;
-  float tolerance;
-  std::vector<size_t> first;  // [position], one more at the end
+  std::vector<float> tolerances;  // [position]
+  std::vector<size_t> first;      // [position], one more at the end
   std::vector<uint16_t> joints;
   std::vector<float> weights;
 };
@@ -132,7 +123,7 @@ void raise_importance(const MeshInfluences& of, const float* matrices,
         square += (alone[k] - blended[k]) * (alone[k] - blended[k]);
       }
       const float left = std::max(sum - of.weights[i], 1e-6f);
-      const float off = of.weights[i] / left * std::sqrt(square) / of.tolerance;
+      const float off = of.weights[i] / left * std::sqrt(square) / of.tolerances[p];
       importance[i] = std::max(importance[i], off);
     }
   }
@@ -141,7 +132,7 @@ void raise_importance(const MeshInfluences& of, const float* matrices,
 }  // namespace
 
 std::vector<std::vector<float>> influence_importance(Character& character,
-                                                     const std::vector<double>& tolerances) {
+                                                     const Tolerances& tolerances) {
   const uint32_t mesh_count = rig_count(character.rig.get(), MIEN_KIND_MESH);
   std::vector<MeshInfluences> meshes(mesh_count);
   std::vector<std::vector<float>> importance(mesh_count);
@@ -149,8 +140,8 @@ std::vector<std::vector<float>> influence_importance(Character& character,
   for (uint32_t m = 0; m < mesh_count; ++m) {
     MeshInfluences& of = meshes[m];
     of.mesh = character.mesh(m);
-    of.tolerance = static_cast<float>(tolerance_of(of.mesh, tolerances));
     for (uint32_t p = 0; p < of.mesh.position_count; ++p) {
+      of.tolerances.push_back(static_cast<float>(tolerances.of_position(of.mesh.lods, m, p)));
       MienIndex16View joints{};
       MienFloatView weights{};
       character.influences(m, p, joints, weights);
@@ -164,7 +155,8 @@ std::vector<std::vector<float>> influence_importance(Character& character,
     }
     of.first.push_back(of.joints.size());
   }
-  const ProofPoses poses(character.rig.get());
+  const std::vector<Performance> none;
+  const ProofPoses poses(character.rig.get(), none);
   for (size_t pose = 0; pose < poses.single_count(); ++pose) {
     poses.set(pose, character.raw());
     character.evaluate(0);

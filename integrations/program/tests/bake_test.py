@@ -109,12 +109,28 @@ class Bake(ProgramTest):
         self.assertEqual(read("again.rig"), first)
         self.assertIn("Distance of positions from the original", done.stderr)
 
+    def test_tolerance_of_regions_and_clips(self):
+        joint = self.ok("info", path("ml.dna"), "--names", "joints").stdout.decode().split()[2]
+        self.ok("bake", path("ml.dna"), "-o", path("regions.rig"), "--tolerance", "0.5mm", "--region",
+                f"{joint}=0.05mm", "--region", "*=0.3mm", "--report", path("regions.json"), "--force")
+        report = json.loads(read("regions.json"))
+        self.assertEqual([region["names"] for region in report["regions"]], [joint, "*"])
+        for region, tolerance in zip(report["regions"], (0.005, 0.03)):
+            self.assertAlmostEqual(region["tolerance"], tolerance)
+            self.assertLessEqual(region["worst"], region["tolerance"])
+
     def test_tolerance_refusals(self):
         bake = ["bake", path("ml.dna"), "-o", path("none.rig")]
         for word in ("0", "-1mm", "x", "1 km", "nan", "1e999", "0.1mm,"):
             self.fails(USAGE, *bake, "--tolerance", word, says="give numbers with um, mm, cm, m")
         self.fails(USAGE, *bake, "--report", path("report.json"), says="add --tolerance")
         self.fails(INVALID, *bake, "--tolerance", "1mm", "--no-geometry", says="no geometry")
+        for region in ("lip", "=1mm"):
+            self.fails(USAGE, *bake, "--tolerance", "1mm", "--region", region, says="names of joints or meshes")
+        self.fails(USAGE, *bake, "--tolerance", "1mm", "--region", "lip=0", says="not a distance")
+        self.fails(USAGE, *bake, "--tolerance", "1mm", "--region", "nobody=1mm", says="no position")
+        self.fails(USAGE, *bake, "--region", "lip=1mm", says="add --tolerance")
+        self.fails(USAGE, *bake, "--clip", path("none.clip"), says="add --tolerance")
         self.fails(INVALID, *bake, "--tolerance", "1e-9", "--storage", "f16", says="16-bit storage alone")
         self.assertFalse(os.path.exists(path("none.rig")))
 

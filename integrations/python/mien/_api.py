@@ -65,7 +65,8 @@ class Status(IntEnum):
     ISA = 9
     #: the allocator returned NULL
     MEMORY = 10
-    #: this build of the library only opens baked files
+    #: this build of the library only opens baked files, or the object is stored in a form that
+    #: does not have what was asked for
     UNSUPPORTED = 11
     #: the file cannot be opened
     FILE_OPEN = 20
@@ -1341,7 +1342,7 @@ class MienDeformerDesc(Structure):
         ("weights", c_uint32),
         ("normals", c_uint32),
         ("with_tangents", c_uint32),
-        ("reserved", c_uint32),
+        ("storage", c_uint32),
         ("allocator", POINTER(MienAllocator)),
     ]
     struct_size: Any
@@ -1350,7 +1351,7 @@ class MienDeformerDesc(Structure):
     weights: Any
     normals: Any
     with_tangents: Any
-    reserved: Any
+    storage: Any
     allocator: Any
 
     def __init__(self, *,
@@ -1359,6 +1360,7 @@ class MienDeformerDesc(Structure):
                  weights: int = 0,
                  normals: int = 0,
                  with_tangents: bool = False,
+                 storage: int = 0,
                  allocator: Any = None) -> None:
         super().__init__(40)
         self.isa = isa
@@ -1366,6 +1368,7 @@ class MienDeformerDesc(Structure):
         self.weights = weights
         self.normals = normals
         self.with_tangents = with_tangents
+        self.storage = storage
         self.allocator = allocator
 
 
@@ -1382,6 +1385,8 @@ class MienDeformerInfo(Structure):
         ("mesh_count", c_uint32),
         ("deformer_bytes", c_uint64),
         ("instance_bytes", c_uint64),
+        ("storage", c_uint32),
+        ("reserved", c_uint32),
     ]
     struct_size: Any
     isa: Any
@@ -1394,9 +1399,11 @@ class MienDeformerInfo(Structure):
     mesh_count: Any
     deformer_bytes: Any
     instance_bytes: Any
+    storage: Any
+    reserved: Any
 
     def __init__(self) -> None:
-        super().__init__(56)
+        super().__init__(64)
 
 
 class MienMesh(Structure):
@@ -3714,6 +3721,7 @@ class DeformerInfo(NamedTuple):
       mesh_count: same as in the rig, which has their names: Kind.MESH
       deformer_bytes: memory of the deformer, including its part of a baked file
       instance_bytes: memory of a deformer instance for all meshes
+      storage: Storage
     """
 
     isa: Isa
@@ -3726,12 +3734,13 @@ class DeformerInfo(NamedTuple):
     mesh_count: int
     deformer_bytes: int
     instance_bytes: int
+    storage: Storage
 
     @classmethod
     def _of(cls, c: MienDeformerInfo) -> DeformerInfo:
         return cls(_enum(Isa, c.isa), _enum(Compose, c.compose), _enum(Weights, c.weights),
                    _enum(Normals, c.normals), c.lod_count, c.joint_count, c.channel_count,
-                   c.mesh_count, c.deformer_bytes, c.instance_bytes)
+                   c.mesh_count, c.deformer_bytes, c.instance_bytes, _enum(Storage, c.storage))
 
 
 class BakedInfo(NamedTuple):
@@ -4402,6 +4411,8 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
     "mien_deformer_influences": (
         (Status.INDEX,
          "there is no such mesh or position"),
+        (Status.UNSUPPORTED,
+         "the weights are stored with 16 bits (MienDeformerDesc.storage)"),
     ),
     "mien_deformer_target": (
         (Status.INVALID_ARGUMENT,

@@ -10,8 +10,8 @@ from sys import byteorder
 from typing import Any, Iterable, Iterator, List, Optional, Sequence, Tuple, Union
 
 from . import _api
-from ._api import (Compose, DeformerInfo, Isa, Kind, MienError, Normals, Status, VertexFormat,
-                   Weights)
+from ._api import (Compose, DeformerInfo, Isa, Kind, MienError, Normals, Status, Storage,
+                   VertexFormat, Weights)
 from ._library import lib
 from ._memory import (Closable, DeformerHandle, Floats, Indices, PoseHandle, array_over, floats_of,
                       lod_bits, new_array, shaped, uint32)
@@ -91,6 +91,8 @@ class Deformer(Closable):
     weights: whether skin weights are mended, see `Weights`
     normals: what `DeformerInstance.deform` makes if it is not told, see `Normals`
     with_tangents: computes tangents, for `DeformerInstance.write_vertices`
+    storage: `Storage.BIT_16` stores blend shapes and skin weights with 16 bits; then `influences`
+             is an error
     """
 
     __slots__ = ("info", "_mesh_names")
@@ -98,11 +100,12 @@ class Deformer(Closable):
     @raises("mien_deformer_create")
     def __init__(self, dna: Dna, rig: Rig, isa: int = Isa.BEST, compose: int = Compose.PRODUCT,
                  weights: int = Weights.AS_STORED, normals: int = Normals.DEFAULT,
-                 with_tangents: bool = False) -> None:
+                 with_tangents: bool = False, storage: int = Storage.BIT_32) -> None:
         desc = _api.MienDeformerDesc(isa=uint32(isa, "isa"), compose=uint32(compose, "compose"),
                                      weights=uint32(weights, "weights"),
                                      normals=uint32(normals, "normals"),
-                                     with_tangents=bool(with_tangents))
+                                     with_tangents=bool(with_tangents),
+                                     storage=uint32(storage, "storage"))
         handle, error = DeformerHandle(), MienError()
         status = lib.mien_deformer_create(dna._open(), rig._open(), _byref(desc), _byref(handle),
                                           _byref(error))

@@ -30,7 +30,9 @@ export declare const Status: {
   readonly ISA: 9;
   /** the allocator returned NULL */
   readonly MEMORY: 10;
-  /** this build of the library only opens baked files */
+  /**
+   * this build of the library only opens baked files, or the object is stored in a form that does not have what was asked for
+   */
   readonly UNSUPPORTED: 11;
   /** the file cannot be opened */
   readonly FILE_OPEN: 20;
@@ -1019,6 +1021,10 @@ export interface DeformerDesc {
   normals?: Normals;
   /** compute tangents, for mien_deformer_instance_write_vertices() */
   withTangents?: boolean;
+  /**
+   * MIEN_STORAGE_...; 16-bit: blend shape deltas and skin weights as 16-bit integers with scales, and neutral positions stored once. Positions differ by about 1/65000 of what they move; see docs/deformation.md, 2 "Positions"
+   */
+  storage?: Storage;
 }
 
 /** Properties of a deformer. */
@@ -1040,6 +1046,8 @@ export interface DeformerInfo {
   readonly deformerBytes: number;
   /** memory of a deformer instance for all meshes */
   readonly instanceBytes: number;
+  /** MIEN_STORAGE_... */
+  readonly storage: Storage;
 }
 
 /** A neutral mesh. Its views are valid until the deformer is destroyed. */
@@ -2802,7 +2810,8 @@ export interface Exports {
   /**
    * Returns the influences of a position, as used for skinning: `out_joints` gets one index per influence,
    * `out_weights` gets one float per influence. There may be none.
-   * Fails with MIEN_ERROR_INDEX if there is no such mesh or position.
+   * Fails with MIEN_ERROR_INDEX if there is no such mesh or position, MIEN_ERROR_UNSUPPORTED if the weights
+   * are stored with 16 bits (MienDeformerDesc.storage).
    */
   mien_deformer_influences(deformer: number, mesh: number, position: number, out_joints: number, out_weights: number): number;
   /**

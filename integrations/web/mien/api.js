@@ -522,8 +522,9 @@ export const layouts = {
     weights: [12, "u32"],
     normals: [16, "u32"],
     withTangents: [20, "bool"],
+    storage: [24, "u32"],
   } },
-  DeformerInfo: { size: 56, sized: true, fields: {
+  DeformerInfo: { size: 64, sized: true, fields: {
     isa: [4, "u32"],
     compose: [8, "u32"],
     weights: [12, "u32"],
@@ -534,6 +535,7 @@ export const layouts = {
     meshCount: [32, "u32"],
     deformerBytes: [40, "u64"],
     instanceBytes: [48, "u64"],
+    storage: [56, "u32"],
   } },
   Mesh: { size: 96, sized: true, fields: {
     positionCount: [4, "u32"],

@@ -39,39 +39,38 @@ Status plan_mesh(const MeshSource& source, MeshPlan& plan) {
   }
   Status status = plan_skin(source, plan);
   if (status == Status::kOk) status = plan_targets(source, plan);
-  if (status == Status::kOk) plan_surface(source, plan);
-  return status;
+  return status == Status::kOk ? plan_surface(source, plan) : status;
 }
 
-void place_mesh(const Mesh& source, const MeshPlan& plan, bool tangents, Placer& placer,
-                DeformMesh& mesh) {
+void place_mesh(const Mesh& source, const MeshPlan& plan, const DeformOptions& options,
+                Placer& placer, DeformMesh& mesh) {
   mesh.position_count = source.positions.xs.count;
   mesh.vertex_count = source.layouts.positions.count;
   mesh.target_count = source.blend_shape_targets.count;
   mesh.triangle_count = static_cast<uint32_t>(plan.triangle_count);
   mesh.max_influences = plan.max_influences;
   mesh.delta_count = plan.delta_count;
-  place_skin(plan, placer, mesh);
-  place_targets(plan, placer, mesh);
-  place_surface(plan, tangents, placer, mesh);
+  place_skin(plan, options.half_storage, placer, mesh);
+  place_targets(plan, options.half_storage, placer, mesh);
+  place_surface(plan, options, placer, mesh);
 }
 
 Status fill_mesh(const MeshSource& source, const MeshPlan& plan, DeformMesh& mesh) {
   if (mesh.is_empty() && mesh.target_count == 0) return Status::kOk;
   fill_skin(source, plan, mesh);
   const Status status = fill_targets(source, mesh);
-  return status == Status::kOk ? fill_surface(source, mesh) : status;
+  return status == Status::kOk ? fill_surface(source, plan, mesh) : status;
 }
 
-void place_all(const DnaView& view, const Rig& rig, Span<const MeshPlan> plans, bool tangents,
-               Placer& placer, Deformer& deformer) {
+void place_all(const DnaView& view, const Rig& rig, Span<const MeshPlan> plans,
+               const DeformOptions& options, Placer& placer, Deformer& deformer) {
   placer.object<Deformer>();
   place_skeleton(rig, placer, deformer.skeleton);
   deformer.meshes = placer.unwritten_array<DeformMesh>(rig.mesh_count);
   for (uint32_t m = 0; m < rig.mesh_count; ++m) {
     DeformMesh measured;
     DeformMesh& mesh = placer.measuring() ? measured : *new (&deformer.meshes[m]) DeformMesh;
-    place_mesh(mesh_at(view, m), m < plans.count ? plans[m] : kNoPlan, tangents, placer, mesh);
+    place_mesh(mesh_at(view, m), m < plans.count ? plans[m] : kNoPlan, options, placer, mesh);
   }
 }
 
@@ -112,6 +111,12 @@ Status MeshSource::no_memory() const {
   return fail(error, Status::kMemory, kNoOffset, "no memory to compile mesh %u", index);
 }
 
+int16_t in_units(double value, float scale) {
+  // The quotient by a denormal scale could be out of range; numbers so small move nothing.
+  if (!(scale > 1e-37f)) return 0;
+  return static_cast<int16_t>(std::lround(value / double{scale}));
+}
+
 Status compile_deformer(const DnaView& view, const Rig& rig, const DeformOptions& options,
                         const Allocator& allocator, Deformer*& out, Error& error) {
   out = nullptr;
@@ -134,7 +139,7 @@ Status compile_deformer(const DnaView& view, const Rig& rig, const DeformOptions
 
   Deformer measured;
   Placer measure(nullptr);
-  place_all(view, rig, plans, options.tangents, measure, measured);
+  place_all(view, rig, plans, options, measure, measured);
   void* block = allocator.get(measure.size(), kBlockAlignment);
   if (!block) {
     return fail(error, Status::kMemory, kNoOffset, "no memory for a deformer of %zu bytes",
@@ -142,13 +147,14 @@ Status compile_deformer(const DnaView& view, const Rig& rig, const DeformOptions
   }
   Placer placer(block);
   Deformer placed;
-  place_all(view, rig, plans, options.tangents, placer, placed);
+  place_all(view, rig, plans, options, placer, placed);
   Deformer* deformer = start_object<Deformer>(block, measure.size(), allocator);
   deformer->kernels = options.kernels;
   deformer->rig = share(rig);
   deformer->normals = options.normals;
   deformer->fix_weights = options.fix_weights;
   deformer->has_tangents = options.tangents;
+  deformer->half_storage = options.half_storage;
   deformer->skeleton = placed.skeleton;
   deformer->meshes = placed.meshes;
   mark_mesh_lods(rig, deformer->meshes);

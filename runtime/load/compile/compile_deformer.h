@@ -3,6 +3,7 @@
 #pragma once
 
 #include "runtime/base/status.h"
+#include "runtime/base/vector.h"
 #include "runtime/deform/deformer.h"
 #include "runtime/load/dna/format/dna_view.h"
 #include "simd/isa.h"
@@ -15,6 +16,7 @@ struct DeformOptions {
   Normals normals = Normals::kRecomputed;
   bool fix_weights = false;
   bool tangents = false;
+  bool half_storage = false;
 };
 
 /// Compiles the geometry of a checked view. kMismatch if its joints, channels or meshes are not those of
@@ -32,8 +34,12 @@ struct MeshPlan {
   uint32_t skin_run_count = 0;
   size_t weight_count = 0;
   uint32_t max_influences = 0;
+  float max_weight = 0;  // in magnitude
   size_t target_run_count = 0, delta_count = 0;
-  size_t triangle_count = 0, face_count = 0;
+  size_t triangle_count = 0, face_count = 0, hard_count = 0;
+  Span<Vec3> directions;  // [position] outward recomputed neutral normal
+  Span<uint8_t> hard;     // [position] 1: it has vertices on hard edges
+  bool inward = false;    // the faces, as the file winds them, point into the mesh
 };
 
 /// A mesh of the DNA, and the data that its compilation needs.
@@ -48,6 +54,17 @@ struct MeshSource {
   Status no_memory() const;
 };
 
+/// Room for `count` indices below `limit`.
+inline void place_indices(size_t count, size_t limit, Placer& placer, IndexList& list,
+                          size_t alignment) {
+  const bool narrow = limit <= 0x10000;
+  list.narrow = placer.array<uint16_t>(narrow ? count : 0, alignment);
+  list.wide = placer.array<uint32_t>(narrow ? 0 : count, alignment);
+}
+
+/// `value`, at most 32767 scales, in units of a scale.
+int16_t in_units(double value, float scale);
+
 // The skeleton only needs the rig.
 
 void place_skeleton(const Rig& rig, Placer& placer, Skeleton& skeleton);
@@ -61,16 +78,17 @@ Status fill_skeleton(const Rig& rig, const KernelTable* kernels, Compose compose
 // fill_...() writes it, and fails only if scratch memory runs out.
 
 Status plan_skin(const MeshSource& source, MeshPlan& plan);
-void place_skin(const MeshPlan& plan, Placer& placer, DeformMesh& mesh);
+void place_skin(const MeshPlan& plan, bool half_storage, Placer& placer, DeformMesh& mesh);
 void fill_skin(const MeshSource& source, const MeshPlan& plan, DeformMesh& mesh);
 
 Status plan_targets(const MeshSource& source, MeshPlan& plan);
-void place_targets(const MeshPlan& plan, Placer& placer, DeformMesh& mesh);
+void place_targets(const MeshPlan& plan, bool half_storage, Placer& placer, DeformMesh& mesh);
 Status fill_targets(const MeshSource& source, DeformMesh& mesh);
 
-void plan_surface(const MeshSource& source, MeshPlan& plan);
-void place_surface(const MeshPlan& plan, bool tangents, Placer& placer, DeformMesh& mesh);
-Status fill_surface(const MeshSource& source, DeformMesh& mesh);
+Status plan_surface(const MeshSource& source, MeshPlan& plan);
+void place_surface(const MeshPlan& plan, const DeformOptions& options, Placer& placer,
+                   DeformMesh& mesh);
+Status fill_surface(const MeshSource& source, const MeshPlan& plan, DeformMesh& mesh);
 
 /// Part of fill_surface(). `inward`: the triangles, as the file winds them, face into the mesh.
 Status fill_tangents(const MeshSource& source, bool inward, DeformMesh& mesh);

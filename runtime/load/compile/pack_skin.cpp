@@ -21,6 +21,24 @@ const VertexSkinWeights& weights_at(const Mesh& mesh, uint32_t position) {
 uint32_t influences_of(uint64_t key) { return static_cast<uint32_t>(key >> 48); }
 uint32_t position_of(uint64_t key) { return static_cast<uint32_t>(key); }
 
+/// A whole number of units is 1, so that sums of 1 stay 1: otherwise positions would move with their distance
+/// from the origin. The largest weight is one unit less than an integer can be, because fix_weights() carries.
+float scale_of_weights(float max_weight) {
+  const double units = std::floor(32766 / double{max_weight});
+  return static_cast<float>(units >= 1 ? 1 / units : double{max_weight} / 32766);
+}
+
+/// The weights of one position to 16 bits. What rounding takes from one is added to the next, so that their
+/// sum is rounded once.
+void fix_weights(const float* weights, uint32_t count, float scale, int16_t* fixed) {
+  double sum = 0, before = 0;
+  for (uint32_t i = 0; i < count; ++i) {
+    sum += double{weights[i]};
+    fixed[i] = in_units(sum - before, scale);
+    before += static_cast<double>(fixed[i]) * double{scale};
+  }
+}
+
 /// Calls f(joint, weight) for each influence of a position that is not dropped.
 template <class F>
 void for_each_influence(const MeshSource& source, uint32_t position, F&& f) {
@@ -66,6 +84,7 @@ Status plan_skin(const MeshSource& source, MeshPlan& plan) {
     float max_weight = 0;
     for_each_influence(source, p, [&](uint16_t j, float weight) {
       ++influences;
+      plan.max_weight = std::max(plan.max_weight, std::fabs(weight));
       if (weight > max_weight) {
         max_weight = weight;
         joint = j;
@@ -89,37 +108,51 @@ Status plan_skin(const MeshSource& source, MeshPlan& plan) {
   return Status::kOk;
 }
 
-void place_skin(const MeshPlan& plan, Placer& placer, DeformMesh& mesh) {
+void place_skin(const MeshPlan& plan, bool half_storage, Placer& placer, DeformMesh& mesh) {
   const size_t count = mesh.position_count, alignment = mesh.array_alignment();
-  mesh.sorted_positions = placer.array<float>(count * 4, alignment);
-  mesh.weights = placer.array<float>(plan.weight_count, alignment);
+  const bool fixed = half_storage && plan.max_influences <= kMaxFixedInfluences;
+  mesh.sorted_positions = placer.array<float>(half_storage ? 0 : count * 4, alignment);
+  mesh.weights = placer.array<float>(fixed ? 0 : plan.weight_count, alignment);
+  mesh.fixed_weights = placer.array<int16_t>(fixed ? plan.weight_count : 0, alignment);
   mesh.joints = placer.array<uint16_t>(plan.weight_count, alignment);
   mesh.position_indices = placer.array<uint32_t>(count, alignment);
-  mesh.sorted_indices = placer.array<uint32_t>(count);
+  place_indices(count, count, placer, mesh.sorted_indices, alignof(uint32_t));
   mesh.skin_runs = placer.array<SkinRun>(plan.skin_run_count);
 }
 
 void fill_skin(const MeshSource& source, const MeshPlan& plan, DeformMesh& mesh) {
   const dna::Vec3Array& positions = source.mesh.positions;
-  std::copy(plan.sorted_indices.begin(), plan.sorted_indices.end(), mesh.sorted_indices.begin());
+  for (uint32_t p = 0; p < mesh.position_count; ++p) {
+    mesh.sorted_indices.set(p, plan.sorted_indices[p]);
+  }
+  if (!mesh.fixed_weights.empty()) mesh.weight_scale = scale_of_weights(plan.max_weight);
+  float weights[kMaxFixedInfluences];
   uint32_t run = 0;
   size_t weight = 0;
   for (uint32_t i = 0; i < mesh.position_count; ++i) {
     const uint32_t p = position_of(plan.order[i]);
     const uint32_t influences = influences_of(plan.order[i]);
     mesh.position_indices[i] = p;
-    float* at = mesh.sorted_positions.data + size_t{i} * 4;
-    at[0] = positions.xs[p];
-    at[1] = positions.ys[p];
-    at[2] = positions.zs[p];
+    if (!mesh.sorted_positions.empty()) {
+      float* at = mesh.sorted_positions.data + size_t{i} * 4;
+      at[0] = positions.xs[p];
+      at[1] = positions.ys[p];
+      at[2] = positions.zs[p];
+    }
     if (i == 0 || mesh.skin_runs[run - 1].influences != influences) {
       mesh.skin_runs[run++] = {weight, i, 0, influences, 0};
     }
     ++mesh.skin_runs[run - 1].count;
+    const bool fixed = !mesh.fixed_weights.empty();
+    float* to = fixed ? weights : mesh.weights.data + weight;
     for_each_influence(source, p, [&](uint16_t joint, float value) {
-      mesh.joints[weight] = joint;
-      mesh.weights[weight++] = value;
+      mesh.joints[weight++] = joint;
+      *to++ = value;
     });
+    if (fixed) {
+      fix_weights(weights, influences, mesh.weight_scale,
+                  mesh.fixed_weights.data + weight - influences);
+    }
   }
 }
 

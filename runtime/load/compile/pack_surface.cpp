@@ -46,14 +46,23 @@ bool repeats(const uint32_t* corners, int i) {
   return false;
 }
 
+/// The stored normal of a vertex, as the deformer has it; zero if there is none.
+Vec3 stored_normal(const Mesh& source, uint32_t v) {
+  if (source.normals.xs.count == 0) return {};
+  const uint32_t n = source.layouts.normals[v];
+  float rounded[3];
+  store(normalized(Vec3{source.normals.xs[n], source.normals.ys[n], source.normals.zs[n]}),
+        rounded);
+  return load(rounded);
+}
+
 /// True if the area vectors of the faces, as the file winds them, point into the mesh. The stored
 /// normals decide; without them, the winding order and the axes of the file.
-bool faces_point_inward(const MeshSource& source, const DeformMesh& mesh,
-                        Span<const Vec3> directions) {
+bool faces_point_inward(const MeshSource& source, Span<const Vec3> directions) {
+  const Mesh& mesh = source.mesh;
   double sum = 0;
-  for (uint32_t v = 0; v < mesh.vertex_count; ++v) {
-    const double along =
-        dot(load(mesh.normals.data + size_t{v} * 3), directions[mesh.vertex_position_indices[v]]);
+  for (uint32_t v = 0; v < mesh.layouts.positions.count; ++v) {
+    const double along = dot(stored_normal(mesh, v), directions[mesh.layouts.positions[v]]);
     if (std::isfinite(along)) sum += along;
   }
   if (sum != 0) return sum < 0;
@@ -83,11 +92,7 @@ void fill_vertices(const Mesh& source, DeformMesh& mesh) {
       mesh.texture_coordinates[size_t{v} * 2] = uvs.us[uv];
       mesh.texture_coordinates[size_t{v} * 2 + 1] = uvs.vs[uv];
     }
-    if (source.normals.xs.count != 0) {
-      const uint32_t n = source.layouts.normals[v];
-      store(normalized(Vec3{source.normals.xs[n], source.normals.ys[n], source.normals.zs[n]}),
-            mesh.normals.data + size_t{v} * 3);
-    }
+    store(stored_normal(source, v), mesh.normals.data + size_t{v} * 3);
   }
   size_t corner = 0;
   for (const dna::Face& face : source.faces) {
@@ -115,12 +120,14 @@ void starts_from_counts(const Span<uint32_t>& first) {
 void fill_faces(const Mesh& source, DeformMesh& mesh) {
   size_t face = 0;
   for_each_face(source, [&](const uint32_t* corners) {
-    std::copy(corners, corners + 4, mesh.faces.data + face++ * 4);
+    for (int k = 0; k < 4; ++k) mesh.faces.set(face * 4 + k, corners[k]);
+    ++face;
   });
   const Span<uint32_t>& first = mesh.first_adjacent_face;
   const auto for_each_corner = [&](auto&& f) {
     for (uint32_t i = 0; i < mesh.face_count(); ++i) {
-      const uint32_t* corners = mesh.faces.data + size_t{i} * 4;
+      uint32_t corners[4];
+      for (size_t k = 0; k < 4; ++k) corners[k] = mesh.faces[size_t{i} * 4 + k];
       for (int k = 0; k < 4; ++k) {
         if (!repeats(corners, k)) f(first[size_t{mesh.sorted_indices[corners[k]]} + 1], i);
       }
@@ -128,7 +135,7 @@ void fill_faces(const Mesh& source, DeformMesh& mesh) {
   };
   for_each_corner([](uint32_t& count, uint32_t) { ++count; });
   starts_from_counts(first);
-  for_each_corner([&](uint32_t& next, uint32_t i) { mesh.adjacent_faces[next++] = i; });
+  for_each_corner([&](uint32_t& next, uint32_t i) { mesh.adjacent_faces.set(next++, i); });
 }
 
 /// The vertices of each position.
@@ -141,75 +148,108 @@ void fill_vertex_lists(DeformMesh& mesh) {
   for (uint32_t v = 0; v < mesh.vertex_count; ++v) mesh.vertices[next(v)++] = v;
 }
 
-Vec3 area_vector(const DeformMesh& mesh, const uint32_t* corners) {
-  const auto at = [&](int i) { return load(mesh.positions.data + size_t{corners[i]} * 3); };
+Vec3 area_vector(const Mesh& mesh, const uint32_t* corners) {
+  const auto at = [&](int i) {
+    const uint32_t p = corners[i];
+    return Vec3{mesh.positions.xs[p], mesh.positions.ys[p], mesh.positions.zs[p]};
+  };
   return cross(at(2) - at(0), at(3) - at(1));
+}
+
+/// Whether a vertex lies on a hard edge. Without a stored normal it gets the recomputed one.
+bool is_hard(Vec3 stored, Vec3 recomputed) {
+  if (is_zero(stored)) {
+    float rounded[3];
+    store(recomputed, rounded);
+    stored = load(rounded);
+  }
+  return dot(stored, recomputed) < kHardEdgeCosine;
 }
 
 }  // namespace
 
-void plan_surface(const MeshSource& source, MeshPlan& plan) {
+Status plan_surface(const MeshSource& source, MeshPlan& plan) {
   for (const dna::Face& face : source.mesh.faces) {
     const size_t corners = face.layout_indices.count;
     plan.face_count += faces_for(corners);
     plan.triangle_count += corners < 3 ? 0 : corners - 2;
   }
+  const Mesh& mesh = source.mesh;
+  const uint32_t positions = mesh.positions.xs.count;
+  plan.directions = source.scratch.array<Vec3>(positions);
+  plan.hard = source.scratch.array<uint8_t>(positions);
+  if (positions != 0 && (!plan.directions.data || !plan.hard.data)) return source.no_memory();
+  for_each_face(mesh, [&](const uint32_t* corners) {
+    const Vec3 area = area_vector(mesh, corners);
+    for (int k = 0; k < 4; ++k) {
+      if (repeats(corners, k)) continue;
+      plan.directions[corners[k]] = plan.directions[corners[k]] + area;
+    }
+  });
+  for (Vec3& direction : plan.directions) direction = normalized(direction);
+  plan.inward = faces_point_inward(source, plan.directions);
+  if (plan.inward) {
+    for (Vec3& direction : plan.directions) direction = Vec3{} - direction;
+  }
+  for (uint32_t v = 0; v < mesh.layouts.positions.count; ++v) {
+    const uint32_t p = mesh.layouts.positions[v];
+    if (plan.hard[p] != 0 || !is_hard(stored_normal(mesh, v), plan.directions[p])) continue;
+    plan.hard[p] = 1;
+    ++plan.hard_count;
+  }
+  return Status::kOk;
 }
 
-void place_surface(const MeshPlan& plan, bool tangents, Placer& placer, DeformMesh& mesh) {
+void place_surface(const MeshPlan& plan, const DeformOptions& options, Placer& placer,
+                   DeformMesh& mesh) {
   const size_t positions = mesh.position_count, vertices = mesh.vertex_count;
   const size_t alignment = mesh.array_alignment();
   mesh.positions = placer.array<float>(positions * 3 + 1, alignment);
   mesh.normals = placer.array<float>(vertices * 3 + 1, alignment);
-  mesh.tangents = placer.array<float>(tangents ? vertices * 4 : 0, alignment);
+  mesh.tangents = placer.array<float>(options.tangents ? vertices * 4 : 0, alignment);
   mesh.texture_coordinates = placer.array<float>(vertices * 2, alignment);
   mesh.vertex_position_indices = placer.array<uint32_t>(vertices, alignment);
   mesh.triangles = placer.array<uint32_t>(plan.triangle_count * 3, alignment);
-  mesh.faces = placer.array<uint32_t>(plan.face_count * 4, alignment);
+  place_indices(plan.face_count * 4, positions, placer, mesh.faces, alignment);
   mesh.first_adjacent_face = placer.array<uint32_t>(positions + 1, alignment);
-  mesh.adjacent_faces = placer.array<uint32_t>(plan.face_count * 4, alignment);
+  place_indices(plan.face_count * 4, plan.face_count, placer, mesh.adjacent_faces, alignment);
   mesh.first_vertex = placer.array<uint32_t>(positions + 1, alignment);
   mesh.vertices = placer.array<uint32_t>(vertices, alignment);
-  mesh.sorted_normals = placer.array<float>(vertices * 4, alignment);
-  mesh.sorted_tangents = placer.array<float>(tangents ? vertices * 4 : 0, alignment);
-  mesh.neutral_directions = placer.array<float>(positions * 4, alignment);
+  mesh.sorted_normals = placer.array<float>(options.half_storage ? 0 : vertices * 4, alignment);
+  mesh.hard_positions = placer.array<uint32_t>(plan.hard_count, alignment);
+  mesh.neutral_directions = placer.array<float>(plan.hard_count * 4, alignment);
 }
 
-Status fill_surface(const MeshSource& source, DeformMesh& mesh) {
-  const Span<Vec3> directions = source.scratch.array<Vec3>(mesh.position_count);
-  if (mesh.position_count != 0 && !directions.data) return source.no_memory();
+Status fill_surface(const MeshSource& source, const MeshPlan& plan, DeformMesh& mesh) {
   fill_vertices(source.mesh, mesh);
   fill_faces(source.mesh, mesh);
   fill_vertex_lists(mesh);
 
-  for (uint32_t f = 0; f < mesh.face_count(); ++f) {
-    const uint32_t* corners = mesh.faces.data + size_t{f} * 4;
-    const Vec3 area = area_vector(mesh, corners);
-    for (int k = 0; k < 4; ++k) {
-      if (repeats(corners, k)) continue;
-      directions[corners[k]] = directions[corners[k]] + area;
+  if (plan.inward) {
+    for (size_t f = 0; f < mesh.face_count(); ++f) {
+      const uint32_t second = mesh.faces[f * 4 + 1];
+      mesh.faces.set(f * 4 + 1, mesh.faces[f * 4 + 3]);
+      mesh.faces.set(f * 4 + 3, second);
     }
   }
-  for (Vec3& direction : directions) direction = normalized(direction);
-  const bool inward = faces_point_inward(source, mesh, directions);
-  if (inward) {
-    for (Vec3& direction : directions) direction = Vec3{} - direction;
-    for (uint32_t f = 0; f < mesh.face_count(); ++f) {
-      std::swap(mesh.faces[size_t{f} * 4 + 1], mesh.faces[size_t{f} * 4 + 3]);
-    }
-  }
-  for (uint32_t p = 0; p < mesh.position_count; ++p) {
-    store(directions[p], mesh.neutral_directions.data + size_t{mesh.sorted_indices[p]} * 4);
+  size_t hard = 0;
+  for (uint32_t i = 0; i < mesh.position_count; ++i) {
+    const uint32_t p = mesh.position_indices[i];
+    if (plan.hard[p] == 0) continue;
+    mesh.hard_positions[hard] = i;
+    store(plan.directions[p], mesh.neutral_directions.data + hard++ * 4);
   }
   for (size_t i = 0; i < mesh.vertices.count; ++i) {
     uint32_t& vertex = mesh.vertices[i];
-    const Vec3 recomputed = directions[mesh.vertex_position_indices[vertex]];
+    const Vec3 recomputed = plan.directions[mesh.vertex_position_indices[vertex]];
     float* stored = mesh.normals.data + size_t{vertex} * 3;
     if (is_zero(load(stored))) store(recomputed, stored);
-    std::copy(stored, stored + 3, mesh.sorted_normals.data + i * 4);
-    if (dot(load(stored), recomputed) < kHardEdgeCosine) vertex |= kHardEdge;
+    if (!mesh.sorted_normals.empty()) {
+      std::copy(stored, stored + 3, mesh.sorted_normals.data + i * 4);
+    }
+    if (is_hard(load(stored), recomputed)) vertex |= kHardEdge;
   }
-  return source.options.tangents ? fill_tangents(source, inward, mesh) : Status::kOk;
+  return source.options.tangents ? fill_tangents(source, plan.inward, mesh) : Status::kOk;
 }
 
 }  // namespace mien

@@ -93,10 +93,6 @@ Status fill_tangents(const MeshSource& source, bool inward, DeformMesh& mesh) {
     out[2] = static_cast<float>(tangent.z);
     out[3] = has_direction && mirrored ? -1.0f : 1.0f;
   }
-  for (size_t i = 0; i < mesh.vertices.count; ++i) {
-    const float* tangent = mesh.tangents.data + size_t{mesh.vertices[i] & ~kHardEdge} * 4;
-    std::copy(tangent, tangent + 4, mesh.sorted_tangents.data + i * 4);
-  }
   return Status::kOk;
 }
 

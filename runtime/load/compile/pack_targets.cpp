@@ -42,17 +42,21 @@ Status plan_targets(const MeshSource& source, MeshPlan& plan) {
   return Status::kOk;
 }
 
-void place_targets(const MeshPlan& plan, Placer& placer, DeformMesh& mesh) {
+void place_targets(const MeshPlan& plan, bool half_storage, Placer& placer, DeformMesh& mesh) {
   const size_t alignment = mesh.array_alignment();
   mesh.target_channels = placer.array<uint16_t>(mesh.target_count);
   mesh.first_target_run = placer.array<uint32_t>(size_t{mesh.block_count()} + 1);
   mesh.target_runs = placer.array<TargetRun>(plan.target_run_count);
-  mesh.deltas = placer.array<float>(plan.delta_count * 3 + 1, alignment);
+  const size_t numbers = plan.delta_count * 3 + 1;
+  mesh.deltas = placer.array<float>(half_storage ? 0 : numbers, alignment);
+  mesh.fixed_deltas = placer.array<int16_t>(half_storage ? numbers : 0, alignment);
+  mesh.delta_scales = placer.array<float>(half_storage ? plan.target_run_count : 0);
   mesh.delta_indices = placer.array<uint16_t>(plan.delta_count, alignment);
 }
 
 // A counting sort with two passes over all deltas: the first counts the runs and deltas of each
-// block, the second writes them. Targets are visited in ascending order, so a block's runs ascend too.
+// block, the second writes them. 16-bit storage takes a third one: the second finds the scales of runs.
+// Targets are visited in ascending order, so a block's runs ascend too.
 Status fill_targets(const MeshSource& source, DeformMesh& mesh) {
   struct Block {
     uint32_t last;  // last target, + 1
@@ -91,12 +95,33 @@ Status fill_targets(const MeshSource& source, DeformMesh& mesh) {
     }
     block.last = t + 1;
     ++mesh.target_runs[block.run - 1].count;
-    float* at = mesh.deltas.data + size_t{block.delta} * 3;
-    at[0] = targets[t].deltas.xs[i];
-    at[1] = targets[t].deltas.ys[i];
-    at[2] = targets[t].deltas.zs[i];
-    mesh.delta_indices[block.delta++] = static_cast<uint16_t>(sorted_index % kBlockPositions);
+    mesh.delta_indices[block.delta] = static_cast<uint16_t>(sorted_index % kBlockPositions);
+    const float xyz[] = {targets[t].deltas.xs[i], targets[t].deltas.ys[i], targets[t].deltas.zs[i]};
+    const size_t at = size_t{block.delta++} * 3;
+    if (mesh.fixed_deltas.empty()) {
+      std::copy(xyz, xyz + 3, mesh.deltas.data + at);
+      return;
+    }
+    float& scale = mesh.delta_scales[block.run - 1];
+    for (const float part : xyz) scale = std::max(scale, std::fabs(part) / 32767);
   });
+  if (!mesh.fixed_deltas.empty()) {
+    for (uint32_t b = 0; b < mesh.block_count(); ++b) {
+      const uint32_t first = mesh.first_target_run[b];
+      const bool any = first != mesh.first_target_run[b + 1];
+      blocks[b] = {0, first, any ? mesh.target_runs[first].first_delta : 0};
+    }
+    for_each_delta([&](uint32_t t, uint32_t i, uint32_t sorted_index) {
+      Block& block = blocks[sorted_index / kBlockPositions];
+      block.run += block.last != t + 1;
+      block.last = t + 1;
+      const float scale = mesh.delta_scales[block.run - 1];
+      int16_t* const at = mesh.fixed_deltas.data + size_t{block.delta++} * 3;
+      at[0] = in_units(double{targets[t].deltas.xs[i]}, scale);
+      at[1] = in_units(double{targets[t].deltas.ys[i]}, scale);
+      at[2] = in_units(double{targets[t].deltas.zs[i]}, scale);
+    });
+  }
   for (uint32_t t = 0; t < targets.count; ++t) mesh.target_channels[t] = targets[t].channel_index;
   return Status::kOk;
 }

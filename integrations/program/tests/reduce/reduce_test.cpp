@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace mien::cli {
@@ -30,10 +31,11 @@ Dna dna_of(const DocumentOwner& document) {
   return Dna(made);
 }
 
-Character character_of(const Dna& dna, uint32_t storage = MIEN_STORAGE_32_BIT) {
+Character character_of(const Dna& dna, uint32_t storage = MIEN_STORAGE_32_BIT,
+                       uint32_t deformer_storage = MIEN_STORAGE_32_BIT) {
   auto desc = sized<MienRigDesc>();
   desc.storage = storage;
-  return Character(dna.get(), desc, "tiny");
+  return Character(dna.get(), desc, deformer_storage, "tiny");
 }
 
 /// Position 5 of mesh 0 stands 0.25 farther along x.
@@ -129,13 +131,16 @@ TEST(Pruning, KeepsJointsThatMoveNoPosition) {
 
 TEST(Reduction, StaysWithinTheToleranceOfEachLod) {
   const Dna dna = tiny();
-  ReduceOptions options = {{0.05, 0.01}, sized<MienRigDesc>(), "tiny"};
+  ReduceOptions options = {{0.05, 0.01}, sized<MienRigDesc>(), "tiny", {}};
   const Reduced reduced = reduce_rig(dna.get(), options);
   EXPECT_EQ(reduced.storage, uint32_t{MIEN_STORAGE_16_BIT});
+  EXPECT_EQ(reduced.deformer_storage, uint32_t{MIEN_STORAGE_16_BIT});
   EXPECT_LT(reduced.after.rig_bytes, reduced.before.rig_bytes);
+  EXPECT_LT(reduced.after.deformer_bytes, reduced.before.deformer_bytes);
   EXPECT_LT(reduced.after.deltas, reduced.before.deltas);
   // Measured anew, not by what it says.
-  Character original = character_of(dna), result = character_of(reduced.dna, reduced.storage);
+  Character original = character_of(dna),
+            result = character_of(reduced.dna, reduced.storage, reduced.deformer_storage);
   const Proof proof = prove(original, result, {1}, INFINITY);
   EXPECT_LE(proof.lods[0].worst, 0.05);
   EXPECT_LE(proof.lods[1].worst, 0.01);
@@ -143,12 +148,55 @@ TEST(Reduction, StaysWithinTheToleranceOfEachLod) {
   EXPECT_GT(proof.lods[0].worst, 0);
   EXPECT_EQ(proof.lods[0].worst, reduced.proof.lods[0].worst);
   EXPECT_EQ(result.rig_bytes(), reduced.after.rig_bytes);
+  EXPECT_EQ(result.deformer_bytes(), reduced.after.deformer_bytes);
+}
+
+TEST(Reduction, RegionsHaveTolerancesOfTheirOwn) {
+  const Dna dna = tiny();
+  Tolerances tolerances({0.05});
+  Character original = character_of(dna);
+  const std::string mesh = rig_name(original.rig.get(), MIEN_KIND_MESH, 0);
+  // A joint that moves some positions of mesh 0 most.
+  MienIndex16View joints{};
+  MienFloatView weights{};
+  original.influences(0, 0, joints, weights);
+  const size_t most = static_cast<size_t>(
+      std::max_element(weights.data, weights.data + weights.count) - weights.data);
+  const std::string joint = rig_name(original.rig.get(), MIEN_KIND_JOINT, joints.data[most]);
+  tolerances.regions = {{joint, 1e-4}, {mesh, 0.03}};
+  find_regions(original, tolerances);
+  EXPECT_EQ(tolerances.region_at(0, 0), 1u);
+  EXPECT_EQ(tolerances.of_position(1, 0, 0), 1e-4);
+  EXPECT_EQ(tolerances.least(), 1e-4);
+
+  const Reduced reduced = reduce_rig(dna.get(), {tolerances, sized<MienRigDesc>(), "tiny", {}});
+  ASSERT_EQ(reduced.proof.regions.size(), 3u);
+  EXPECT_LE(reduced.proof.regions[0].worst, 0.05);
+  EXPECT_LE(reduced.proof.regions[1].worst, 1e-4);
+  EXPECT_LE(reduced.proof.regions[2].worst, 0.03);
+  EXPECT_LE(reduced.proof.share, 1);
+  EXPECT_FALSE(reduced.proof.regions[1].shown_pose.empty());
+}
+
+TEST(Proof, PerformancesAreMorePoses) {
+  const Dna dna = tiny();
+  Character one = character_of(dna), other = character_of(with_one_position_moved(dna));
+  const size_t count = rig_count(one.rig.get(), MIEN_KIND_RAW_CONTROL);
+  const std::vector<Performance> takes = {{"first", {}},
+                                          {"second", {std::vector<float>(count, 0.25f)}}};
+  const ProofPoses poses(one.rig.get(), takes);
+  const Proof proof = prove(one, other, {1}, INFINITY, takes);
+  EXPECT_EQ(proof.pose_count, prove(one, other, {1}, INFINITY).pose_count + 1);
+  EXPECT_EQ(poses.describe(poses.count() - 1), "frame 0 of second");
+  poses.set(poses.count() - 1, one.raw());
+  for (size_t i = 0; i < count; ++i) EXPECT_EQ(one.raw().data[i], 0.25f);
 }
 
 TEST(Reduction, KeepsFloatsWhere16BitsAreTooCoarse) {
   const Dna dna = tiny();
-  const Reduced reduced = reduce_rig(dna.get(), {{1e-5}, sized<MienRigDesc>(), "tiny"});
+  const Reduced reduced = reduce_rig(dna.get(), {{1e-5}, sized<MienRigDesc>(), "tiny", {}});
   EXPECT_EQ(reduced.storage, uint32_t{MIEN_STORAGE_32_BIT});
+  EXPECT_EQ(reduced.deformer_storage, uint32_t{MIEN_STORAGE_32_BIT});
   EXPECT_LE(reduced.proof.share, 1);
 }
 

@@ -48,7 +48,8 @@ pub const MIEN_ERROR_NAME: MienStatus = 8;
 pub const MIEN_ERROR_ISA: MienStatus = 9;
 /// The allocator returned NULL.
 pub const MIEN_ERROR_MEMORY: MienStatus = 10;
-/// This build of the library only opens baked files.
+/// This build of the library only opens baked files, or the object is stored in a form that does
+/// not have what was asked for.
 pub const MIEN_ERROR_UNSUPPORTED: MienStatus = 11;
 /// The file cannot be opened.
 pub const MIEN_ERROR_FILE_OPEN: MienStatus = 20;
@@ -1376,8 +1377,10 @@ pub struct MienDeformerDesc {
     pub normals: u32,
     /// Compute tangents, for `mien_deformer_instance_write_vertices()`.
     pub with_tangents: u32,
-    /// 0.
-    pub reserved: u32,
+    /// `MIEN_STORAGE_...`; 16-bit: blend shape deltas and skin weights as 16-bit integers with
+    /// scales, and neutral positions stored once. Positions differ by about 1/65000 of what they
+    /// move; see docs/deformation.md, 2 "Positions".
+    pub storage: u32,
     pub allocator: *const MienAllocator,
 }
 
@@ -1413,6 +1416,10 @@ pub struct MienDeformerInfo {
     pub deformer_bytes: u64,
     /// Memory of a deformer instance for all meshes.
     pub instance_bytes: u64,
+    /// `MIEN_STORAGE_...`
+    pub storage: u32,
+    /// 0.
+    pub reserved: u32,
 }
 
 impl Default for MienDeformerInfo {
@@ -4191,7 +4198,8 @@ extern "C" {
     /// Returns the influences of a position, as used for skinning: `out_joints` gets one index per
     /// influence, `out_weights` gets one float per influence. There may be none.
     ///
-    /// Fails with `MIEN_ERROR_INDEX` if there is no such mesh or position.
+    /// Fails with `MIEN_ERROR_INDEX` if there is no such mesh or position,
+    /// `MIEN_ERROR_UNSUPPORTED` if the weights are stored with 16 bits (MienDeformerDesc.storage).
     pub fn mien_deformer_influences(deformer: *const MienDeformer, mesh: u32, position: u32, out_joints: *mut MienIndex16View, out_weights: *mut MienFloatView) -> MienStatus;
 
     /// Writes a blend shape target to `out_deltas`: 3 floats per position, the offset at channel

@@ -66,9 +66,10 @@ fn structs_are_laid_out_as_in_c() {
             joint_column_count 20 joint_entry_count 24 joint_byte_count 32;
         MienBatchDesc 24 8: struct_size 0 capacity 8 tasks 12 allocator 16;
         MienDeformerDesc 40 8: struct_size 0 isa 8 compose 12 weights 16 normals 20 with_tangents 24
-            reserved 28 allocator 32;
-        MienDeformerInfo 56 8: struct_size 0 isa 8 compose 12 weights 16 normals 20 lod_count 24
-            joint_count 28 channel_count 32 mesh_count 36 deformer_bytes 40 instance_bytes 48;
+            storage 28 allocator 32;
+        MienDeformerInfo 64 8: struct_size 0 isa 8 compose 12 weights 16 normals 20 lod_count 24
+            joint_count 28 channel_count 32 mesh_count 36 deformer_bytes 40 instance_bytes 48
+            storage 56 reserved 60;
         MienMesh 152 8: struct_size 0 position_count 8 vertex_count 12 triangle_count 16
             max_influences 20 target_count 24 delta_count 28 lods 32 positions 40 normals 56
             tangents 72 texture_coordinates 88 vertex_position_indices 104 triangles 120

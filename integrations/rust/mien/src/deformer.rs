@@ -3,7 +3,8 @@
 use crate::convert::{index, rows, slice};
 use crate::error::{check, checked};
 use crate::{
-    Allocator, Compose, DeformerInfo, DeformerInstance, Dna, Isa, Normals, Result, Rig, Weights,
+    Allocator, Compose, DeformerInfo, DeformerInstance, Dna, Isa, Normals, Result, Rig, Storage,
+    Weights,
 };
 use mien_sys as sys;
 use std::ptr::{null_mut, NonNull};
@@ -235,6 +236,7 @@ pub struct DeformerOptions {
     weights: Weights,
     normals: Normals,
     with_tangents: bool,
+    storage: Storage,
     allocator: Option<Allocator>,
 }
 
@@ -274,6 +276,12 @@ impl DeformerOptions {
         self
     }
 
+    /// How blend shapes and skin weights are stored. With 16 bits, [`Deformer::influences`] is an error.
+    pub fn storage(mut self, storage: Storage) -> Self {
+        self.storage = storage;
+        self
+    }
+
     /// Where memory comes from.
     pub fn allocator(mut self, allocator: &Allocator) -> Self {
         self.allocator = Some(allocator.clone());
@@ -297,6 +305,7 @@ impl DeformerOptions {
                 weights: self.weights.0,
                 normals: self.normals.0,
                 with_tangents: self.with_tangents.into(),
+                storage: self.storage.0,
                 allocator,
                 ..Default::default()
             };

@@ -34,7 +34,8 @@ impl Status {
     pub const ISA: Self = Self(9);
     /// The allocator returned NULL.
     pub const MEMORY: Self = Self(10);
-    /// This build of the library only opens baked files.
+    /// This build of the library only opens baked files, or the object is stored in a form that
+    /// does not have what was asked for.
     pub const UNSUPPORTED: Self = Self(11);
     /// The file cannot be opened.
     pub const FILE_OPEN: Self = Self(20);
@@ -116,7 +117,7 @@ pub(crate) fn describe(status: Status) -> &'static str {
         8 => "no such name or path",
         9 => "an instruction set that the CPU or the build does not support",
         10 => "the allocator returned NULL",
-        11 => "this build of the library only opens baked files",
+        11 => "this build of the library only opens baked files, or the object is stored in a form that does not have what was asked for",
         20 => "the file cannot be opened",
         21 => "the file or stream cannot be read",
         22 => "the file cannot be written",
@@ -1511,6 +1512,8 @@ pub struct DeformerInfo {
     pub deformer_bytes: u64,
     /// Memory of a deformer instance for all meshes.
     pub instance_bytes: u64,
+    /// Storage.
+    pub storage: Storage,
 }
 
 impl From<sys::MienDeformerInfo> for DeformerInfo {
@@ -1526,6 +1529,7 @@ impl From<sys::MienDeformerInfo> for DeformerInfo {
             mesh_count: c.mesh_count as usize,
             deformer_bytes: c.deformer_bytes,
             instance_bytes: c.instance_bytes,
+            storage: Storage(c.storage),
         }
     }
 }
@@ -2112,7 +2116,8 @@ macro_rules! errors {
         "- [`Status::INDEX`](crate::Status::INDEX) if there is no such mesh"
     };
     (mien_deformer_influences) => {
-        "- [`Status::INDEX`](crate::Status::INDEX) if there is no such mesh or position"
+        "- [`Status::INDEX`](crate::Status::INDEX) if there is no such mesh or position\n\
+         - [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) if the weights are stored with 16 bits (MienDeformerDesc.storage)"
     };
     (mien_deformer_target) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `count` is less than 3 \\* MienMesh.`position_count`\n\
