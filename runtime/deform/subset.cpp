@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A deformer of some positions of a mesh. Positions keep their order, and each position its influences and the order
-// of its targets, so results have the same bits.
+// of its targets, so results have the same bits. Numbers of 16-bit storage become floats.
 #include <algorithm>
 #include <new>
 
@@ -14,6 +14,7 @@ constexpr uint32_t kNotChosen = ~uint32_t{0};
 /// A delta of the whole mesh, and where it goes.
 struct ChosenDelta {
   uint32_t block, target, channel, delta;
+  float scale;     // of 16-bit storage
   uint16_t index;  // in the block
 };
 
@@ -30,10 +31,11 @@ void for_each_delta(const DeformMesh& mesh, const SubsetPlan& plan, F&& f) {
   for (uint32_t block = 0; block < mesh.block_count(); ++block) {
     for (uint32_t r = mesh.first_target_run[block]; r < mesh.first_target_run[block + 1]; ++r) {
       const TargetRun& run = mesh.target_runs[r];
+      const float scale = mesh.fixed_deltas.empty() ? 0.0f : mesh.scale_of(run);
       for (uint32_t d = run.first_delta; d < run.first_delta + run.count; ++d) {
         const uint32_t at = plan.places[size_t{block} * kBlockPositions + mesh.delta_indices[d]];
         if (at == kNotChosen) continue;
-        f(ChosenDelta{at / kBlockPositions, run.target, run.channel, d,
+        f(ChosenDelta{at / kBlockPositions, run.target, run.channel, d, scale,
                       static_cast<uint16_t>(at % kBlockPositions)});
       }
     }
@@ -100,7 +102,7 @@ void place_subset(const DeformMesh& from, const SubsetPlan& plan, size_t count, 
   mesh.weights = placer.array<float>(plan.weight_count, kBlockAlignment);
   mesh.joints = placer.array<uint16_t>(plan.weight_count, kBlockAlignment);
   mesh.position_indices = placer.array<uint32_t>(count, kBlockAlignment);
-  mesh.sorted_indices = placer.array<uint32_t>(count);
+  mesh.sorted_indices.wide = placer.array<uint32_t>(count);
   mesh.skin_runs = placer.array<SkinRun>(plan.skin_run_count);
   mesh.first_target_run = placer.array<uint32_t>(size_t{mesh.block_count()} + 1);
   mesh.target_runs = placer.array<TargetRun>(plan.target_run_count);
@@ -108,7 +110,6 @@ void place_subset(const DeformMesh& from, const SubsetPlan& plan, size_t count, 
   mesh.delta_indices = placer.array<uint16_t>(plan.deltas.count, kBlockAlignment);
   mesh.first_adjacent_face = placer.array<uint32_t>(count + 1);
   mesh.first_vertex = placer.array<uint32_t>(count + 1);
-  mesh.neutral_directions = placer.array<float>(count * 4, kBlockAlignment);
 }
 
 void fill_subset_skin(const DeformMesh& from, const SubsetPlan& plan, DeformMesh& mesh) {
@@ -116,13 +117,10 @@ void fill_subset_skin(const DeformMesh& from, const SubsetPlan& plan, DeformMesh
   for (uint32_t i = 0; i < mesh.position_count; ++i) {
     const uint32_t old = plan.order[i], number = plan.numbers[i];
     mesh.position_indices[i] = number;
-    mesh.sorted_indices[number] = i;
+    mesh.sorted_indices.set(number, i);
     const float* position = from.positions.data + size_t{from.position_indices[old]} * 3;
     std::copy(position, position + 3, mesh.positions.data + size_t{number} * 3);
-    for (size_t k = 0; k < 4; ++k) {
-      mesh.sorted_positions[size_t{i} * 4 + k] = from.sorted_positions[size_t{old} * 4 + k];
-      mesh.neutral_directions[size_t{i} * 4 + k] = from.neutral_directions[size_t{old} * 4 + k];
-    }
+    std::copy(position, position + 3, mesh.sorted_positions.data + size_t{i} * 4);
     const SkinRun& source = *skin_run_of(from, old);
     if (run == 0 || mesh.skin_runs[run - 1].influences != source.influences) {
       mesh.skin_runs[run++] = {weight, i, 0, source.influences, 0};
@@ -130,7 +128,9 @@ void fill_subset_skin(const DeformMesh& from, const SubsetPlan& plan, DeformMesh
     ++mesh.skin_runs[run - 1].count;
     const size_t first = source.first_weight + size_t{old - source.first} * source.influences;
     for (uint32_t k = 0; k < source.influences; ++k, ++weight) {
-      mesh.weights[weight] = from.weights[first + k];
+      mesh.weights[weight] = from.fixed_weights.empty()
+                                 ? from.weights[first + k]
+                                 : float(from.fixed_weights[first + k]) * from.weight_scale;
       mesh.joints[weight] = from.joints[first + k];
     }
   }
@@ -147,8 +147,11 @@ void fill_subset_targets(const DeformMesh& from, const SubsetPlan& plan, DeformM
     }
     ++mesh.target_runs[runs - 1].count;
     mesh.delta_indices[d] = source.index;
-    const float* delta = from.deltas.data + size_t{source.delta} * 3;
-    std::copy(delta, delta + 3, mesh.deltas.data + size_t{d} * 3);
+    for (size_t k = 0; k < 3; ++k) {
+      const size_t at = size_t{source.delta} * 3 + k;
+      mesh.deltas[size_t{d} * 3 + k] =
+          from.fixed_deltas.empty() ? from.deltas[at] : float(from.fixed_deltas[at]) * source.scale;
+    }
   }
   for (; block < mesh.block_count(); ++block) mesh.first_target_run[block + 1] = runs;
 }

@@ -93,7 +93,7 @@ MIEN_CHECKED MienStatus mien_deformer_create(const MienDna* dna, const MienRig* 
 
 /* Creates a deformer of some positions of one mesh. Position i of that mesh is `positions[i]` of the mesh of
  * `deformer`; it has no vertices or triangles, and all other meshes are empty. Deformed positions have the bits of
- * the whole mesh, and derivatives those of the chosen rows, and take time for the chosen positions only. `positions` are
+ * the whole mesh (with 16-bit storage they may be rounded otherwise), and derivatives those of the chosen rows, and take time for the chosen positions only. `positions` are
  * ascending, `position_count` of them. `deformer` may be destroyed afterwards; the new one keeps its memory. Destroy
  * with mien_deformer_destroy().
  * Fails with MIEN_ERROR_INDEX if there is no such mesh or position, MIEN_ERROR_INVALID_ARGUMENT if positions are not
