@@ -1000,7 +1000,7 @@ type DeformerDesc struct {
 	Normals Normals
 	// compute tangents, for mien_deformer_instance_write_vertices()
 	WithTangents uint32
-	// MIEN_STORAGE_...; 16-bit: blend shape deltas and skin weights as 16-bit integers with scales, and neutral positions stored once. Positions differ by about 1/65000 of what they move; see docs/deformation.md, 2 "Positions"
+	// MIEN_STORAGE_... of blend shape deltas and skin weights. With 16 bits they are integers with scales. See docs/deformation.md, 2.1 "16-bit storage"
 	Storage   Storage
 	allocator unsafe.Pointer
 }

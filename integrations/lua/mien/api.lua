@@ -276,7 +276,7 @@ typedef struct MienDeformerDesc {
     uint32_t weights; /* MIEN_WEIGHTS_... */
     uint32_t normals; /* MIEN_NORMALS_...: what MIEN_NORMALS_DEFAULT means for this deformer */
     uint32_t with_tangents; /* compute tangents, for mien_deformer_instance_write_vertices() */
-    uint32_t storage; /* MIEN_STORAGE_...; 16-bit: blend shape deltas and skin weights as 16-bit integers with scales, and neutral positions stored once. Positions differ by about 1/65000 of what they move; see docs/deformation.md, 2 "Positions" */
+    uint32_t storage; /* MIEN_STORAGE_... of blend shape deltas and skin weights. With 16 bits they are integers with scales. See docs/deformation.md, 2.1 "16-bit storage" */
     MienAllocator const* allocator;
 } MienDeformerDesc;
 
@@ -1624,7 +1624,7 @@ MienStatus mien_deformer_create(MienDna const* dna, MienRig const* rig, MienDefo
 
 /* Creates a deformer of some positions of one mesh. Position i of that mesh is `positions[i]` of the mesh of
 `deformer`; it has no vertices or triangles, and all other meshes are empty. Deformed positions have the bits of
-the whole mesh, and derivatives those of the chosen rows, and take time for the chosen positions only. `positions` are
+the whole mesh (with 16-bit storage they may be rounded otherwise), and derivatives those of the chosen rows, and take time for the chosen positions only. `positions` are
 ascending, `position_count` of them. `deformer` may be destroyed afterwards; the new one keeps its memory. Destroy
 with mien_deformer_destroy().
 Fails with MIEN_ERROR_INDEX if there is no such mesh or position, MIEN_ERROR_INVALID_ARGUMENT if positions are not
