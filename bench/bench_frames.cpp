@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Frames of a character that keeps what did not change (MIEN_REUSE_UNCHANGED), beside the same
-// frames evaluated in full: nothing moves, one control of the mouth, all of it, everything. And
-// packets, in one call and one by one.
+// Frames of a character that keeps what did not change (MIEN_REUSE_UNCHANGED), and sums ("sums":
+// MIEN_REUSE_SUMS), beside the same frames evaluated in full: nothing moves, one control of the mouth, ten,
+// all of it, everything. And packets, in one call and one by one.
 //
 // Counters: `frame` is the time of a frame in seconds (an iteration is 64 frames), `of_full` that
 // time by the one of a full evaluation in the same run, `moving` the number of raw controls that
@@ -21,7 +21,7 @@
 namespace mien::bench {
 namespace {
 
-enum class Moving { kNothing, kOne, kMouth, kEverything };
+enum class Moving { kNothing, kOne, kTen, kMouth, kEverything };
 
 const MienDna* behavior() {
   static const MienDna* dna = open_rig(kBehaviorLayers, 0);
@@ -113,7 +113,8 @@ Clip make_clip(const MienRig* rig, size_t count, Moving moving) {
     for (size_t i = 0; i < count; ++i) controls.push_back(static_cast<uint32_t>(i));
   }
   for (uint32_t i : controls) {
-    if (moving == Moving::kOne && clip.moving != 0) break;
+    if (moving == Moving::kOne && clip.moving == 1) break;
+    if (moving == Moving::kTen && clip.moving == 10) break;
     clip.frames[1][i] *= 0.9f;
     clip.moving += clip.frames[0][i] != clip.frames[1][i];
   }
@@ -172,13 +173,13 @@ double touched_share(const Clip& clip, const MienRig* rig, MienInstance* instanc
   return rows ? static_cast<double>(touched) / static_cast<double>(rows) : 0.0;
 }
 
-void frames(benchmark::State& state, uint32_t isa, Moving moving) {
-  const auto keeping_rig = rig_of(isa, MIEN_REUSE_UNCHANGED);
+void frames(benchmark::State& state, uint32_t isa, uint32_t reuse, Moving moving) {
+  const auto keeping_rig = rig_of(isa, reuse);
   const auto full_rig = rig_of(isa, MIEN_REUSE_NOTHING);
   const auto keeping = instance_of(keeping_rig.get()), full = instance_of(full_rig.get());
   const Clip clip = make_clip(keeping_rig.get(), raw_of(keeping.get()).count, moving);
-  // Turns of both, so that a slow moment hits them alike.
-  constexpr size_t kTurn = 64, kFullTurn = 8;
+  // Turns of both, so that a slow moment hits them alike; as long, because each begins with cold caches.
+  constexpr size_t kTurn = 64, kFullTurn = kTurn;
   double kept_seconds = 0, full_seconds = 0;
   size_t turns = 0;
   play(clip, 1, keeping_rig.get(), keeping.get());
@@ -265,14 +266,19 @@ const int kRegistered = [] {
     Moving moving;
   } clips[] = {{"unchanged", Moving::kNothing},
                {"one_control", Moving::kOne},
+               {"ten_controls", Moving::kTen},
                {"mouth", Moving::kMouth},
                {"everything", Moving::kEverything}};
   for (uint32_t isa = MIEN_ISA_SCALAR; isa <= MIEN_ISA_NEON; ++isa) {
     if (!mien_isa_available(isa)) continue;
     const std::string at = std::string("/") + mien_isa_name(isa) + "/lod0/";
     for (const auto& clip : clips) {
-      benchmark::RegisterBenchmark((clip.name + at + "25%").c_str(), frames, isa, clip.moving)
-          ->UseManualTime();
+      for (const uint32_t reuse : {MIEN_REUSE_UNCHANGED, MIEN_REUSE_SUMS}) {
+        const std::string kept = reuse == MIEN_REUSE_SUMS ? "25%/sums" : "25%";
+        benchmark::RegisterBenchmark((clip.name + at + kept).c_str(), frames, isa, reuse,
+                                     clip.moving)
+            ->UseManualTime();
+      }
     }
     for (int percent : {8, 25}) {
       for (uint32_t count : {1u, 64u, 512u}) {

@@ -164,15 +164,15 @@ MienStatus mien_rig_from_baked(const MienBaked* baked, const MienBakedRigDesc* d
   Allocator allocator;
   if (MienStatus status = read_allocator(known.allocator, allocator, error)) return status;
   const MienStatus in_range =
-      check_fields({{"MienBakedRigDesc.reuse", known.reuse, MIEN_REUSE_NOTHING}}, error);
+      check_fields({{"MienBakedRigDesc.reuse", known.reuse, MIEN_REUSE_SUMS}}, error);
   if (in_range != MIEN_OK) return in_range;
   const KernelTable* kernels = nullptr;
   if (MienStatus status = find_kernels(known.isa, kernels, error)) return status;
   if (!object(baked)->rig) return no_part("rig", error);
   Rig* rig = nullptr;
   Error detail;
-  const Status status = open_baked_rig(*object(baked), kernels, allocator, rig, detail);
-  if (status == Status::kOk) rig->always_evaluate = known.reuse == MIEN_REUSE_NOTHING;
+  Status status = open_baked_rig(*object(baked), kernels, allocator, rig, detail);
+  if (status == Status::kOk) status = set_reuse(known.reuse, rig, detail);
   return give_object(status, rig, detail, out_rig, error);
 }
 

@@ -25,4 +25,14 @@ MienStatus find_kernels(uint32_t isa, const KernelTable*& out, MienError* error)
                     mien_isa_name(isa));
 }
 
+Status set_reuse(uint32_t reuse, Rig*& rig, Error& error) {
+  rig->always_evaluate = reuse == MIEN_REUSE_NOTHING;
+  if (reuse != MIEN_REUSE_SUMS) return Status::kOk;
+  rig->changes = create_change_tables(*rig, rig->allocator);
+  if (rig->changes) return Status::kOk;
+  release(rig);
+  rig = nullptr;
+  return fail(error, Status::kMemory, kNoOffset, "no memory for the tables of MIEN_REUSE_SUMS");
+}
+
 }  // namespace mien::capi

@@ -97,6 +97,9 @@ inline MienClipEvent view_of(const ClipEvent& event) {
 /// The kernels of a MIEN_ISA_...; null with an error if there are none.
 MienStatus find_kernels(uint32_t isa, const KernelTable*& out, MienError* error);
 
+/// What MIEN_REUSE_... adds to a new rig. On failure releases it and sets it to null.
+Status set_reuse(uint32_t reuse, Rig*& rig, Error& error);
+
 /// Ends a call that creates an object: passes it to the caller, or the error.
 template <class Handle>
 MienStatus give_object(Status status, typename ObjectOf<Handle>::type* made, const Error& detail,

@@ -40,7 +40,7 @@ MienStatus mien_rig_info(const MienRig* rig, MienRigInfo* out_info) {
       of.quaternion_outputs ? MIEN_ROTATION_OUTPUT_QUATERNION : MIEN_ROTATION_OUTPUT_EULER;
   info.storage = of.half_storage ? MIEN_STORAGE_16_BIT : MIEN_STORAGE_32_BIT;
   info.arithmetic = of.portable ? MIEN_ARITHMETIC_PORTABLE : MIEN_ARITHMETIC_FAST;
-  info.rig_bytes = of.block_size + of.baked_size;
+  info.rig_bytes = of.block_size + of.baked_size + (of.changes ? of.changes->block_size : 0);
   info.instance_bytes = instance_size(of);
   write_struct(out_info, info);
   return MIEN_OK;

@@ -19,7 +19,7 @@ MienStatus mien_rig_create(const MienDna* dna, const MienRigDesc* desc, MienRig*
       {{"MienRigDesc.rotation_output", known.rotation_output, MIEN_ROTATION_OUTPUT_QUATERNION},
        {"MienRigDesc.ml_masks", known.ml_masks, MIEN_ML_MASKS_BLEND},
        {"MienRigDesc.storage", known.storage, MIEN_STORAGE_16_BIT},
-       {"MienRigDesc.reuse", known.reuse, MIEN_REUSE_NOTHING},
+       {"MienRigDesc.reuse", known.reuse, MIEN_REUSE_SUMS},
        {"MienRigDesc.arithmetic", known.arithmetic, MIEN_ARITHMETIC_PORTABLE}},
       error);
   if (in_range != MIEN_OK) return in_range;
@@ -37,7 +37,8 @@ MienStatus mien_rig_create(const MienDna* dna, const MienRigDesc* desc, MienRig*
                                   known.storage == MIEN_STORAGE_16_BIT,
                                   known.arithmetic == MIEN_ARITHMETIC_PORTABLE,
                                   known.reuse == MIEN_REUSE_NOTHING};
-  const Status status = compile_rig(object(dna)->view, options, allocator, rig, detail);
+  Status status = compile_rig(object(dna)->view, options, allocator, rig, detail);
+  if (status == Status::kOk) status = set_reuse(known.reuse, rig, detail);
   return give_object(status, rig, detail, out_rig, error);
 }
 

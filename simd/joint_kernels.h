@@ -112,6 +112,21 @@ constexpr uint32_t kBatchAhead = 16;
 /// of 16, both are 64-byte aligned.
 using FinishSumsKernel = void(float* sums, const float* scales, size_t count);
 
+/// Some block rows, finished as by finish_sums and written: for each block row b in `block_rows`,
+///
+///     to[outputs[8 * b + r]] = finished sums[8 * b + r]
+///
+/// Returns false if one of these sums is not finite.
+struct FinishBlockRowsArgs {
+  const float* sums;
+  const float* scales;         // [packed row], or null
+  const uint64_t* block_rows;  // bit b % 64 of word b / 64
+  const uint16_t* outputs;     // [packed row]
+  float* to;
+  uint32_t word_count;
+};
+using FinishBlockRowsKernel = bool(const FinishBlockRowsArgs& args);
+
 /// Where to write the sums of six, three or one neighboring packed rows that are also neighbors in the
 /// output.
 struct JointTarget {

@@ -269,6 +269,32 @@ void finish_sums(float* sums, const float* scales, size_t count) {
   }
 }
 
+bool finish_block_rows(const FinishBlockRowsArgs& args) {
+  // Local copies, because the compiler must assume that writes alias `args`.
+  const float *const all_sums = args.sums, *const all_scales = args.scales;
+  float* const to = args.to;
+  constexpr float kLargest = 3.40282347e38f;
+  const Quad zero = broadcast4(0.0f), largest = broadcast4(kLargest),
+             lowest = broadcast4(-kLargest);
+  Quad none = zero;  // NaN after a sum that is not finite
+  for (uint32_t w = 0; w < args.word_count; ++w) {
+    for (uint64_t bits = args.block_rows[w]; bits != 0; bits &= bits - 1) {
+      const size_t row =
+          (size_t{w} * 64 + static_cast<uint32_t>(__builtin_ctzll(bits))) * kJointBlockRows;
+      float finished[kJointBlockRows];
+      for (size_t r = 0; r < kJointBlockRows; r += 4) {
+        Quad sum = load4(all_sums + row + r);
+        none = none + (sum - sum);
+        if (all_scales) sum = sum * load4(all_scales + row + r);
+        store4(finished + r, lower4(higher4(sum, lowest), largest) + zero);
+      }
+      const uint16_t* const outputs = args.outputs + row;
+      for (size_t r = 0; r < kJointBlockRows; ++r) to[outputs[r]] = finished[r];
+    }
+  }
+  return different_lanes4(none, zero) == 0;
+}
+
 // Lanes are characters here, and the 8 rows of a block row are sums in registers. With 32 registers there are
 // two vectors for each row; 16 have room for four such rows, so the others come in a second pass.
 #if defined(MIEN_KERNEL_AVX512) || defined(MIEN_KERNEL_NEON)

@@ -25,6 +25,7 @@
   KERNEL(joint_batch, JointBatchKernel)                 \
   KERNEL(joint_batch_fixed, JointBatchKernel)           \
   KERNEL(finish_sums, FinishSumsKernel)                 \
+  KERNEL(finish_block_rows, FinishBlockRowsKernel)      \
   KERNEL(scatter_targets, ScatterTargetsKernel)         \
   KERNEL(joint_transposed, JointTransposedKernel)       \
   KERNEL(joint_transposed_fixed, JointTransposedKernel) \

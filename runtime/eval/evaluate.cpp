@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "runtime/eval/changes.h"
 #include "runtime/eval/instance_packet.h"
 #include "runtime/eval/stages.h"
 #include "simd/lanes.h"
@@ -34,13 +35,17 @@ void note_changes(const Rig& rig, Instance& instance, const ControlRange& range,
   if (rig.always_evaluate) return;  // everything is stale when an evaluation begins
   const float* now = instance.controls.data + range.first;
   const uint32_t count = range.end - range.first;
-  if (same_bits(previous, now, count)) return;
   Uses uses = 0;
-  // Without branches, which would be mispredicted.
-  const Uses* control_uses = rig.control_uses.data + range.first;
-  for (uint32_t i = 0; i < count; ++i) {
-    uses |= control_uses[i] & (Uses{0} - Uses{!same_bits(previous[i], now[i])});
-    previous[i] = now[i];
+  if (rig.changes) {
+    uses = mark_changes(rig, instance, range, previous);
+  } else {
+    if (same_bits(previous, now, count)) return;
+    // Without branches, which would be mispredicted.
+    const Uses* control_uses = rig.control_uses.data + range.first;
+    for (uint32_t i = 0; i < count; ++i) {
+      uses |= control_uses[i] & (Uses{0} - Uses{!same_bits(previous[i], now[i])});
+      previous[i] = now[i];
+    }
   }
   instance.stale |= uses & ~Uses{writer & ~rig.feedback_stages};
 }
@@ -126,7 +131,13 @@ void run_packet(const InstancePacket& packet, uint32_t stage, const ControlRange
 /// `after_rbf`: evaluate_rbf() returned true for the whole packet.
 void run_together(const InstancePacket& packet, uint32_t stages, bool after_rbf) {
   Instance* changed[kBatchLanes];
-  const InstancePacket those = stale_ones(packet, stages, changed);
+  InstancePacket those = stale_ones(packet, stages, changed);
+  if (packet.rig.changes) {
+    Instance** const end = std::remove_if(changed, changed + those.count, [&](Instance* instance) {
+      return has_few_changes(packet.rig, *instance);
+    });
+    those.count = static_cast<uint32_t>(end - changed);
+  }
   if (those.count < 2) return;
   if (after_rbf && those.count == packet.count) {
     gather_after_rbf(those);
@@ -170,6 +181,7 @@ void evaluate_joint_group(const Rig& rig, Instance& instance, uint32_t lod, uint
   enter_lod(rig, instance, lod);
   evaluate_joint_rows(rig, instance, lod, kAllPanels, group);
   evaluate_rotations(rig, instance, lod, group, 1);
+  drop_sums(instance);
   instance.stale |= kStageJoints | kAllPanels;
 }
 
@@ -183,6 +195,7 @@ void evaluate_rbf_solver(const Rig& rig, Instance& instance, uint32_t lod, uint3
 void evaluate_twist_swing(const Rig& rig, Instance& instance, uint32_t lod, uint32_t setup) {
   enter_lod(rig, instance, lod);
   apply_twists_and_swings(rig, instance, lod, setup, 1);
+  drop_sums(instance);
   instance.stale |= kStageJoints | kAllPanels;
 }
 

@@ -3,6 +3,7 @@
 // animated maps (docs/rig-evaluation.md, 2, 3 and 5).
 #include <algorithm>
 
+#include "runtime/eval/changes.h"
 #include "runtime/eval/evaluate.h"
 #include "runtime/eval/stages.h"
 #include "simd/kernels.h"
@@ -77,15 +78,18 @@ void map_raw_to_gui(const Rig& rig, Instance& instance) {
 
 // docs/rig-evaluation.md, 3.3 "Value", in order of dependency.
 void evaluate_psds(const Rig& rig, Instance& instance, uint32_t lod) {
+  if (rig.changes && evaluate_changed_psds(rig, instance, lod)) return;
   const PsdTable& psds = rig.psds;
   note_written_psds(
       instance, rig.kernels->psds({psds.outputs.data, psds.weights.data, psds.first_input.data,
                                    psds.inputs.data, psds.run_lengths.data, rig.control_uses.data,
                                    instance.controls.data, psds.count_at_lod[lod]}));
+  if (rig.changes) mark_all_psds(rig, instance);
 }
 
 // docs/rig-evaluation.md, 5 "Blend shapes and animated maps".
 void evaluate_blend_shapes(const Rig& rig, Instance& instance, uint32_t lod) {
+  if (rig.changes && evaluate_changed_blend_shapes(rig, instance, lod)) return;
   const uint32_t count = rig.channels.count_at_lod[lod];
   for (uint32_t i = 0; i < count; ++i) {
     instance.channels[rig.channels.outputs[i]] = instance.controls[rig.channels.inputs[i]];

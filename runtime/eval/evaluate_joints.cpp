@@ -9,6 +9,7 @@
 #include <type_traits>
 
 #include "runtime/base/bits.h"
+#include "runtime/eval/changes.h"
 #include "runtime/eval/instance_packet.h"
 #include "runtime/eval/stages.h"
 #include "simd/lanes.h"
@@ -196,13 +197,14 @@ bool holds_group(const JointMatrix& joints, uint32_t panel, uint32_t group) {
 }  // namespace
 
 void finish_tile(const Rig& rig, Instance& instance, uint32_t lod, const JointTile& tile,
-                 uint32_t first_column, uint32_t only_group) {
+                 uint32_t first_column, uint32_t only_group, bool keep) {
   add_columns(rig, instance, tile, first_column, rig.joints.columns.count);
   const JointMatrix& joints = rig.joints;
   float* const sums = tile.of_panel(joints, tile.first_panel);
   float* const end = tile.of_panel(joints, tile.end_panel);
   const size_t first_row =
       size_t{joints.panels[tile.first_panel].first_block_row} * kJointBlockRows;
+  if (keep) std::copy(sums, end, instance.changes.sums.data + first_row);
   const float* scales = joints.scales.empty() ? nullptr : joints.scales.data + first_row;
   rig.kernels->finish_sums(sums, scales, static_cast<size_t>(end - sums));
   write_tile(rig, instance, lod, tile, only_group);
@@ -259,7 +261,8 @@ void evaluate_joint_rows(const Rig& rig, Instance& instance, uint32_t lod, Uses 
       std::fill(tile.of_panel(joints, tile.first_panel), tile.of_panel(joints, c), 0.0f);
     }
     const auto columns = static_cast<uint32_t>(joints.columns.count);
-    finish_tile(rig, instance, lod, tile, by_strips ? columns : 0, only_group);
+    const bool keep = rig.changes && only_group == kAllGroups;
+    finish_tile(rig, instance, lod, tile, by_strips ? columns : 0, only_group, keep);
   }
 }
 
@@ -271,8 +274,10 @@ void evaluate_stale_rows(const Rig& rig, Instance& instance, uint32_t lod) {
   // ML joints must not be added twice to the same rows. Where rows of several panels write the same
   // value, the last one has to write last.
   const bool all = !rig.ml.joints.empty() || rig.joints.contested;
-  const Uses panels = all ? kAllPanels : instance.stale & kAllPanels;
+  const Uses stale = rig.changes ? panels_to_sum(rig, instance) : instance.stale & kAllPanels;
+  const Uses panels = all ? kAllPanels : stale;
   evaluate_joint_rows(rig, instance, lod, panels, kAllGroups);
+  if (rig.changes) note_sums(rig, instance, panels);
 }
 
 void finish_joints(const InstancePacket& packet) {
@@ -285,8 +290,18 @@ void finish_joints(const InstancePacket& packet) {
   }
 }
 
+void finish_changed_joints(const Rig& rig, Instance& instance, uint32_t lod) {
+  turn_changed_joints(rig, instance, lod);
+  Instance* const one = &instance;
+  twist_joints(InstancePacket::of_one(rig, lod, &one));
+  add_ml_joints(rig, instance, lod);
+  instance.stale &= ~(Uses{kStageJoints} | kAllPanels);
+}
+
 void evaluate_joints(const Rig& rig, Instance& instance, uint32_t lod) {
   begin_joints(rig, instance, lod);
+  if (rig.changes && add_changed_columns(rig, instance, lod))
+    return finish_changed_joints(rig, instance, lod);
   evaluate_stale_rows(rig, instance, lod);
   Instance* const one = &instance;
   finish_joints(InstancePacket::of_one(rig, lod, &one));

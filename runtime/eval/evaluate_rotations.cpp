@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Rotations of joints: quaternions from angles, joints represented by quaternions, twists and swings
 // (docs/rig-evaluation.md, 4.6 to 4.8, 7).
+#include "runtime/base/bits.h"
 #include "runtime/eval/instance_packet.h"
 #include "runtime/eval/stages.h"
 #include "simd/lanes.h"
@@ -249,6 +250,22 @@ void turn_joints(const InstancePacket& packet) {
     if (!together) turn_groups(rig, *packet.instances[i], packet.lod, 0, groups);
     convert_angles(rig, *packet.instances[i], packet.lod, 0, groups);
   }
+}
+
+void turn_changed_joints(const Rig& rig, Instance& instance, uint32_t lod) {
+  const uint32_t groups = rig.joints.group_count;
+  if (groups == 0) return;
+  turn_groups(rig, instance, lod, 0, groups);
+  // Angles overwrite the turns of the same joints.
+  if (!rig.rotations.turns.empty()) return convert_angles(rig, instance, lod, 0, groups);
+  AngleBlock block(rig, instance);
+  const Span<uint64_t>& turned = instance.changes.turned;
+  for (uint32_t w = 0; w < turned.count; ++w) {
+    for (uint64_t bits = turned[w]; bits != 0; bits &= bits - 1) {
+      block.add(w * 64 + lowest_bit(bits));
+    }
+  }
+  block.flush();
 }
 
 void twist_joints(const InstancePacket& packet) {

@@ -8,13 +8,26 @@
 namespace mien {
 namespace {
 
+void place_changes(const Rig& rig, Placer& placer, Changes& changes) {
+  const size_t words = bit_words(rig.control_count);
+  for (Span<uint64_t>* set : {&changes.psds, &changes.joints, &changes.channels}) {
+    *set =
+        placer.array<uint64_t>(words + 1);  // a range of 16 controls may reach past the last word
+  }
+  const size_t block_rows = rig.joints.panels[rig.joints.panel_count()].first_block_row;
+  changes.sums = placer.array<float>(block_rows * kJointBlockRows, kBlockAlignment);
+  changes.summed = placer.array<float>(rig.control_count, kBlockAlignment);
+  changes.entries = placer.array<uint64_t>(bit_words(rig.psds.outputs.count));
+  changes.block_rows = placer.array<uint64_t>(rig.changes->word_count);
+  changes.turned = placer.array<uint64_t>(rig.quaternion_outputs ? bit_words(rig.joint_count) : 0);
+}
+
 void place_instance(const Rig& rig, Placer& placer, Instance& instance) {
   instance.controls = placer.array<float>(rig.control_count, kBlockAlignment);
   instance.gui = placer.array<float>(rig.gui_count, kBlockAlignment);
   instance.masks = placer.array<float>(rig.mask_count, kBlockAlignment);
-  const size_t angles = rig.quaternion_outputs ? size_t{rig.joint_count} * 3 : 0;
-  instance.joints_and_angles =
-      placer.array<float>(rig.joint_value_count() + angles, kBlockAlignment);
+  instance.joints_and_angles = placer.array<float>(joints_and_angles_count(rig), kBlockAlignment);
+  if (rig.changes) placer.array<float>(1);  // for rows that write no joint value
   instance.joints = instance.joints_and_angles.first(rig.joint_value_count());
   instance.channels = placer.array<float>(rig.channel_count, kBlockAlignment);
   instance.maps = placer.array<float>(rig.map_count, kBlockAlignment);
@@ -33,6 +46,7 @@ void place_instance(const Rig& rig, Placer& placer, Instance& instance) {
   instance.rbf_rotations = placer.array<float>(rig.rbf.rotations.count, kBlockAlignment);
   instance.rbf_weights = placer.array<float>(rig.rbf.pose_scales.count, kBlockAlignment);
   instance.rbf_results = placer.array<float>(rig.rbf.pose_scales.count, kBlockAlignment);
+  if (rig.changes) place_changes(rig, placer, instance.changes);
 }
 
 void fill(const Span<float>& values, float value) {
@@ -58,6 +72,7 @@ Instance* create_instance(const Rig& rig, const Allocator& allocator) {
 void clear_results(Instance& instance) {
   const Rig& rig = *instance.rig;
   instance.stale = kAllUses;
+  instance.changes.all = kStagesAll;
   fill(instance.joints_and_angles, 0.0f);
   if (rig.quaternion_outputs) {
     for (uint32_t j = 0; j < rig.joint_count; ++j) {

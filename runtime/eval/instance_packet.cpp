@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "runtime/eval/changes.h"
 #include "runtime/eval/stages.h"
 #include "simd/lanes.h"
 
@@ -118,8 +119,8 @@ void evaluate_shared_rows(const InstancePacket& packet, const SharedColumns& sha
     }
     for (uint32_t i = 0; i < packet.count; ++i) {
       tile.sums = packet.scratch->sums.data + i * args.stride;
-      finish_tile(packet.rig, *packet.instances[i], packet.lod, tile, shared.column_end,
-                  kAllGroups);
+      finish_tile(packet.rig, *packet.instances[i], packet.lod, tile, shared.column_end, kAllGroups,
+                  false);
     }
   }
 }
@@ -151,7 +152,10 @@ void evaluate_psds_together(const InstancePacket& packet) {
       uses[i] |= packet.rig.control_uses[output];
     }
   }
-  for (uint32_t i = 0; i < packet.count; ++i) note_written_psds(*packet.instances[i], uses[i]);
+  for (uint32_t i = 0; i < packet.count; ++i) {
+    note_written_psds(*packet.instances[i], uses[i]);
+    if (packet.rig.changes) mark_all_psds(packet.rig, *packet.instances[i]);
+  }
 }
 
 void evaluate_joints_together(const InstancePacket& packet) {
@@ -161,6 +165,7 @@ void evaluate_joints_together(const InstancePacket& packet) {
   const SharedColumns shared = find_shared_columns(packet);
   if (shared.column_end != 0) {
     evaluate_shared_rows(packet, shared);
+    for (uint32_t i = 0; i < packet.count; ++i) drop_sums(*packet.instances[i]);
   } else {
     for (uint32_t i = 0; i < packet.count; ++i) {
       evaluate_stale_rows(packet.rig, *packet.instances[i], packet.lod);

@@ -61,6 +61,8 @@ void evaluate_joints(const Rig& rig, Instance& instance, uint32_t lod);
 void begin_joints(const Rig& rig, Instance& instance, uint32_t lod);
 void evaluate_stale_rows(const Rig& rig, Instance& instance, uint32_t lod);
 void finish_joints(const InstancePacket& packet);
+/// The same for one instance, after add_changed_columns().
+void finish_changed_joints(const Rig& rig, Instance& instance, uint32_t lod);
 
 /// Evaluates the rows of `panels` (bits of Uses), of one group or of all groups.
 void evaluate_joint_rows(const Rig& rig, Instance& instance, uint32_t lod, Uses panels,
@@ -80,9 +82,9 @@ struct JointTile {
 };
 
 /// Adds the columns from `first_column` on, scales and saturates the sums, and writes the joint values that
-/// the LOD has, of one group or of all groups.
+/// the LOD has, of one group or of all groups. `keep`: stores the sums in Changes::sums, too.
 void finish_tile(const Rig& rig, Instance& instance, uint32_t lod, const JointTile& tile,
-                 uint32_t first_column, uint32_t only_group);
+                 uint32_t first_column, uint32_t only_group, bool keep);
 
 /// Writes all groups for a packet, from finished sums: [packed row of the tile][instance], 32 instances.
 void write_tile_together(const InstancePacket& packet, const JointTile& tile);
@@ -92,6 +94,8 @@ void write_tile_together(const InstancePacket& packet, const JointTile& tile);
 /// Applies the rotations of all groups, after their rows are written, and all twists and swings. In a
 /// batch, the scratch memory already has the controls.
 void turn_joints(const InstancePacket& packet);
+/// The same for one instance; only the angles of Changes::turned changed.
+void turn_changed_joints(const Rig& rig, Instance& instance, uint32_t lod);
 void twist_joints(const InstancePacket& packet);
 
 /// Applies the rotations of consecutive groups.

@@ -14,6 +14,7 @@
 #include "runtime/base/coordinate_system.h"
 #include "runtime/base/shared_bytes.h"
 #include "runtime/base/transform.h"
+#include "runtime/rig/change_tables.h"
 #include "runtime/rig/joint_matrix.h"
 #include "runtime/rig/stage_access.h"
 #include "simd/isa.h"
@@ -288,9 +289,13 @@ struct Units {
 struct Rig : Object {
   static constexpr uint32_t kTag = 0x6D52'4947;
 
-  const SharedBytes* bytes = nullptr;  // of a baked rig: where its arrays are; owned with others
-  size_t baked_size = 0;               // of its part of these bytes
-  ~Rig() { release(bytes); }
+  const SharedBytes* bytes = nullptr;     // of a baked rig: where its arrays are; owned with others
+  size_t baked_size = 0;                  // of its part of these bytes
+  const ChangeTables* changes = nullptr;  // owned; with them, instances keep sums
+  ~Rig() {
+    release(bytes);
+    release(changes);
+  }
 
   const KernelTable* kernels = nullptr;
   uint32_t lod_count = 0;
@@ -332,5 +337,10 @@ struct Rig : Object {
   LodLists variable_joint_values;
   NameList names[kKindsWithNames];
 };
+
+/// Joint values; with quaternion outputs, then 3 angles per joint.
+inline size_t joints_and_angles_count(const Rig& rig) {
+  return rig.joint_value_count() + (rig.quaternion_outputs ? size_t{rig.joint_count} * 3 : 0);
+}
 
 }  // namespace mien

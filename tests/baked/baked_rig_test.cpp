@@ -117,6 +117,27 @@ TEST(BakedRig, ReuseIsChosenWhenItIsOpened) {
   EXPECT_TRUE(bake(rig) == tiny_baked());
 }
 
+TEST(BakedRig, KeepsSumsAsTheRigThatWasBaked) {
+  const DnaHandle dna = generate_dna(MIEN_PRESET_SMALL, 3);
+  MienRigDesc of_dna = sized<MienRigDesc>();
+  of_dna.reuse = MIEN_REUSE_SUMS;
+  const RigHandle made = create_rig(dna.get(), of_dna);
+  const AlignedBytes file(bake(made.get()));
+  MienBakedRigDesc desc = sized<MienBakedRigDesc>();
+  desc.reuse = MIEN_REUSE_SUMS;
+  MienRig* rig = nullptr;
+  ASSERT_EQ(mien_rig_from_baked(open_baked(file).get(), &desc, &rig, nullptr), MIEN_OK);
+  const RigHandle opened(rig);
+  Character a(made), b(opened);
+  for (uint32_t frame = 0; frame < 30; ++frame) {
+    a.raw[frame] = b.raw[frame] = 0.3f;
+    a.evaluate(0);
+    b.evaluate(0);
+    EXPECT_TRUE(same_bits(a.joints, b.joints)) << frame;
+  }
+  EXPECT_GT(capi::object(a.instance.get())->changes.added_columns, 0u);
+}
+
 // Damage where it would hurt --------------------------------------------------------------------
 
 // Each byte of what is not mere numbers: one bit of it, all of it, and the largest value.

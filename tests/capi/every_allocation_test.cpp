@@ -289,9 +289,15 @@ std::vector<Call> calls_of_rigs(const World& w) {
   copied.file_access = MIEN_FILE_READ;
   auto of_derivatives = w.desc<MienDerivativesDesc>();
   of_derivatives.deformer = w.deformer.object;
+  auto sums = w.desc<MienRigDesc>();
+  sums.reuse = MIEN_REUSE_SUMS;
+  auto baked_sums = w.desc<MienBakedRigDesc>();
+  baked_sums.reuse = MIEN_REUSE_SUMS;
   return {
       {"mien_rig_create",
        makes(mien_rig_destroy, w.desc<MienRigDesc>(), mien_rig_create, w.dna.object)},
+      {"mien_rig_create with MIEN_REUSE_SUMS",
+       makes(mien_rig_destroy, sums, mien_rig_create, w.dna.object)},
       {"mien_instance_create", makes(mien_instance_destroy, w.desc<MienInstanceDesc>(),
                                      mien_instance_create, w.rig.object)},
       {"mien_batch_create",
@@ -314,6 +320,8 @@ std::vector<Call> calls_of_rigs(const World& w) {
        opens(mien_baked_close, w.desc<MienBakedDesc>(), mien_baked_open_stream, w.baked_bytes)},
       {"mien_rig_from_baked",
        makes(mien_rig_destroy, w.desc<MienBakedRigDesc>(), mien_rig_from_baked, w.baked.object)},
+      {"mien_rig_from_baked with MIEN_REUSE_SUMS",
+       makes(mien_rig_destroy, baked_sums, mien_rig_from_baked, w.baked.object)},
       {"mien_deformer_from_baked",
        makes(mien_deformer_destroy, w.desc<MienBakedDeformerDesc>(), mien_deformer_from_baked,
              w.baked.object, w.baked_rig.object)},

@@ -83,7 +83,7 @@ TEST_F(Misuse, ValuesOutsideTheirRange) {
   });
   c.with_error<MienRig*>("reuse", [&](auto* o, auto* e) {
     MienRigDesc desc = sized<MienRigDesc>();
-    desc.reuse = MIEN_REUSE_NOTHING + 1;
+    desc.reuse = MIEN_REUSE_SUMS + 1;
     return mien_rig_create(dna, &desc, o, e);
   });
   c.with_error<MienRig*>("rig without allocate", [&](auto* o, auto* e) {

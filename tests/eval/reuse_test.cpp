@@ -4,7 +4,7 @@
 //
 // Twins: two instances of the same file, one on a rig that keeps results and one on a rig that keeps
 // nothing, go through the same random calls and are compared after each. Some calls evaluate the
-// first ones of several pairs as a batch.
+// first ones of several pairs as a batch. Rigs that keep sums are compared within their bound.
 //
 //     MIEN_LONG_TESTS=1 eval_tests --gtest_filter='Reuse.*'                   10^6 sequences
 //     MIEN_TWIN_FIRST=12345 MIEN_TWIN_SEQUENCES=1 eval_tests ...              one that failed
@@ -17,6 +17,7 @@
 #include "tests/support/long_run.h"
 #include "tests/support/many_rigs.h"
 #include "tests/support/random_layer_rig.h"
+#include "tests/support/sums_bound.h"
 
 namespace mien {
 namespace {
@@ -25,16 +26,18 @@ namespace {
 
 struct Twins {
   Character kept, plain;
+  SumsBound bound;  // with MIEN_REUSE_SUMS
 };
 
 /// Pairs of instances of one file, and what happens to them.
 class TwinRun {
  public:
-  TwinRun(const MienDna* dna, MienRigDesc desc) : kept_rig_(create_rig(dna, desc)) {
+  TwinRun(const MienDna* dna, MienRigDesc desc)
+      : kept_rig_(create_rig(dna, desc)), sums_(desc.reuse == MIEN_REUSE_SUMS) {
     desc.reuse = MIEN_REUSE_NOTHING;
     plain_rig_ = create_rig(dna, desc);
     for (uint32_t i = 0; i < kPairs; ++i)
-      pairs_.push_back({Character(kept_rig_), Character(plain_rig_)});
+      pairs_.push_back({Character(kept_rig_), Character(plain_rig_), SumsBound()});
     MienBatch* batch = nullptr;
     const MienBatchDesc batch_description = batch_desc(kPairs);
     EXPECT_EQ(mien_batch_create(kept_rig_.get(), &batch_description, &batch, nullptr), MIEN_OK);
@@ -157,18 +160,22 @@ class TwinRun {
         const uint32_t stages = draw_stages(random);
         note(stages == MIEN_STAGE_ALL ? "evaluate" : "some stages");
         both(twins, [&](const MienRig*, Character& c) { c.evaluate(lod, stages); });
+        note_sums(twins, stages);
       }
     }
+    note_sums(twins, 0);
     compare(twins);
   }
 
   void evaluate_batch(Random& random) {
     MienInstance* instances[kPairs];
+    Twins* evaluated[kPairs];
     uint32_t lods[kPairs], count = 0;
     const uint32_t stages = draw_stages(random), lod = draw_lod(random);
     for (Twins& twins : pairs_) {
       if (random.below(5) == 0) continue;
       if (random.below(2)) act(random, twins);
+      evaluated[count] = &twins;
       instances[count] = twins.kept.instance.get();
       lods[count++] = random.below(4) ? lod : random.below(lod_count_);
       twins.plain.evaluate(lods[count - 1], stages);
@@ -177,7 +184,12 @@ class TwinRun {
     EXPECT_EQ(mien_rig_evaluate_batch(kept_rig_.get(), batch_.get(), instances, lods, count, stages,
                                       nullptr),
               MIEN_OK);
+    for (uint32_t i = 0; i < count; ++i) note_sums(*evaluated[i], stages);
     for (const Twins& twins : pairs_) compare(twins);
+  }
+
+  void note_sums(Twins& twins, uint32_t stages) const {
+    if (sums_) twins.bound.note(twins.kept, (stages & MIEN_STAGE_JOINTS) != 0);
   }
 
   void compare(const Twins& twins) const {
@@ -189,12 +201,18 @@ class TwinRun {
                     << plain[i] << ", after: " << calls_;
     };
     same("controls", twins.kept.controls, twins.plain.controls);
-    same("joints", twins.kept.joints, twins.plain.joints);
+    if (sums_) {
+      SCOPED_TRACE("sums, after: " + calls_);
+      twins.bound.expect_within(twins.kept, twins.plain);
+    } else {
+      same("joints", twins.kept.joints, twins.plain.joints);
+    }
     same("blend shapes", twins.kept.channels, twins.plain.channels);
     same("animated maps", twins.kept.maps, twins.plain.maps);
   }
 
   RigHandle kept_rig_, plain_rig_;
+  bool sums_;
   std::vector<Twins> pairs_;
   BatchHandle batch_;
   std::vector<float> frame_;
@@ -211,6 +229,7 @@ MienRigDesc random_desc(Random& random) {
   desc.ml_masks = random.below(2) ? MIEN_ML_MASKS_BLEND : MIEN_ML_MASKS_SWITCH;
   desc.storage = random.below(4) ? MIEN_STORAGE_32_BIT : MIEN_STORAGE_16_BIT;
   desc.arithmetic = random.below(4) ? MIEN_ARITHMETIC_FAST : MIEN_ARITHMETIC_PORTABLE;
+  desc.reuse = random.below(3) ? MIEN_REUSE_UNCHANGED : MIEN_REUSE_SUMS;
   return desc;
 }
 
@@ -464,7 +483,7 @@ TEST(Reuse, KeepsStagesThatDoNotReadWhatChanged) {
 TEST(Reuse, IsOneOfItsValues) {
   const DnaHandle dna = generate_dna(MIEN_PRESET_TINY, 1);
   MienRigDesc desc = sized<MienRigDesc>();
-  desc.reuse = 2;
+  desc.reuse = MIEN_REUSE_SUMS + 1;
   MienRig* rig = nullptr;
   EXPECT_EQ(mien_rig_create(dna.get(), &desc, &rig, nullptr), MIEN_ERROR_INVALID_ARGUMENT);
 }

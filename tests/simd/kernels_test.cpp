@@ -583,6 +583,45 @@ TEST(FinishSumsKernel, ScalesAndSaturates) {
   }
 }
 
+TEST(FinishBlockRowsKernel, WritesTheRowsOfTheSet) {
+  constexpr uint32_t kBlockRows = 70, kRows = kBlockRows * kJointBlockRows;
+  constexpr float kUntouched = 12345.0f, kLargest = std::numeric_limits<float>::max();
+  alignas(64) float sums[kRows], scales[kRows];
+  uint16_t outputs[kRows];
+  for (uint32_t i = 0; i < kRows; ++i) {
+    sums[i] = i % 5 ? static_cast<float>(i) - 200 : -0.0f;
+    scales[i] = 0.25f;
+    outputs[i] = static_cast<uint16_t>((i * 37) % kRows);
+  }
+  sums[24] = kLargest;
+  scales[24] = 4;
+  uint64_t words[2] = {uint64_t{1} << 3 | uint64_t{1} << 63, uint64_t{1} << 2};
+  const auto in_set = [&](uint32_t row) {
+    return words[row / kJointBlockRows / 64] >> row / kJointBlockRows % 64 & 1;
+  };
+  for (const KernelTable* kernels : present_kernels()) {
+    SCOPED_TRACE(kernels->name);
+    for (const float* scale : {static_cast<const float*>(nullptr), scales + 0}) {
+      std::vector<float> written(kRows, kUntouched);
+      EXPECT_TRUE(kernels->finish_block_rows({sums, scale, words, outputs, written.data(), 2}));
+      for (uint32_t i = 0; i < kRows; ++i) {
+        const float finished = i == 24 ? kLargest : sums[i] * (scale ? scale[i] : 1) + 0.0f;
+        EXPECT_EQ(bits_of(written[outputs[i]]), bits_of(in_set(i) ? finished : kUntouched)) << i;
+      }
+      for (const float wrong : {std::numeric_limits<float>::infinity(), std::nanf("")}) {
+        for (const uint32_t row : {24u, 31u, 504u, 531u, 100u}) {
+          const float before = sums[row];
+          sums[row] = wrong;
+          EXPECT_EQ(kernels->finish_block_rows({sums, scale, words, outputs, written.data(), 2}),
+                    !in_set(row))
+              << row;
+          sums[row] = before;
+        }
+      }
+    }
+  }
+}
+
 TEST(ReadBlockRowsKernel, ReadsRowsOfFilesAtAnyAddress) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   constexpr float kLargest = std::numeric_limits<float>::max();

@@ -105,7 +105,7 @@ typedef struct MienBakedRigDesc {
 } MienBakedRigDesc;
 MIEN_DEFAULT(MienBakedRigDesc, mien_baked_rig_desc_default)
 
-/* Creates the rig of a baked file, with one allocation. `baked` may be closed afterwards. Destroy with
+/* Creates the rig of a baked file, with one allocation, or two with MIEN_REUSE_SUMS. `baked` may be closed afterwards. Destroy with
  * mien_rig_destroy().
  * Fails with MIEN_ERROR_BAKED_PART if the file has no rig, MIEN_ERROR_BAKED_VERSION or
  * MIEN_ERROR_BAKED_STRUCTURE if its rig cannot be used, MIEN_ERROR_ISA if the requested instruction set

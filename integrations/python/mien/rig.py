@@ -28,7 +28,8 @@ class Rig(RigView):
     isa:      `Isa`; one that is absent raises, never is another taken silently
     rotation: `RotationOutput.EULER` gives 9 values per joint, `RotationOutput.QUATERNION` 10
     ml_masks: whether masks switch or blend what was learned, see `MlMasks`
-    reuse:    `Reuse.NOTHING` computes all of it each time, even if no input changed: for measuring
+    reuse:    `Reuse.NOTHING` computes all of it each time, even if no input changed: for measuring;
+              `Reuse.SUMS` makes frames in which few controls change cheap, within a stated error
     arithmetic: `Arithmetic.PORTABLE` gives the same bits on every instruction set
     storage:  `Storage.BIT_16` halves the memory of the large arrays, at three decimal digits
     """

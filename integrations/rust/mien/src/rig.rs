@@ -331,7 +331,8 @@ impl RigOptions {
         self
     }
 
-    /// Whether evaluation keeps results whose inputs did not change. The same bits either way.
+    /// Whether evaluation keeps results whose inputs did not change. The same bits either way, except
+    /// with [`Reuse::SUMS`], whose joints stay within a stated error.
     pub fn reuse(mut self, reuse: Reuse) -> Self {
         self.reuse = reuse;
         self
