@@ -601,7 +601,8 @@ TEST(FinishBlockRowsKernel, WritesTheRowsOfTheSet) {
   };
   for (const KernelTable* kernels : present_kernels()) {
     SCOPED_TRACE(kernels->name);
-    for (const float* scale : {static_cast<const float*>(nullptr), scales + 0}) {
+    for (const float* scale :
+         {static_cast<const float*>(nullptr), static_cast<const float*>(scales)}) {
       std::vector<float> written(kRows, kUntouched);
       EXPECT_TRUE(kernels->finish_block_rows({sums, scale, words, outputs, written.data(), 2}));
       for (uint32_t i = 0; i < kRows; ++i) {
