@@ -249,12 +249,15 @@ namespace Mien {
     Portable = 1,
   }
 
-  /// <summary>Whether an instance keeps results whose inputs have not changed since its last evaluation. The
-  /// results are bit-identical either way.</summary>
+  /// <summary>What an instance keeps of its last evaluation. With MIEN_REUSE_UNCHANGED and MIEN_REUSE_NOTHING the
+  /// results are bit-identical.</summary>
   public enum Reuse : uint {
+    /// <summary>results whose inputs have not changed: joint groups, and other stages as a whole</summary>
     Unchanged = 0,
     /// <summary>compute everything in each evaluation, for measurements</summary>
     Nothing = 1,
+    /// <summary>also the sums of the joint matrix: where few controls changed, only their differences are added, so such a frame costs little even if these controls move joints everywhere. Joint values then depend on earlier frames: they differ from those of a full evaluation by at most (n + 1539) * 2^-23 * M, before rotations are made from them. n is the number of controls that are not 0, M the sum of the magnitudes of the products that a joint value is the sum of; both are the largest since all sums were last computed, which happens after a reset, after a change of LOD and after 512 added differences. Everything else is bit-identical. Rigs and instances take more memory: MienRigInfo.rig_bytes, .instance_bytes</summary>
+    Sums = 2,
   }
 
   /// <summary>Kinds of parts of a rig. Most have names.</summary>
@@ -3304,8 +3307,8 @@ namespace Mien.Native {
     [DllImport("mien", CallingConvention = CallingConvention.Cdecl)]
     public static extern IntPtr mien_isa_name(Isa isa);
 
-    /// <summary>Packs the behavior of a DNA for evaluation. The rig is one block of memory; temporary memory is
-    /// released before the call returns. `dna` may be closed afterwards. Destroy with mien_rig_destroy().
+    /// <summary>Packs the behavior of a DNA for evaluation. The rig is one block of memory, or two with
+    /// MIEN_REUSE_SUMS; temporary memory is released before the call returns. `dna` may be closed afterwards. Destroy with mien_rig_destroy().
     /// Fails with MIEN_ERROR_DNA_LAYER if `dna` was opened without its behavior, MIEN_ERROR_DNA_VALUE if
     /// correctives depend on each other in a cycle, MIEN_ERROR_DNA_LIMIT if the rig is too large,
     /// MIEN_ERROR_ISA if the requested instruction set is not available.
@@ -3515,7 +3518,8 @@ namespace Mien.Native {
     public static extern Status mien_batch_bytes(RigHandle rig, MienBatchDesc* desc, ulong* out_bytes);
 
     /// <summary>Evaluates stages of `count` different instances of one rig; instance i at LOD lods[i]. The results
-    /// are bit-identical to those of mien_rig_evaluate_stages(), but columns of the joint matrix that several
+    /// are bit-identical to those of mien_rig_evaluate_stages() (joint values with MIEN_REUSE_SUMS: within the
+    /// bound of a full evaluation), but columns of the joint matrix that several
     /// instances use are read only once for up to 32 of them. Runs on the calling thread, or in tasks
     /// on `parallel`; `parallel` may be NULL. Does not allocate or lock. Uses up to 48 KiB of stack per
     /// task. On failure no instance is evaluated.
@@ -3825,7 +3829,7 @@ namespace Mien.Native {
     [DllImport("mien", CallingConvention = CallingConvention.Cdecl)]
     public static extern Status mien_baked_info(BakedHandle baked, MienBakedInfo* out_info);
 
-    /// <summary>Creates the rig of a baked file, with one allocation. `baked` may be closed afterwards. Destroy with
+    /// <summary>Creates the rig of a baked file, with one allocation, or two with MIEN_REUSE_SUMS. `baked` may be closed afterwards. Destroy with
     /// mien_rig_destroy().
     /// Fails with MIEN_ERROR_BAKED_PART if the file has no rig, MIEN_ERROR_BAKED_VERSION or
     /// MIEN_ERROR_BAKED_STRUCTURE if its rig cannot be used, MIEN_ERROR_ISA if the requested instruction set

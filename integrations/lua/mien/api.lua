@@ -1396,8 +1396,8 @@ uint32_t mien_isa_available(uint32_t isa);
 and null-terminated. */
 char const* mien_isa_name(uint32_t isa);
 
-/* Packs the behavior of a DNA for evaluation. The rig is one block of memory; temporary memory is
-released before the call returns. `dna` may be closed afterwards. Destroy with mien_rig_destroy().
+/* Packs the behavior of a DNA for evaluation. The rig is one block of memory, or two with
+MIEN_REUSE_SUMS; temporary memory is released before the call returns. `dna` may be closed afterwards. Destroy with mien_rig_destroy().
 Fails with MIEN_ERROR_DNA_LAYER if `dna` was opened without its behavior, MIEN_ERROR_DNA_VALUE if
 correctives depend on each other in a cycle, MIEN_ERROR_DNA_LIMIT if the rig is too large,
 MIEN_ERROR_ISA if the requested instruction set is not available.
@@ -1572,7 +1572,8 @@ void mien_batch_destroy(MienBatch* batch);
 MienStatus mien_batch_bytes(MienRig const* rig, MienBatchDesc const* desc, uint64_t* out_bytes);
 
 /* Evaluates stages of `count` different instances of one rig; instance i at LOD lods[i]. The results
-are bit-identical to those of mien_rig_evaluate_stages(), but columns of the joint matrix that several
+are bit-identical to those of mien_rig_evaluate_stages() (joint values with MIEN_REUSE_SUMS: within the
+bound of a full evaluation), but columns of the joint matrix that several
 instances use are read only once for up to 32 of them. Runs on the calling thread, or in tasks
 on `parallel`; `parallel` may be NULL. Does not allocate or lock. Uses up to 48 KiB of stack per
 task. On failure no instance is evaluated.
@@ -1841,7 +1842,7 @@ void mien_baked_close(MienBaked* baked);
 /* Returns the properties of an open baked file. */
 MienStatus mien_baked_info(MienBaked const* baked, MienBakedInfo* out_info);
 
-/* Creates the rig of a baked file, with one allocation. `baked` may be closed afterwards. Destroy with
+/* Creates the rig of a baked file, with one allocation, or two with MIEN_REUSE_SUMS. `baked` may be closed afterwards. Destroy with
 mien_rig_destroy().
 Fails with MIEN_ERROR_BAKED_PART if the file has no rig, MIEN_ERROR_BAKED_VERSION or
 MIEN_ERROR_BAKED_STRUCTURE if its rig cannot be used, MIEN_ERROR_ISA if the requested instruction set
@@ -2909,6 +2910,7 @@ api.Arithmetic = {
 api.Reuse = {
   UNCHANGED = 0,
   NOTHING = 1,
+  SUMS = 2,
 }
 
 api.Kind = {

@@ -165,6 +165,7 @@ export const Arithmetic = Object.freeze({
 export const Reuse = Object.freeze({
   UNCHANGED: 0,
   NOTHING: 1,
+  SUMS: 2,
 });
 
 export const Kind = Object.freeze({

@@ -244,9 +244,19 @@ pub const MIEN_ARITHMETIC_FAST: u32 = 0;
 pub const MIEN_ARITHMETIC_PORTABLE: u32 = 1;
 
 // enum MienReuse
+/// Results whose inputs have not changed: joint groups, and other stages as a whole.
 pub const MIEN_REUSE_UNCHANGED: u32 = 0;
 /// Compute everything in each evaluation, for measurements.
 pub const MIEN_REUSE_NOTHING: u32 = 1;
+/// Also the sums of the joint matrix: where few controls changed, only their differences are
+/// added, so such a frame costs little even if these controls move joints everywhere. Joint values
+/// then depend on earlier frames: they differ from those of a full evaluation by at most (n +
+/// 1539) \* 2^-23 \* M, before rotations are made from them. n is the number of controls that are
+/// not 0, M the sum of the magnitudes of the products that a joint value is the sum of; both are
+/// the largest since all sums were last computed, which happens after a reset, after a change of
+/// LOD and after 512 added differences. Everything else is bit-identical. Rigs and instances take
+/// more memory: MienRigInfo.`rig_bytes`, .`instance_bytes`.
+pub const MIEN_REUSE_SUMS: u32 = 2;
 
 // enum MienKind
 pub const MIEN_KIND_GUI_CONTROL: u32 = 0;
@@ -3891,9 +3901,9 @@ extern "C" {
     /// static and null-terminated.
     pub fn mien_isa_name(isa: u32) -> *const c_char;
 
-    /// Packs the behavior of a DNA for evaluation. The rig is one block of memory; temporary
-    /// memory is released before the call returns. `dna` may be closed afterwards. Destroy with
-    /// `mien_rig_destroy()`.
+    /// Packs the behavior of a DNA for evaluation. The rig is one block of memory, or two with
+    /// `MIEN_REUSE_SUMS`; temporary memory is released before the call returns. `dna` may be
+    /// closed afterwards. Destroy with `mien_rig_destroy()`.
     ///
     /// Fails with `MIEN_ERROR_DNA_LAYER` if `dna` was opened without its behavior,
     /// `MIEN_ERROR_DNA_VALUE` if correctives depend on each other in a cycle,
@@ -4112,10 +4122,11 @@ extern "C" {
     pub fn mien_batch_bytes(rig: *const MienRig, desc: *const MienBatchDesc, out_bytes: *mut u64) -> MienStatus;
 
     /// Evaluates stages of `count` different instances of one rig; instance i at LOD lods\[i\].
-    /// The results are bit-identical to those of `mien_rig_evaluate_stages()`, but columns of the
-    /// joint matrix that several instances use are read only once for up to 32 of them. Runs on
-    /// the calling thread, or in tasks on `parallel`; `parallel` may be NULL. Does not allocate or
-    /// lock. Uses up to 48 KiB of stack per task. On failure no instance is evaluated.
+    /// The results are bit-identical to those of `mien_rig_evaluate_stages()` (joint values with
+    /// `MIEN_REUSE_SUMS`: within the bound of a full evaluation), but columns of the joint matrix
+    /// that several instances use are read only once for up to 32 of them. Runs on the calling
+    /// thread, or in tasks on `parallel`; `parallel` may be NULL. Does not allocate or lock. Uses
+    /// up to 48 KiB of stack per task. On failure no instance is evaluated.
     ///
     /// Fails with `MIEN_ERROR_LOD` if the rig has no such LOD, `MIEN_ERROR_MISMATCH` if the batch
     /// or an instance belongs to another rig, `MIEN_ERROR_INVALID_ARGUMENT` if `count` exceeds
@@ -4445,8 +4456,8 @@ extern "C" {
     /// Returns the properties of an open baked file.
     pub fn mien_baked_info(baked: *const MienBaked, out_info: *mut MienBakedInfo) -> MienStatus;
 
-    /// Creates the rig of a baked file, with one allocation. `baked` may be closed afterwards.
-    /// Destroy with `mien_rig_destroy()`.
+    /// Creates the rig of a baked file, with one allocation, or two with `MIEN_REUSE_SUMS`.
+    /// `baked` may be closed afterwards. Destroy with `mien_rig_destroy()`.
     ///
     /// Fails with `MIEN_ERROR_BAKED_PART` if the file has no rig, `MIEN_ERROR_BAKED_VERSION` or
     /// `MIEN_ERROR_BAKED_STRUCTURE` if its rig cannot be used, `MIEN_ERROR_ISA` if the requested
