@@ -326,7 +326,7 @@ Command add_solve_command(CLI::App& app, const Session& session) {
   solve->add_option("RIG", options->rig, "DNA file or baked rig")->type_name("")->required();
   solve
       ->add_option("TARGET", options->target.path,
-                   "What to match: .npy, .glb, .obj, a folder of OBJ, .csv, .json, .clip")
+                   "What to match: .npy, .npz, .glb, .obj, a folder of OBJ, .csv, .json, .clip")
       ->type_name("");
   add_output_options(*solve, options->output,
                      "Controls to write, as .clip or .json; - writes JSON to standard output")

@@ -144,9 +144,9 @@ std::vector<float> read_mask(const std::string& path, const SolvedRig& rig,
   const bool joints = target.points.empty();
   const size_t count = joints ? target.width / kValuesOfJoint : target.points.size();
   std::vector<float> weights;
-  if (ends_with(path, ".npy")) {
+  if (is_array_file(path)) {
     const std::string shown = shown_name(path);
-    weights = read_npy(read_any_bytes(path, kWhatMask), shown).numbers;
+    weights = read_npy_or_npz(read_any_bytes(path, kWhatMask), shown).numbers;
     if (weights.size() != count) {
       fail_mask(shown, "it has " + grouped(weights.size()) + " numbers",
                 "give one for each of " + grouped(count) + (joints ? " joints" : " points"));

@@ -32,7 +32,7 @@ SolveTarget read_array(const TargetOptions& options, size_t rows, size_t columns
                        const std::string& wanted) {
   const std::string shown = shown_name(options.path);
   auto array = std::make_shared<NpyArray>(
-      read_npy(read_any_bytes(options.path, "cannot read target"), shown));
+      read_npy_or_npz(read_any_bytes(options.path, "cannot read target"), shown));
   std::vector<uint64_t> shape = array->shape;
   if (shape.size() == 2) shape.insert(shape.begin(), 1);
   if (shape.size() != 3 || shape[1] != rows || shape[2] != columns) {
@@ -56,8 +56,8 @@ SolveTarget read_array(const TargetOptions& options, size_t rows, size_t columns
 SolveTarget read_joints(const TargetOptions& options, const SolvedRig& rig,
                         const Session& session) {
   if (ends_with(options.path, ".glb")) return read_glb_joints(options, rig, session);
-  if (!ends_with(options.path, ".npy")) {
-    fail_usage("--kind joints", "joints are read from NPY files and from GLB",
+  if (!is_array_file(options.path)) {
+    fail_usage("--kind joints", "joints are read from NPY and NPZ files and from GLB",
                "give frames x joints x 9 numbers as `mien eval` writes joints, as .npy, or an "
                "animated .glb");
   }
@@ -120,6 +120,10 @@ uint32_t find_mesh(const SolvedRig& rig, const std::string& name) {
        nearest.question("'mien info RIG --names meshes' lists the names"));
 }
 
+bool is_array_file(const std::string& path) {
+  return ends_with(path, ".npy") || ends_with(path, ".npz");
+}
+
 TargetKind find_kind(const TargetOptions& options) {
   if (!options.kind.empty()) {
     return static_cast<TargetKind>(parse_word("solve --kind", options.kind));
@@ -152,7 +156,7 @@ SolveTarget open_target(const TargetOptions& options, TargetKind kind, const Sol
     const uint32_t count = mesh_of(rig, mesh).position_count;
     if (kind == TargetKind::kWeights) {
       target = read_weights(options, rig, mesh, session);
-    } else if (ends_with(options.path, ".npy")) {
+    } else if (is_array_file(options.path)) {
       target = read_array(options, count, 3,
                           "the positions of mesh " + rig_name(rig.rig, MIEN_KIND_MESH, mesh) +
                               ", in the order of the file");

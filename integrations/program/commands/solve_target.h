@@ -44,6 +44,9 @@ struct TargetOptions {
   std::string path, kind, from, mesh, landmarks, mask;
 };
 
+/// .npy or .npz.
+bool is_array_file(const std::string& path);
+
 /// The kind that is named, or that the file tells.
 TargetKind find_kind(const TargetOptions& options);
 

@@ -14,6 +14,7 @@ import signal
 import struct
 import subprocess
 import sys
+import zipfile
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..", "tests", "support"))
 import program  # noqa: E402
@@ -110,12 +111,14 @@ class Kinds(SolveTest):
         flat = [x for point in points for x in point]
         write("one.npy", npy((1, len(points), 3), flat))
         write("bare.npy", npy((len(points), 3), flat))
+        with zipfile.ZipFile(path("one.npz"), "w") as file:
+            file.writestr("arr_0.npy", read("bare.npy"))
         text = "".join("v %.9g %.9g %.9g\n" % tuple(point) for point in points) + "f 1 2 3\n"
         os.makedirs(path("scans"), exist_ok=True)
         self.addCleanup(shutil.rmtree, path("scans"))
         for name in ("a.obj", "b.obj"):
             write(os.path.join("scans", name), text)
-        for target in ("one.npy", "bare.npy", os.path.join("scans", "a.obj"), "scans"):
+        for target in ("one.npy", "bare.npy", "one.npz", os.path.join("scans", "a.obj"), "scans"):
             with self.subTest(target):
                 rows, report = self.solved(path(target), "--mesh", mesh)
                 self.assertEqual(len(rows), 2 if target == "scans" else 1)
@@ -532,6 +535,11 @@ class Refusals(SolveTest):
     def refuse(self, target, says, *options, code=INVALID, rig=TINY):
         self.fails(code, "solve", path(rig), target, "-o", path("no.json"), "-q", *options, says=says)
 
+    def run_quietly(self, target):
+        """Ends with a result or a message, whatever the bytes."""
+        done = program.run("solve", path(TINY), target, "--kind", "joints", "-o", path("any.json"), "--force", "-q")
+        self.assertIn(done.returncode, (0, INVALID), done.stderr)
+
     def test_arrays_of_wrong_shapes_and_numbers(self):
         self.joints(TINY, [{}, {}])
         count = len(self.names(TINY, "joints"))
@@ -546,6 +554,22 @@ class Refusals(SolveTest):
         for end in (0, 5, 11, 60, len(good) - 1):
             self.refuse(write("wrong.npy", good[:end]), "NPY", "--kind", "joints")
         self.refuse(write("wrong.npy", npy((1, 5, 3), [0.0] * 15)), "x 3")
+
+        def zipped(names, compression=zipfile.ZIP_STORED):
+            with zipfile.ZipFile(path("wrong.npz"), "w", compression) as file:
+                for name in names:
+                    file.writestr(name, good)
+            return read("wrong.npz")
+        whole = zipped(["a.npy"])
+        self.assertEqual(self.solved(path("wrong.npz"), "--kind", "joints", rig=TINY)[1]["frames"], 1)
+        for bytes_, says in ((zipped([]), "NPY"), (zipped(["a.npy", "b.npy"]), "2 arrays"),
+                             (zipped(["a.npy"], zipfile.ZIP_DEFLATED), "compressed"), (whole[:-30], "missing"),
+                             (whole[:100] + whole[-60:], "NPZ"), (whole[:50] + whole[60:], "NPZ")):
+            self.refuse(write("wrong.npz", bytes_), says, "--kind", "joints")
+        for at in range(len(whole) - 73, len(whole), 3):  # the list of members
+            damaged = bytearray(whole)
+            damaged[at] ^= 0xFF
+            self.run_quietly(write("wrong.npz", bytes(damaged)))
         self.refuse(path("none.npy"), "none.npy", "--kind", "joints", code=FILE)
 
     def test_meshes_that_do_not_fit(self):
