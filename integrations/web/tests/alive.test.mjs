@@ -140,7 +140,9 @@ test("scenes play as the program plays them, and so do its frames", options, asy
   await frames();
   assert.notEqual(await page.run(() => window.viewer.stage.pivot.matrix.elements[8]), 0);
   for (const [wrong, says] of [[{ layers: [{ name: "x", source: { poses: { p: { nobody: 1 } } } }] }, /no control "nobody"/],
-    [{ layers: [{ name: "x", source: { speech: { text: "Hi" } } }] }, /it has speech/],
+    [{ layers: [{ name: "x", source: { speech: { text: "It's me", voice: "de" } } }] },
+      /mien speak 'It'\\''s me' --voice 'de' -o 'x\.speech\.json', and drop it/],
+    [{ layers: [{ name: "x", source: { live: true } }, { name: "y", source: { live: true } }] }, /several layers are live/],
     [{ layers: [{ name: "x", group: "choir", source: { generator: "blink" } }] }, /"choir" is none of base/]]) {
     writeFileSync(scene, JSON.stringify(wrong));
     await open(scene);
@@ -148,6 +150,87 @@ test("scenes play as the program plays them, and so do its frames", options, asy
   }
   await page.run(() => document.getElementById("neutral").click());
   page.errors.length = 0;
+});
+
+test("scenes speak as in the program, with takes of `mien speak`", options, async () => {
+  const phonemes = (name, labels) => {
+    const list = labels.map((label, i) => ({ label, begin: 0.1 + 0.15 * i, end: 0.25 + 0.15 * i, stress: i === 1 ? "primary" : "none" }));
+    writeFileSync(join(work, name), JSON.stringify({ alphabet: "ipa", phonemes: list }));
+    return { phonemes: name };
+  };
+  const [first, second] = [phonemes("first.json", ["m", "a", "p", "o"]), phonemes("second.json", ["f", "i", "b", "u"])];
+  const scene = join(work, "speaks.json");
+  writeFileSync(scene, JSON.stringify({
+    rate: 50, seconds: 2.5, seed: 3, guards: ["lips"], limits: true,
+    layers: [{ name: "talk", group: "speech", source: { speech: first } },
+      { name: "joy", group: "emotion", mode: "screen", source: { poses: { joy: { mouthSmileLeft: 0.8, mouthSmileRight: 0.8, jawOpen: 0.3 } }, weights: { joy: 1 } } }],
+    events: [{ time: 0.9, layer: "talk", play: { speech: second, start: 0.05, speed: 0.8 }, transition: "cut" },
+      { time: 1.9, layer: "talk", play: { speech: first } }, { time: 2.2, layer: "talk", stop: true, fade: 0.1 }],
+  }));
+  const takes = [["first.json", "talk.speech.json"], ["second.json", "talk-2.speech.json"]].map(([from, to]) => {
+    mien(["speak", "--phonemes", join(work, from), "-o", join(work, to), "--quiet"]);
+    return join(work, to);
+  });
+  mien(["play", scene, dna, "-o", join(work, "spoken.json"), "--quiet"]);
+  const native = JSON.parse(readFileSync(join(work, "spoken.json")));
+  await open(dna);
+  await open(scene, takes[0]);
+  assert.match(await text("error"), /make it with mien speak --phonemes 'second\.json' -o 'talk-2\.speech\.json'/);
+  await open(...takes, scene);
+  assert.match(await text("file"), /52 controls played, 2\.5 s/);
+  const [names, values] = await page.run(() => {
+    const { clip } = window.viewer.player.take;
+    return [clip.channels.map(({ name }) => name), Array.from(clip.read())];
+  });
+  const curve = (name) => Float32Array.from({ length: native.frames.length }, (_, frame) => values[frame * names.length + names.indexOf(name)]);
+  for (const [i, name] of native.controls.entries()) {
+    assert.ok(sameBits(curve(name), Float32Array.from(native.frames, ({ raw }) => raw[i])), name);
+  }
+  const up = Float32Array.from(native.frames, ({ variables }) => variables[native.variables.indexOf("head.up")]);
+  assert.ok(up.some((value) => value < -0.01) && curve("jawOpen").some((value) => value > 0.1), "the head beats and the jaw opens");
+  assert.ok(sameBits(curve("head.up"), up));
+  writeFileSync(takes[0], "{\"frames\": [{}, {}]}");
+  await open(...takes, scene);
+  assert.match(await text("error"), /talk\.speech\.json is no take of `mien speak`/);
+  await press("neutral");
+  page.errors.length = 0;
+});
+
+test("the live layer of a scene takes what the microphone and streams send", options, async () => {
+  await open(baked);
+  const scene = join(work, "live.json");
+  writeFileSync(scene, JSON.stringify({ seconds: 1, layers: [{ name: "me", weight: 0.5, source: { live: true } },
+    { name: "joy", group: "emotion", source: { poses: { joy: { mouthSmileLeft: 0.75 } }, weights: { joy: 1 } } }],
+    events: [{ time: 0.5, layer: "joy", weight: 0 }] }));
+  await open(scene);
+  assert.match(await text("file"), /head\.rig: a live scene of 1\.0 s; press Microphone/);
+  const found = await page.run(() => {
+    const { model, player } = window.viewer;
+    player.stop();
+    const { take } = player;
+    const seen = () => {
+      take.apply(model);
+      return ["jawOpen", "mouthSmileLeft"].map((name) => model.face.controls[name]);
+    };
+    take.seek(0);
+    const list = [seen()];
+    for (let i = 0; i < 20; ++i) {
+      take.push(model.controlsOf({ jawOpen: 0.5 }));
+      take.advance(1 / 60);
+    }
+    list.push(seen());
+    take.seek(0.75);
+    list.push(seen());
+    return [list, take.advance(0.5), take.time];
+  });
+  assert.deepEqual(found, [[[0, 0.75], [0.25, 0.75], [0, 0]], true, 0]);
+  await press("play");
+  await press("listen");
+  await page.until("() => window.viewer.model.face.controls.jawOpen > 0.1", "opened");
+  assert.equal(await page.run(() => window.viewer.player.isPlaying), true);
+  await press("listen");
+  await press("neutral");
+  assert.deepEqual(page.errors, []);
 });
 
 test("what a mix file does by itself plays", options, async () => {
@@ -246,6 +329,54 @@ test("the camera goes to regions, and lights change what is seen", options, asyn
   assert.equal(await count(), 4);
   await choose("light", "Studio");
   assert.equal(await count(), 6);
+  assert.deepEqual(page.errors, []);
+});
+
+test("edges are seen near by, and fade where they would make patterns", options, async () => {
+  await page.size(390, 844, true);
+  await open(baked);
+  // How many of the pixels of the face lines make clearly darker or brighter, in thousandths.
+  const changed = (region, away) => page.run(async (name, times) => {
+    const { stage } = window.viewer;
+    const { renderer, scene, camera, canvas, controls } = stage;
+    stage.lookAt(name);
+    camera.position.sub(controls.target).multiplyScalar(times).add(controls.target);
+    controls.update();
+    const wire = document.getElementById("wire");
+    const seen = [false, true].map((on) => {
+      wire.checked = on;
+      wire.dispatchEvent(new Event("change"));
+      renderer.render(scene, camera);
+      const context = new OffscreenCanvas(canvas.width, canvas.height).getContext("2d");
+      context.drawImage(canvas, 0, 0);
+      return context.getImageData(0, 0, canvas.width, canvas.height).data;
+    });
+    let [face, clearly] = [0, 0];
+    for (let i = 0; i < seen[0].length; i += 4) {
+      if (seen[0][i + 3] < 255) continue;
+      ++face;
+      if (Math.abs(seen[1][i + 1] - seen[0][i + 1]) > 25 || seen[1][i + 3] < 255) ++clearly;
+    }
+    return Math.round(1000 * clearly / face);
+  }, region, away);
+  const [far, near] = [await changed("Head", 4), await changed("Eyes", 1)];
+  assert.ok(far < 20 && near > 70, `${far} ${near}`);
+  const lines = () => page.run(() => {
+    const { object } = window.viewer.model;
+    const meshes = [];
+    object.traverse((mesh) => { if (mesh.isMesh && mesh.visible && !mesh.material.transparent) meshes.push(mesh.geometry.uuid); });
+    return [window.viewer.stage.pivot.children.find((child) => child.isGroup && child !== object).children.map((one) => one.geometry.uuid), meshes];
+  });
+  for (const file of [join(work, "head.glb"), dna]) {
+    await open(file);
+    await choose("lod", "3");
+    await frames();
+    const [shown, meshes] = await lines();
+    assert.deepEqual(shown, meshes, file);
+  }
+  await choose("wire", false);
+  assert.deepEqual((await lines())[0], []);
+  await page.size(800, 400);
   assert.deepEqual(page.errors, []);
 });
 
@@ -396,6 +527,15 @@ test("`mien view --live` shows what a phone sends", options, async () => {
     timer = setInterval(() => socket.send(packet(++frame, 17, 0.625), port, "127.0.0.1"), 16); // 17: jawOpen
     await page.until("() => window.viewer.model.face.controls.jawOpen === 0.625 && window.viewer.live.rows > 2", "moved");
     assert.match(await text("file"), /head\.dna: live/);
+    // Scenes play over it.
+    const scene = join(work, "over.json");
+    writeFileSync(scene, JSON.stringify({ seconds: 60, layers: [{ name: "joy", group: "emotion",
+      source: { poses: { joy: { mouthSmileLeft: 0.75 } }, weights: { joy: 1 } } }] }));
+    await open(scene);
+    await page.until(`() => {
+      const { model: { face: { controls } }, player } = window.viewer;
+      return player.isPlaying && player.take.time > 0 && controls.jawOpen === 0.625 && controls.mouthSmileLeft === 0.75;
+    }`, "both");
     assert.deepEqual(page.errors, []);
   } finally {
     clearInterval(timer);

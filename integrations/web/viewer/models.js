@@ -70,17 +70,21 @@ export class RigModel {
     return missing;
   }
 
-  /** Sets some controls, by names that mean them on this rig, and leaves the others. Of several names for a control the
+  /** Values of raw controls by their numbers, of names that mean them on this rig. Of several names for a control the
    * largest value counts. */
-  drive(pose) {
-    const raw = this.face.rawControls;
+  controlsOf(pose) {
     const found = new Map();
     for (const [name, value] of Object.entries(pose)) {
       for (const { control, weight } of this.rig.match(name)?.shares ?? []) {
         found.set(control, Math.max(found.get(control) ?? -Infinity, weight * value));
       }
     }
-    for (const [control, value] of found) raw[control] = value;
+    return found;
+  }
+
+  /** Sets some controls, by names that mean them on this rig, and leaves the others. */
+  drive(pose) {
+    for (const [control, value] of this.controlsOf(pose)) this.face.rawControls[control] = value;
     if (this.hasGui) this.face.mapRawToGui();
   }
 

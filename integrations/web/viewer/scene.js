@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Scenes of `mien play` and mix files, on a rig of the page: all their frames become a clip, which plays and scrubs
-// like any other. `mien help play` describes scenes; this page has no speech and no live layers.
-import { BlendMode, Generator, Guard, Kind, LayerGroup, Looping, MixLayer, ticks, Transition } from "mien";
+// like any other, or with a live layer are mixed as data arrive. `mien help play` describes scenes. A page cannot run
+// espeak-ng, so the takes of speech come from `mien speak`.
+import { BlendMode, Generator, Guard, Kind, LayerGroup, Looping, MixLayer, ticks, TICKS_PER_SECOND, Transition } from "mien";
+import { readFrames } from "./files.js";
 
 const EYES = ["gaze.x", "gaze.y", "gaze.z"];
 const BLINKS = { eyeBlinkLeft: 1, eyeBlinkRight: 1 };
@@ -9,10 +11,29 @@ const BREATH = { noseNostrilDilateL: 0.3, noseNostrilDilateR: 0.3 };
 const SQUINT = { eyeSquintLeft: 0.8, eyeSquintRight: 0.8, browDownLeft: 0.7, browDownRight: 0.7 };
 const PUPILS = { eyePupilNarrowL: 1, eyePupilNarrowR: 1 };
 const VARIABLE = /^(pupil$|breath$|head\.|gaze\.|user\.)/;
+const HEAD_UP = "head.up";
 const MOST_FRAMES = 36000;
+const MOST_EVENTS = 1024;
 
 /** Whether a JSON value is a scene, and no pose or frames. */
 export const isScene = (value) => Array.isArray(value?.layers);
+
+/** Whether a scene has a layer that takes live data. */
+export const isLive = (value) => value.layers.some(({ source }) => source?.live);
+
+/** Whether a file is a take of speech for a scene, and not to be opened by itself. */
+export const SPEECH = /\.speech\.json$/i;
+
+const quoted = (text) => `'${String(text).replaceAll("'", "'\\''")}'`;
+
+/** The command that makes a take of speech. */
+function speakCommand({ text, voice, audio, phonemes }, file) {
+  const words = ["mien speak"];
+  if (phonemes !== undefined) words.push("--phonemes", quoted(phonemes));
+  else if (audio !== undefined) words.push("--audio", quoted(audio), ...(text === undefined ? [] : ["--text", quoted(text)]));
+  else words.push(quoted(text), ...(voice === undefined ? [] : ["--voice", quoted(voice)]));
+  return `${words.join(" ")} -o ${quoted(file)}`;
+}
 
 function word(of, text, where) {
   const found = Object.entries(of).find(([name]) => name.toLowerCase() === text);
@@ -75,26 +96,61 @@ function place(values, mode, middle) {
   }));
 }
 
-class Scene {
-  clips = new Map(); // clip and binding, by path
+/** What tells the clips of a scene apart: a path, or what is said. */
+const clipKey = (source) => source?.clip ?? (source?.speech && JSON.stringify(source.speech));
 
-  constructor(value, rig, mien) {
-    Object.assign(this, { value, rig, mien, names: new Names(rig), layerNames: value.layers.map(({ name }) => name) });
+class Scene {
+  clips = new Map(); // clip and binding, by clipKey()
+  talks = new Map(); // what moves the head, by layer
+  now = 0;           // ticks
+
+  constructor(value, rig, mien, liveCurves) {
+    Object.assign(this, { value, rig, mien, liveCurves, names: new Names(rig), layerNames: value.layers.map(({ name }) => name) });
   }
 
+  /** `find` gives the bytes of a file by its name, or null. */
   async openClips(find) {
-    const layers = this.value.layers.map(({ source }) => source);
-    const events = (this.value.events ?? []).map(({ play }) => play);
-    for (const source of [...layers, ...events]) {
-      if (source?.speech) throw new Error("it has speech: `mien play` says it, and -o take.clip gives a clip for this page");
-      if (source?.live) throw new Error("it has a live layer: `mien play --live` plays it");
-      const path = source?.clip;
-      if (path === undefined || this.clips.has(path)) continue;
-      const file = await find(path.slice(path.lastIndexOf("/") + 1));
-      if (!file) throw new Error(`the clip ${path} is missing: drop it together with the scene`);
-      const clip = await this.mien.openClip(file);
-      this.clips.set(path, { clip, binding: clip.bind(this.rig, { matrix: this.mien.arkitMatrix() }) });
+    const sources = [...this.value.layers.map(({ name, source }) => [name, source]),
+      ...(this.value.events ?? []).map(({ layer, play }) => [layer, play])];
+    const spoken = {}; // how many takes of speech each layer has
+    for (const [layer, source] of sources) {
+      const key = clipKey(source);
+      if (key === undefined || this.clips.has(key)) continue;
+      if (source.speech) spoken[layer] = (spoken[layer] ?? 0) + 1;
+      this.clips.set(key, source.speech ? await this.#openSpeech(layer, spoken[layer], source.speech, find)
+        : await this.#openClip(source.clip, find));
     }
+  }
+
+  async #openClip(path, find) {
+    const file = await find(path.slice(path.lastIndexOf("/") + 1));
+    if (!file) throw new Error(`the clip ${path} is missing: drop it together with the scene`);
+    return this.#bind(await this.mien.openClip(file));
+  }
+
+  #bind(clip, more = {}) {
+    return { clip, binding: clip.bind(this.rig, { matrix: this.mien.arkitMatrix() }), ...more };
+  }
+
+  /** The take that `mien speak` has written as JSON. */
+  async #openSpeech(layer, number, speech, find) {
+    const file = `${layer}${number > 1 ? `-${number}` : ""}.speech.json`;
+    const bytes = await find(file);
+    if (!bytes) {
+      throw new Error(`the speech of layer ${layer} is missing: make it with ${speakCommand(speech, file)}, and drop it together with the scene`);
+    }
+    const take = JSON.parse(new TextDecoder().decode(bytes));
+    const { names, values, rate } = readFrames(take);
+    if (!names || !Array.isArray(take.events)) throw new Error(`${file} is no take of \`mien speak\``);
+    const [width, up] = [names.length, names.indexOf(HEAD_UP)];
+    const headUp = up < 0 ? [] : values.filter((_, i) => i % width === up);
+    if (up >= 0) this.names.variable(HEAD_UP);
+    const clip = this.mien.buildClip({
+      names: names.filter((_, i) => i !== up), values: up < 0 ? values : values.filter((_, i) => i % width !== up),
+      events: take.events.map(({ time, name, value }) => ({ tick: BigInt(ticks(time)), name, value })),
+      rateNumerator: rate, rateDenominator: 1,
+    });
+    return this.#bind(clip, { headUp, rate });
   }
 
   #findEyes() {
@@ -124,7 +180,8 @@ class Scene {
     const where = `layer ${required(name, "a layer without name", "string")}`;
     const [blend, of] = [word(BlendMode, mode, where), required(source, where)];
     let made;
-    if (of.clip !== undefined) made = MixLayer.clip();
+    if (clipKey(of) !== undefined) made = MixLayer.clip();
+    else if (of.live) made = MixLayer.stream(this.liveCurves);
     else if (of.generator !== undefined) made = this.#generator(of, blend, where);
     else if (of.poses) {
       made = MixLayer.poses(Object.entries(of.poses).map(([pose, values]) =>
@@ -149,6 +206,7 @@ class Scene {
   makeMixer() {
     const { value, rig } = this;
     this.#findEyes();
+    if (value.layers.filter(({ source }) => source?.live).length > 1) throw new Error("several layers are live");
     const layers = value.layers.map((layer) => this.#layer(layer));
     const reactions = (value.reactions ?? []).map(() => this.#glare());
     for (const { variable } of value.events ?? []) if (variable) this.names.variable(variable);
@@ -157,26 +215,47 @@ class Scene {
     const limit = (least, most) => Float32Array.from([...rotation.map(least), ...this.names.variables.map(() => most)]);
     const clips = [...this.clips.values()].map(({ clip }) => clip.info);
     this.mix = rig.mix({
-      layers, reactions, guards, gaze: this.gaze, variables: this.names.variables, reverse: true,
+      layers, reactions, guards, gaze: this.gaze, variables: this.names.variables, reverse: true, maxEvents: MOST_EVENTS,
       antagonists: value.antagonists ? rig.antagonists() : [],
       ...(value.limits ? { lower: limit((of) => (of ? -1 : 0), -1e6), upper: limit(() => 1, 1e6) } : {}),
       maxChannels: Math.max(0, ...clips.map(({ channelCount }) => channelCount)),
       maxChangingChannels: Math.max(0, ...clips.map(({ changingChannelCount }) => changingChannelCount)),
     });
+  }
+
+  /** To time 0. */
+  start() {
+    const { value } = this;
+    this.mixer?.dispose();
     this.mixer = this.mix.mixer({ seed: value.seed ?? 0 });
+    this.talks.clear();
+    this.now = 0;
+    this.events = [...(value.events ?? [])].sort((a, b) => a.time - b.time);
     EYES.forEach((name, axis) => this.middle && this.mixer.setVariable(name, this.middle[axis] + (axis === 2 ? 1000 : 0)));
     value.layers.forEach(({ source }, number) => {
-      if (source.clip !== undefined) this.#play(number, source, { transition: Transition.CUT });
+      if (clipKey(source) !== undefined) this.#play(number, source, { transition: Transition.CUT });
       if (source.weights) this.#weigh(number, source.weights, 0);
     });
   }
 
-  #play(number, { clip: path, loop, speed = 1, start = 0 }, desc) {
-    const { clip, binding } = this.clips.get(path);
+  #play(number, source, desc) {
+    const { loop, speed = 1, start = 0 } = source;
+    const { clip, binding, headUp, rate } = this.clips.get(clipKey(source));
+    this.talks.delete(number);
+    if (headUp) this.talks.set(number, { headUp, rate, speed, start, begin: this.now / TICKS_PER_SECOND });
     this.mixer.play(number, clip, binding, {
       startTick: ticks(start), speedNumerator: Math.round(speed * 1e6), speedDenominator: 1e6,
       ...(loop === undefined ? {} : { looping: loop ? Looping.WRAP : Looping.CLAMP }), ...desc,
     });
+  }
+
+  /** The beats of the head of what is said now. */
+  #headUp() {
+    let sum = 0;
+    for (const { headUp, rate, speed, start, begin } of this.talks.values()) {
+      sum = Math.fround(sum + (headUp[Math.trunc((start + (this.now / TICKS_PER_SECOND - begin) * speed) * rate)] ?? 0));
+    }
+    return sum;
   }
 
   #weigh(number, weights, fade) {
@@ -207,38 +286,41 @@ class Scene {
       if (event.play) {
         this.#play(number, event.play, { transition: word(Transition, event.transition ?? "inertial", "an event"),
           transitionTicks: ticks(event.duration ?? 0.25) });
-      } else if (event.stop) mixer.stop(number, fade);
-      else if (event.weights) this.#weigh(number, event.weights, fade);
+      } else if (event.stop) {
+        mixer.stop(number, fade);
+        this.talks.delete(number);
+      } else if (event.weights) this.#weigh(number, event.weights, fade);
       else mixer.setWeight(number, required(event.weight, `an event of ${event.layer}`, "number"), fade);
     }
   }
 
-  /** Rows of raw controls and variables, one after the other. */
-  frames(rate, seconds) {
-    const { mixer, rig } = this;
-    const events = [...(this.value.events ?? [])].sort((a, b) => a.time - b.time);
-    const initial = rig.initialRawControls.slice();
-    const count = Math.min(MOST_FRAMES, Math.floor(seconds * rate + 1e-6) + 1);
-    const width = initial.length + this.names.variables.length;
-    const values = new Float32Array(count * width);
-    let now = 0;
-    const stepTo = (tick) => {
-      mixer.step(tick - now);
-      now = tick;
-    };
-    for (let frame = 0; frame < count; ++frame) {
-      const tick = ticks(frame / rate);
-      while (events.length && ticks(events[0].time) <= tick) {
-        const event = events.shift();
-        if (ticks(event.time) > now) stepTo(ticks(event.time));
-        this.#apply(event);
-      }
-      stepTo(tick);
-      const row = mixer.row.slice(0, width);
-      // The w of rotations that nothing moves.
-      initial.forEach((value, i) => { row[i] ||= value; });
-      values.set(row, frame * width);
+  get width() { return this.rig.count(Kind.RAW_CONTROL) + this.names.variables.length; }
+
+  #stepTo(tick) {
+    this.mixer.step(tick - this.now);
+    this.now = tick;
+  }
+
+  /** Goes on to a time; returns the row of raw controls and variables. */
+  rowAt(tick) {
+    while (this.events.length && ticks(this.events[0].time) <= tick) {
+      const event = this.events.shift();
+      if (ticks(event.time) > this.now) this.#stepTo(ticks(event.time));
+      this.#apply(event);
     }
+    this.#stepTo(tick);
+    const row = this.mixer.row.slice(0, this.width);
+    // The w of rotations that nothing moves.
+    this.rig.initialRawControls.forEach((value, i) => { row[i] ||= value; });
+    if (this.talks.size) row[this.rig.count(Kind.RAW_CONTROL) + this.names.variables.indexOf(HEAD_UP)] += this.#headUp();
+    return row;
+  }
+
+  /** Rows, one after the other. */
+  frames(rate, seconds) {
+    const count = Math.min(MOST_FRAMES, Math.floor(seconds * rate + 1e-6) + 1);
+    const values = new Float32Array(count * this.width);
+    for (let frame = 0; frame < count; ++frame) values.set(this.rowAt(ticks(frame / rate)), frame * this.width);
     return values;
   }
 
@@ -248,13 +330,26 @@ class Scene {
   }
 }
 
-/** The frames of a scene, as a clip. `find` gives the bytes of a clip by its name, or null. */
-export async function sceneClip(value, rig, mien, find) {
-  const scene = new Scene(value, rig, mien);
+/** A scene at time 0. `find` gives the bytes of a file by its name, or null; `liveCurves` are the raw controls that live
+ * data may move. */
+export async function openScene(value, rig, mien, find, liveCurves) {
+  const scene = new Scene(value, rig, mien, liveCurves);
   try {
-    const rate = Math.max(1, Math.round(value.rate ?? 60));
     await scene.openClips(find);
     scene.makeMixer();
+    scene.start();
+    return scene;
+  } catch (error) {
+    scene.dispose();
+    throw error;
+  }
+}
+
+/** The frames of a scene without live layers, as a clip. */
+export async function sceneClip(value, rig, mien, find) {
+  const scene = await openScene(value, rig, mien, find);
+  try {
+    const rate = Math.max(1, Math.round(value.rate ?? 60));
     return mien.buildClip({
       names: [...rig.names(Kind.RAW_CONTROL), ...scene.names.variables], values: scene.frames(rate, value.seconds || 10),
       rateNumerator: rate, rateDenominator: 1,

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The page: opens files, and connects its controls with what is shown.
-import { Isa, Mien, Preset } from "mien";
+import { Isa, Kind, Mien, Preset } from "mien";
 import { Attention } from "./attention.js";
 import { Comparison } from "./compare.js";
 import { readCsv, readFrames } from "./files.js";
 import { HeatMap } from "./heat.js";
 import { LIGHTS } from "./lights.js";
 import { Live } from "./live.js";
+import { LiveTake } from "./live_scene.js";
 import { Materials } from "./materials.js";
 import { Microphone } from "./microphone.js";
 import { GlbModel, RigModel } from "./models.js";
@@ -14,15 +15,18 @@ import { Panel } from "./panel.js";
 import { AnimationTake, ClipTake, Player } from "./playing.js";
 import { PRESETS } from "./presets.js";
 import { download, exportGlb, Recorder } from "./record.js";
-import { isScene, mixClip, sceneClip } from "./scene.js";
+import { isLive, isScene, mixClip, sceneClip, SPEECH } from "./scene.js";
 import { Sound, SOUNDS } from "./sound.js";
 import { Stage } from "./stage.js";
+import { Wireframe } from "./wire.js";
 
 const TAKES = /\.(csv|clip|mix)$/i;
 
 const $ = (id) => document.getElementById(id);
 const stage = new Stage($("canvas"));
 const heat = new HeatMap();
+const wireframe = new Wireframe();
+stage.pivot.add(wireframe.object);
 const attention = new Attention(stage);
 const player = new Player({ sampled: sample, said: say, requested: () => stage.request() });
 const comparison = new Comparison(stage, { shown: () => ({ ...opened, model }), changed: setColors });
@@ -139,13 +143,23 @@ async function openSound(name, bytes) {
   player.openSound(sound);
 }
 
-async function openJson(text, find) {
-  const value = JSON.parse(text);
-  if (isScene(value)) {
-    needRig();
+/** A scene: mixed while it plays if it takes live data, otherwise at once. */
+async function openScene(value, find) {
+  needRig();
+  if (!live && !isLive(value)) {
     openClip(await sceneClip(value, model.rig, mien, find));
     return;
   }
+  const names = model.rig.names(Kind.RAW_CONTROL);
+  const curves = live ? names : [...model.controlsOf(Microphone.silent).keys()].map((control) => names[control]);
+  player.open(await LiveTake.open(value, model, mien, find, curves));
+  const waits = live || microphone ? "" : "; press Microphone, or open the rig with `mien view --live`, to move its live layer";
+  say(`${opened.name}: a live scene of ${player.take.duration.toFixed(1)} s${waits}`);
+}
+
+async function openJson(text, find) {
+  const value = JSON.parse(text);
+  if (isScene(value)) return openScene(value, find);
   const read = readFrames(value);
   if (!read.pose) {
     needRig();
@@ -206,8 +220,8 @@ async function openFiles(files) {
     const name = path.slice(path.lastIndexOf("/") + 1);
     return images.find((image) => image.name === name) ?? null;
   });
-  // Rigs before what they play, clips before scenes of them, and takes before their sound.
-  const order = ({ name }) => (SOUNDS.test(name) ? 3 : /\.json$/i.test(name) ? 2 : TAKES.test(name) ? 1 : 0);
+  // Rigs before what they play, clips and speech before scenes of them, and takes before their sound.
+  const order = ({ name }) => (SOUNDS.test(name) ? 3 : TAKES.test(name) || SPEECH.test(name) ? 1 : /\.json$/i.test(name) ? 2 : 0);
   const find = async (name) => {
     const file = list.find((one) => one.name === name);
     return file ? new Uint8Array(await file.arrayBuffer()) : null;
@@ -279,8 +293,14 @@ function sample() {
   dirty = true;
 }
 
-/** What a voice or a stream moves, over the pose that is set. */
+const playsLive = () => player.isPlaying && player.take instanceof LiveTake;
+
+/** What a voice or a stream moves: in the live layer of a scene that plays, or over the pose that is set. */
 function drive(values) {
+  if (playsLive()) {
+    player.take.push(model.controlsOf(values));
+    return;
+  }
   model.drive(values);
   dirty = true;
 }
@@ -289,7 +309,7 @@ function listen() {
   return attempt("The microphone cannot be used", async () => {
     clearError();
     microphone = await Microphone.open();
-    player.leave();
+    if (!playsLive()) player.leave();
     $("listen").textContent = "Stop listening";
     $("listen").setAttribute("aria-pressed", "true");
     stage.request();
@@ -357,12 +377,12 @@ function option(value, text) {
 function fillView(isGlb) {
   for (const id of ["lod", "isa", "skinning", "auto-lod", "heat", "bones", "films"]) $(id).disabled = isGlb;
   $("times").replaceChildren();
+  setWire();
   if (isGlb) return;
   $("lod").replaceChildren(...Array.from({ length: model.rig.info.lodCount }, (_, lod) => option(lod, String(lod))));
   if (!$("isa").options.length) {
     $("isa").replaceChildren(option(Isa.SSE2, "128-bit vectors"), option(Isa.SCALAR, "scalar"));
   }
-  setWire();
 }
 
 function setLod(lod) {
@@ -375,9 +395,7 @@ function setLod(lod) {
 }
 
 function setWire() {
-  model?.object.traverse((node) => {
-    if (node.isMesh) node.material.wireframe = $("wire").checked;
-  });
+  wireframe.show($("wire").checked ? model?.object : null);
   stage.request();
 }
 
@@ -544,7 +562,7 @@ if (query.get("live")) {
     if (!model) return;
     if (isFirst) say(`${opened.name}: live`);
     isFirst = false;
-    player.leave();
+    if (!playsLive()) player.leave();
     drive(values);
     stage.request();
   } });
