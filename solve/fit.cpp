@@ -234,7 +234,7 @@ struct Chosen {
   MienDeformer* deformer = nullptr;
   ~Chosen() { mien_deformer_destroy(deformer); }
 
-  MienSolvePoint find(MienSolvePoint point) const {
+  MienSolvePoint renumbered(MienSolvePoint point) const {
     if (positions.empty()) return point;
     for (uint32_t& position : point.positions) {
       position = static_cast<uint32_t>(
@@ -349,10 +349,10 @@ void copy_points(const MienFitDesc& desc, const Parts& parts, MienFit& fit) {
   choose_samples(desc, fit.samples.data);
   for (size_t i = 0; i < desc.point_count; ++i) {
     fit.whole_points[i] = desc.points[i];
-    fit.points[i] = parts.points.find(desc.points[i]);
+    fit.points[i] = parts.points.renumbered(desc.points[i]);
   }
   for (size_t s = 0; s < fit.samples.count; ++s) {
-    fit.sample_points[s] = parts.of_samples().find(desc.points[fit.samples[s]]);
+    fit.sample_points[s] = parts.of_samples().renumbered(desc.points[fit.samples[s]]);
   }
 }
 

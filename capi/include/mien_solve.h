@@ -169,7 +169,6 @@ typedef struct MienFitFrame {
     float surface_reach;           /* points farther from the surface have no target. 0: no limit */
     uint32_t focal;                /* boolean, with `images` and `rigid`: the focal length is found too, its
                                       two numbers scaled alike */
-    uint32_t reserved;             /* 0 */
     size_t constraint_count;
     const MienFitConstraint* constraints; /* up to 64, added to all other targets. NULL: none */
     const uint32_t* stages; /* per raw control of the rig, up to 15: the solve begins with the controls of

@@ -298,7 +298,7 @@ TEST(BakedFile, ArgumentsAreChecked) {
   };
   rig_refused(MIEN_ERROR_STRUCT_SIZE, [](MienBakedRigDesc& d) { d.struct_size = 8; });
   rig_refused(MIEN_ERROR_INVALID_ARGUMENT, [](MienBakedRigDesc& d) { d.isa = 99; });
-  rig_refused(MIEN_ERROR_INVALID_ARGUMENT, [](MienBakedRigDesc& d) { d.reuse = 2; });
+  rig_refused(MIEN_ERROR_INVALID_ARGUMENT, [](MienBakedRigDesc& d) { d.reuse = 3; });
   rig_refused(MIEN_ERROR_INVALID_ARGUMENT, [&](MienBakedRigDesc& d) { d.allocator = &half; });
 
   const RigHandle opened = rig_of(baked);

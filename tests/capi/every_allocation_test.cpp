@@ -283,6 +283,7 @@ std::vector<Call> calls_of_dna(const World& w) {
 }
 
 std::vector<Call> calls_of_rigs(const World& w) {
+  static constexpr uint32_t kFirstPosition = 0;
   auto tangents = w.desc<MienDeformerDesc>();
   tangents.with_tangents = 1;
   auto copied = w.desc<MienBakedDesc>();
@@ -296,14 +297,16 @@ std::vector<Call> calls_of_rigs(const World& w) {
   return {
       {"mien_rig_create",
        makes(mien_rig_destroy, w.desc<MienRigDesc>(), mien_rig_create, w.dna.object)},
-      {"mien_rig_create with MIEN_REUSE_SUMS",
-       makes(mien_rig_destroy, sums, mien_rig_create, w.dna.object)},
+      {"mien_rig_create", makes(mien_rig_destroy, sums, mien_rig_create, w.dna.object)},
       {"mien_instance_create", makes(mien_instance_destroy, w.desc<MienInstanceDesc>(),
                                      mien_instance_create, w.rig.object)},
       {"mien_batch_create",
        makes(mien_batch_destroy, batch_desc(20, 3, &w.allocator), mien_batch_create, w.rig.object)},
       {"mien_deformer_create",
        makes(mien_deformer_destroy, tangents, mien_deformer_create, w.dna.object, w.rig.object)},
+      {"mien_deformer_create_subset",
+       makes(mien_deformer_destroy, w.allocator, mien_deformer_create_subset, w.deformer.object, 0u,
+             &kFirstPosition, size_t{1})},
       {"mien_deformer_instance_create",
        makes(mien_deformer_instance_destroy, w.desc<MienDeformerInstanceDesc>(),
              mien_deformer_instance_create, w.deformer.object)},
@@ -320,7 +323,7 @@ std::vector<Call> calls_of_rigs(const World& w) {
        opens(mien_baked_close, w.desc<MienBakedDesc>(), mien_baked_open_stream, w.baked_bytes)},
       {"mien_rig_from_baked",
        makes(mien_rig_destroy, w.desc<MienBakedRigDesc>(), mien_rig_from_baked, w.baked.object)},
-      {"mien_rig_from_baked with MIEN_REUSE_SUMS",
+      {"mien_rig_from_baked",
        makes(mien_rig_destroy, baked_sums, mien_rig_from_baked, w.baked.object)},
       {"mien_deformer_from_baked",
        makes(mien_deformer_destroy, w.desc<MienBakedDeformerDesc>(), mien_deformer_from_baked,

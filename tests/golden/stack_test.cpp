@@ -30,7 +30,7 @@ namespace {
 
 constexpr size_t kStack = size_t{512} << 10;
 constexpr uint8_t kFill = 0xA5;
-constexpr size_t kEvaluate = size_t{48} << 10, kDeform = size_t{16} << 10;  // what mien.h says
+constexpr size_t kEvaluate = size_t{48} << 10, kDeform = size_t{24} << 10;  // what mien.h says
 
 void* run(void* call) {
   (*static_cast<std::function<void()>*>(call))();

@@ -1168,7 +1168,6 @@ typedef struct MienFitFrame {
     MienFitSurface const* surface; /* in place of `points` and `images`: each point is drawn to the nearest place of the surface that faces the same way, within 60 degrees, and is not at a border. NULL: none */
     float surface_reach; /* points farther from the surface have no target. 0: no limit */
     uint32_t focal; /* , with `images` and `rigid`: the focal length is found too, its two numbers scaled alike */
-    uint32_t reserved; /* 0 */
     size_t constraint_count;
     MienFitConstraint const* constraints; /* up to 64, added to all other targets. NULL: none */
     uint32_t const* stages; /* per raw control of the rig, up to 15: the solve begins with the controls of stage 0 alone, then those of stage 1 move too, and so on, as jaw and eyes before the rest. Each stage may take `max_iterations`. NULL: all move from the start */
@@ -1625,9 +1624,9 @@ MienStatus mien_deformer_create(MienDna const* dna, MienRig const* rig, MienDefo
 
 /* Creates a deformer of some positions of one mesh. Position i of that mesh is `positions[i]` of the mesh of
 `deformer`; it has no vertices or triangles, and all other meshes are empty. Deformed positions have the bits of
-the whole mesh (with 16-bit storage they may be rounded otherwise), and derivatives those of the chosen rows, and take time for the chosen positions only. `positions` are
-ascending, `position_count` of them. `deformer` may be destroyed afterwards; the new one keeps its memory. Destroy
-with mien_deformer_destroy().
+the whole mesh (with 16-bit storage they may be rounded otherwise), derivatives those of the chosen rows, and both
+take time for the chosen positions only. `positions` are ascending, `position_count` of them. `deformer` may be
+destroyed afterwards; the new one keeps its memory. Destroy with mien_deformer_destroy().
 Fails with MIEN_ERROR_INDEX if there is no such mesh or position, MIEN_ERROR_INVALID_ARGUMENT if positions are not
 ascending. */
 MienStatus mien_deformer_create_subset(MienDeformer const* deformer, uint32_t mesh, uint32_t const* positions, size_t position_count, MienAllocator const* allocator, MienDeformer** out_deformer, MienError* error);
@@ -1698,7 +1697,7 @@ MienStatus mien_deformer_instance_local_transforms(MienDeformerInstance const* d
 
 /* Computes the positions and normals of a mesh for the last update. Runs on the calling thread; meshes
 of at least 16384 positions run in tasks of about 1024 on `parallel`. `parallel` may be NULL. The
-results have the same bits either way. Does not allocate or lock. Uses up to 16 KiB of stack per
+results have the same bits either way. Does not allocate or lock. Uses up to 24 KiB of stack per
 task.
 Fails with MIEN_ERROR_INDEX if there is no such mesh, MIEN_ERROR_LOD if `deformer_instance` has no
 memory for it (MienDeformerInstanceDesc.lods).
@@ -1708,7 +1707,7 @@ MienStatus mien_deformer_instance_deform(MienDeformerInstance* deformer_instance
 /* Deforms the same mesh of `count` different instances of one deformer. The results are bit-identical to
 those of mien_deformer_instance_deform(), but each part of the mesh is read only once for all of them,
 and the total number of positions decides whether tasks are used. `parallel` may be NULL. Does not
-allocate or lock. Uses up to 16 KiB of stack per task. On failure nothing is deformed.
+allocate or lock. Uses up to 24 KiB of stack per task. On failure nothing is deformed.
 Fails with MIEN_ERROR_INDEX if there is no such mesh, MIEN_ERROR_LOD if an instance has no memory for
 it, MIEN_ERROR_MISMATCH if the instances have different deformers, MIEN_ERROR_INVALID_ARGUMENT if
 an instance is listed twice. */
@@ -3230,7 +3229,7 @@ api.sizes = {
   MienFitSurfaceDesc = 48,
   MienFitCamera = 64,
   MienFitConstraint = 52,
-  MienFitFrame = 168,
+  MienFitFrame = 160,
   MienFitResult = 144,
 }
 

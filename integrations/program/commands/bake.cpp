@@ -223,8 +223,7 @@ Command add_bake_command(CLI::App& app, const Session& session) {
       "  mien bake head.dna -o head.rig\n"
       "  mien bake head.dna -o phone.rig --max-lod 3 --storage f16\n"
       "  mien bake head.dna -o small.rig --tolerance 0.02mm,0.1mm --report small.json\n"
-      "  mien bake head.dna -o small.rig --tolerance 0.05mm --region \"*lip*=0.01mm\" --clip "
-      "a.clip\n"
+      "  mien bake head.dna -o small.rig --tolerance 0.1mm --region \"*lip*=0.01mm\"\n"
       "  mien bake head.dna -o server.rig --no-geometry\n"
       "  mien eval head.rig --input frames.json");
   return {bake, [options, &session] { run(*options, session); }};

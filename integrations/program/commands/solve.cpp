@@ -93,6 +93,7 @@ void check_placing(const SolveCommand& command) {
         {"--landmarks", command.target.landmarks},
         {"--mask", command.target.mask},
         {"--controls", command.controls},
+        {"--first", command.first},
         {"--keys", command.keys},
         {"--report", command.report},
         {"--pictures", command.images}}) {
@@ -188,6 +189,11 @@ SolvedTake solve_take(const SolveCommand& command, const SolvedRig& rig, const S
   frame.rigid = command.rigid ? 1 : 0;
   frame.sparse_weight = parse_weight("--sparse", command.sparse) * amount;
   frame.max_iterations = kFirstIterations;
+  std::vector<uint32_t> stages(command.first.empty() ? 0 : count, 1);
+  if (!command.first.empty()) {
+    for (const uint32_t c : find_moving(command.first, rig.rig, rig.shown)) stages[c] = 0;
+    frame.stages = stages.data();
+  }
   const auto begin = std::chrono::steady_clock::now();
   Progress progress(session, "frame", target.frame_count);
   for (size_t f = 0; f < target.frame_count; ++f) {
@@ -213,6 +219,7 @@ SolvedTake solve_take(const SolveCommand& command, const SolvedRig& rig, const S
       }
     }
     frame.start = out;
+    frame.stages = nullptr;
     frame.smooth_weight = parse_weight("--smooth", command.smooth) * amount;
     frame.max_iterations = kMostIterations;
   }
@@ -365,6 +372,11 @@ Command add_solve_command(CLI::App& app, const Session& session) {
   solve
       ->add_option("--controls", options->controls,
                    "Only these raw controls may move: names or patterns such as\nmouth*,jawOpen")
+      ->type_name("LIST");
+  solve
+      ->add_option("--first", options->first,
+                   "These raw controls are found first, alone, in the first frame; then all\nmove: "
+                   "jaw* helps where a mouth is far open")
       ->type_name("LIST");
   solve->add_flag("--rigid", options->rigid,
                   "The target may be rotated and moved as a whole in each frame; with\nlandmarks2, "

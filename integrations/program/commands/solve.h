@@ -11,7 +11,8 @@ namespace mien::cli {
 /// As it was typed.
 struct SolveCommand {
   TargetOptions target;
-  std::string rig, controls, rate, keys, smooth, sparse, robust, reach, report, images, place;
+  std::string rig, controls, first, rate, keys, smooth, sparse, robust, reach, report, images;
+  std::string place;
   bool rigid = false, focal = false;
   OutputFile output;
 };

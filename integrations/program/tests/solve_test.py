@@ -198,10 +198,12 @@ class Kinds(SolveTest):
             turned = [count + 1 - i for i in face[1:] + face[:1]]
             lines += ["f %d %d %d" % (turned[0], a, b) for a, b in zip(turned[1:], turned[2:])]
         write("scan.obj", "\n".join(lines) + "\n")
-        rows, report = self.solved(path("scan.obj"), "--kind", "surface", "--mesh", mesh, "--rigid", "--reach", "2")
+        rows, report = self.solved(path("scan.obj"), "--kind", "surface", "--mesh", mesh, "--rigid", "--reach", "2",
+                                   "--first", "jaw*")
         for name, value in POSE.items():
             self.assertAlmostEqual(rows[0][name], value, delta=0.02, msg=name)
-        self.assertLess(report["residual"]["rms"], 0.01)  # cm
+        # In the mouth, the nearest place may be that of another layer.
+        self.assertLess(report["residual"]["rms"], 0.02)  # cm
         self.assertAlmostEqual(report["by_frame"][0]["translation"][0], 0.3, delta=0.02)
 
     def test_a_posed_glb(self):

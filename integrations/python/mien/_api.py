@@ -3324,7 +3324,6 @@ class MienFitFrame(Structure):
         ("surface", MienFitSurface),
         ("surface_reach", c_float),
         ("focal", c_uint32),
-        ("reserved", c_uint32),
         ("constraint_count", c_size_t),
         ("constraints", POINTER(MienFitConstraint)),
         ("stages", c_void_p),
@@ -3351,7 +3350,6 @@ class MienFitFrame(Structure):
     surface: Any
     surface_reach: Any
     focal: Any
-    reserved: Any
     constraint_count: Any
     constraints: Any
     stages: Any
@@ -3381,7 +3379,7 @@ class MienFitFrame(Structure):
                  constraint_count: int = 0,
                  constraints: Any = None,
                  stages: Any = None) -> None:
-        super().__init__(168)
+        super().__init__(160)
         self.joints = joints
         self.points = points
         self.images = images

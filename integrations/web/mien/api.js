@@ -1110,7 +1110,7 @@ export const layouts = {
     distances: [40, "f32", 2],
     weight: [48, "f32"],
   } },
-  FitFrame: { size: 112, sized: true, fields: {
+  FitFrame: { size: 104, sized: true, fields: {
     joints: [4, "*f32"],
     points: [8, "*f32"],
     images: [12, "*f32"],
@@ -1132,9 +1132,9 @@ export const layouts = {
     surface: [80, "handle"],
     surfaceReach: [84, "f32"],
     focal: [88, "bool"],
-    constraintCount: [96, "u32"],
-    constraints: [100, "*FitConstraint", "constraintCount"],
-    stages: [104, "*u32"],
+    constraintCount: [92, "u32"],
+    constraints: [96, "*FitConstraint", "constraintCount"],
+    stages: [100, "*u32"],
   } },
   FitResult: { size: 144, sized: true, fields: {
     status: [4, "u32"],

@@ -3592,8 +3592,6 @@ pub struct MienFitFrame {
     pub surface_reach: f32,
     /// , with `images` and `rigid`: the focal length is found too, its two numbers scaled alike.
     pub focal: u32,
-    /// 0.
-    pub reserved: u32,
     pub constraint_count: usize,
     /// Up to 64, added to all other targets. NULL: none.
     pub constraints: *const MienFitConstraint,
@@ -4185,7 +4183,7 @@ extern "C" {
     /// Creates a deformer of some positions of one mesh. Position i of that mesh is `positions[i]`
     /// of the mesh of `deformer`; it has no vertices or triangles, and all other meshes are empty.
     /// Deformed positions have the bits of the whole mesh (with 16-bit storage they may be rounded
-    /// otherwise), and derivatives those of the chosen rows, and take time for the chosen
+    /// otherwise), derivatives those of the chosen rows, and both take time for the chosen
     /// positions only. `positions` are ascending, `position_count` of them. `deformer` may be
     /// destroyed afterwards; the new one keeps its memory. Destroy with `mien_deformer_destroy()`.
     ///
@@ -4277,7 +4275,7 @@ extern "C" {
     /// Computes the positions and normals of a mesh for the last update. Runs on the calling
     /// thread; meshes of at least 16384 positions run in tasks of about 1024 on `parallel`.
     /// `parallel` may be NULL. The results have the same bits either way. Does not allocate or
-    /// lock. Uses up to 16 KiB of stack per task.
+    /// lock. Uses up to 24 KiB of stack per task.
     ///
     /// Fails with `MIEN_ERROR_INDEX` if there is no such mesh, `MIEN_ERROR_LOD` if
     /// `deformer_instance` has no memory for it (MienDeformerInstanceDesc.lods).
@@ -4288,7 +4286,7 @@ extern "C" {
     /// Deforms the same mesh of `count` different instances of one deformer. The results are
     /// bit-identical to those of `mien_deformer_instance_deform()`, but each part of the mesh is
     /// read only once for all of them, and the total number of positions decides whether tasks are
-    /// used. `parallel` may be NULL. Does not allocate or lock. Uses up to 16 KiB of stack per
+    /// used. `parallel` may be NULL. Does not allocate or lock. Uses up to 24 KiB of stack per
     /// task. On failure nothing is deformed.
     ///
     /// Fails with `MIEN_ERROR_INDEX` if there is no such mesh, `MIEN_ERROR_LOD` if an instance has
