@@ -69,13 +69,13 @@ Tolerances parse_tolerances(const BakeOptions& options, bool file_in_meters) {
 }
 
 /// All frames of a clip, on a rig.
-Performance read_performance(const std::string& path, const MienRig* rig, const Session& session) {
+ProofTake read_performance(const std::string& path, const MienRig* rig, const Session& session) {
   const ClipFile clip = open_clip_file(path);
   const ClipBinding binding =
       bind_clip(clip.clip.get(), rig, NamesFile(), "cannot bind clip", clip.shown, session);
   MienFloatView initial{};
   check(mien_rig_initial_raw_controls(rig, &initial), nullptr, "cannot reduce", clip.shown);
-  Performance performance;
+  ProofTake performance;
   performance.shown = clip.shown;
   for_each_frame(clip, [&](uint32_t, const float* values) {
     std::vector<float>& raw =

@@ -6,25 +6,25 @@
 
 namespace mien::cli {
 
-ProofPoses::ProofPoses(const MienRig* rig, const std::vector<Performance>& performances)
+ProofPoses::ProofPoses(const MienRig* rig, const std::vector<ProofTake>& performances)
     : rig_(rig), performances_(performances), raw_count_(rig_count(rig, MIEN_KIND_RAW_CONTROL)),
       psd_count_(rig_count(rig, MIEN_KIND_PSD_CONTROL)) {
   MienFloatView initial{};
   check(mien_rig_initial_raw_controls(rig, &initial), nullptr, "cannot reduce", "");
   initial_.assign(initial.data, initial.data + initial.count);
-  for (const Performance& performance : performances) frame_count_ += performance.frames.size();
+  for (const ProofTake& performance : performances) frame_count_ += performance.frames.size();
 }
 
-const Performance* ProofPoses::performance_of(size_t& pose) const {
+const ProofTake* ProofPoses::performance_of(size_t& pose) const {
   if (pose < single_count() + kSparse) return nullptr;
   pose -= single_count() + kSparse;
-  const Performance* performance = performances_.data();
+  const ProofTake* performance = performances_.data();
   for (; pose >= performance->frames.size(); ++performance) pose -= performance->frames.size();
   return performance;
 }
 
 void ProofPoses::set(size_t pose, MienMutableFloatView raw) const {
-  if (const Performance* performance = performance_of(pose)) {
+  if (const ProofTake* performance = performance_of(pose)) {
     const std::vector<float>& frame = performance->frames[pose];
     std::copy(frame.begin(), frame.end(), raw.data);
     return;
@@ -52,7 +52,7 @@ void ProofPoses::set(size_t pose, MienMutableFloatView raw) const {
 }
 
 std::string ProofPoses::describe(size_t pose) const {
-  if (const Performance* performance = performance_of(pose)) {
+  if (const ProofTake* performance = performance_of(pose)) {
     return "frame " + std::to_string(pose) + " of " + performance->shown;
   }
   if (pose < raw_count_) {
@@ -83,7 +83,7 @@ struct Farthest {
 }  // namespace
 
 Proof prove(Character& original, Character& reduced, const Tolerances& tolerances, double limit,
-            const std::vector<Performance>& performances) {
+            const std::vector<ProofTake>& performances) {
   const ProofPoses poses(original.rig.get(), performances);
   const uint32_t lod_count = rig_info(original.rig.get()).lod_count;
   Proof proof;

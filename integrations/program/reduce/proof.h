@@ -31,7 +31,7 @@ struct Proof {
 };
 
 /// Frames that the caller gives.
-struct Performance {
+struct ProofTake {
   std::string shown;                       // the file
   std::vector<std::vector<float>> frames;  // raw controls
 };
@@ -40,7 +40,7 @@ struct Performance {
 /// controls at random values; then performances. Always the same ones. What is not set keeps its initial value.
 class ProofPoses {
  public:
-  ProofPoses(const MienRig* rig, const std::vector<Performance>& performances);
+  ProofPoses(const MienRig* rig, const std::vector<ProofTake>& performances);
 
   static constexpr size_t kSparse = 1000;
   size_t single_count() const { return raw_count_ + psd_count_; }
@@ -50,10 +50,10 @@ class ProofPoses {
 
  private:
   /// The performance of a pose, which becomes the number of its frame; null for other poses.
-  const Performance* performance_of(size_t& pose) const;
+  const ProofTake* performance_of(size_t& pose) const;
 
   const MienRig* rig_;
-  const std::vector<Performance>& performances_;
+  const std::vector<ProofTake>& performances_;
   uint32_t raw_count_, psd_count_;
   size_t frame_count_ = 0;
   std::vector<float> initial_;
@@ -62,6 +62,6 @@ class ProofPoses {
 /// Compares all positions of all LODs in all poses. Stops at the first pose in which a distance exceeds
 /// `limit` times its tolerance: then `share` is above `limit`, and the rest of the result incomplete.
 Proof prove(Character& original, Character& reduced, const Tolerances& tolerances, double limit,
-            const std::vector<Performance>& performances = {});
+            const std::vector<ProofTake>& performances = {});
 
 }  // namespace mien::cli

@@ -21,7 +21,7 @@ struct ReduceOptions {
   Tolerances tolerances;
   MienRigDesc rig;    // 16-bit storage is tried if it says 32 bits; for the deformer always
   std::string shown;  // the file, for messages
-  std::vector<Performance> performances;  // more poses to prove it in
+  std::vector<ProofTake> performances;  // more poses to prove it in
 };
 
 struct Sizes {

@@ -155,7 +155,7 @@ std::vector<std::vector<float>> influence_importance(Character& character,
     }
     of.first.push_back(of.joints.size());
   }
-  const std::vector<Performance> none;
+  const std::vector<ProofTake> none;
   const ProofPoses poses(character.rig.get(), none);
   for (size_t pose = 0; pose < poses.single_count(); ++pose) {
     poses.set(pose, character.raw());

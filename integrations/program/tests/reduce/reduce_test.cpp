@@ -182,7 +182,7 @@ TEST(Proof, PerformancesAreMorePoses) {
   const Dna dna = tiny();
   Character one = character_of(dna), other = character_of(with_one_position_moved(dna));
   const size_t count = rig_count(one.rig.get(), MIEN_KIND_RAW_CONTROL);
-  const std::vector<Performance> takes = {{"first", {}},
+  const std::vector<ProofTake> takes = {{"first", {}},
                                           {"second", {std::vector<float>(count, 0.25f)}}};
   const ProofPoses poses(one.rig.get(), takes);
   const Proof proof = prove(one, other, {1}, INFINITY, takes);
