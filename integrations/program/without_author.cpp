@@ -61,14 +61,8 @@ Reduced reduce_rig(const MienDna*, const ReduceOptions&) {
   fail(kUsage, "mien bake --tolerance", "",
        "this build of mien cannot reduce rigs (MIEN_BUILD_COMPILER=OFF)", "use a full build");
 }
-
-std::string reduction_text(const Reduced&, const std::vector<double>&, const std::string&) {
-  return "";
-}
-
-std::string reduction_json(const Reduced&, const std::vector<double>&, const std::string&) {
-  return "";
-}
+std::string reduction_text(const Reduced&, const std::string&) { return {}; }
+std::string reduction_json(const Reduced&, const std::string&) { return {}; }
 
 Command add_edit_command(CLI::App& app, const Session&) {
   CLI::App* edit = app.add_subcommand("edit", "Change a DNA file (not in this build)");
