@@ -183,7 +183,7 @@ TEST(Proof, PerformancesAreMorePoses) {
   Character one = character_of(dna), other = character_of(with_one_position_moved(dna));
   const size_t count = rig_count(one.rig.get(), MIEN_KIND_RAW_CONTROL);
   const std::vector<ProofTake> takes = {{"first", {}},
-                                          {"second", {std::vector<float>(count, 0.25f)}}};
+                                        {"second", {std::vector<float>(count, 0.25f)}}};
   const ProofPoses poses(one.rig.get(), takes);
   const Proof proof = prove(one, other, {1}, INFINITY, takes);
   EXPECT_EQ(proof.pose_count, prove(one, other, {1}, INFINITY).pose_count + 1);
