@@ -193,7 +193,7 @@ else()
   message(STATUS "NOT TESTED: types of the Python package; there is no mypy")
 endif()
 
-# Rust: rust/check.sh tests the crates; ./dev test calls it where there is a cargo.
+# Rust: rust/check.sh tests the crates; ./dev test --all calls it where there is a cargo.
 
 # ---- Lua --------------------------------------------------------------------------------------------
 
@@ -304,4 +304,12 @@ else()
   message(STATUS "NOT TESTED: the Go binding; there is no go")
 endif()
 
-# JavaScript: web/tests test the package; ./dev test runs them where there is an emcc.
+# JavaScript: web/tests test the package; ./dev test --all runs them where there is an emcc.
+
+# CI runs the other languages and engines. Python, C and C++ are what ./dev test runs.
+foreach(name examples_agree python_types lua_lifetime_test lua_misuse_test lua_values_test csharp_build csharp_test
+    unity_build unity_package_test unity_test godot_test godot3_test unreal_test unreal_plugin_test go_test)
+  if(TEST ${name})
+    set_property(TEST ${name} APPEND PROPERTY LABELS all)
+  endif()
+endforeach()

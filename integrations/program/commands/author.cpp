@@ -19,6 +19,7 @@
 #include "integrations/program/commands/options.h"
 #include "integrations/program/io/input.h"
 #include "integrations/program/io/interrupt.h"
+#include "integrations/program/io/json_check.h"
 #include "integrations/program/io/matched_names.h"
 #include "integrations/program/io/nearest_name.h"
 #include "integrations/program/io/output.h"
@@ -271,7 +272,7 @@ Made make_rig(const AuthorCommand& command, MienAuthorDesc desc, const MeshFile&
   Made out = {Dna(dna), {}};
   MienStringView json = {};
   check(mien_author_report_json(report.get(), &json), nullptr, "cannot rig", command.mesh);
-  out.report = Json::parse(json.data, json.data + json.count);
+  out.report = parse_written_json<Json>({json.data, json.count});
   double total = 0;
   for (const Json& seconds : watch.seconds) total += seconds.get<double>();
   watch.seconds["total"] = total;

@@ -18,8 +18,7 @@ namespace mien::cli {
 namespace {
 
 // Numbers are parsed as floats at once, so that none is rounded twice; objects keep their order.
-using json =
-    nlohmann::basic_json<MemberList, std::vector, std::string, bool, int64_t, uint64_t, float>;
+using json = FloatJson;
 
 constexpr const char* kCannotReadTake = "cannot read take";
 constexpr const char* kTakeExample =

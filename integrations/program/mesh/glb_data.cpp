@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "integrations/program/io/json_check.h"
 #include "integrations/program/io/text.h"
 
 namespace mien::cli {
@@ -44,7 +45,7 @@ GlbData::GlbData(const std::string& bytes, const std::string& path)
     if (kind == 0x004E4942 && binary_.empty()) binary_ = std::string_view(bytes).substr(at, size);
     at += (size + 3) / 4 * 4;
   }
-  root_ = Json::parse(json, nullptr, false);
+  root_ = cli::parse_written_json<Json>(json);
   if (!root_.is_object()) fail("", "its JSON is not valid", "export it again");
   for (const Json& name : list(root_, "extensionsRequired")) {
     if (name.is_string() && name.get<std::string>() == "KHR_mesh_quantization") continue;
