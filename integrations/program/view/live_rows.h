@@ -26,11 +26,23 @@ class LiveRows {
     changed_.notify_all();
   }
 
-  /// Ends all waiting.
-  void end() {
+  /// An answer that reads rows begins, or has been written.
+  void begin_answer() {
     const std::lock_guard lock(mutex_);
+    ++answers_;
+  }
+  void end_answer() {
+    const std::lock_guard lock(mutex_);
+    --answers_;
+    changed_.notify_all();
+  }
+
+  /// Ends all waiting. Gives answers a second to be written to their end.
+  void end() {
+    std::unique_lock lock(mutex_);
     is_over_ = true;
     changed_.notify_all();
+    changed_.wait_for(lock, std::chrono::seconds(1), [&] { return answers_ == 0; });
   }
 
   enum class Wait { kRow, kNone, kOver };
@@ -52,6 +64,7 @@ class LiveRows {
   std::condition_variable changed_;
   std::string line_;
   uint64_t number_ = 0;
+  size_t answers_ = 0;
   bool is_over_ = false;
 };
 

@@ -48,6 +48,7 @@ void refuse(httplib::Response& response, int status, const char* why) {
 void answer_live(LiveRows& live, httplib::Response& response) {
   response.status = 200;
   const auto end = std::chrono::steady_clock::now() + kLiveAnswer;
+  live.begin_answer();
   response.set_chunked_content_provider(
       "application/x-ndjson",
       [&live, end, seen = uint64_t{0}](size_t offset, httplib::DataSink& sink) mutable {
@@ -57,7 +58,8 @@ void answer_live(LiveRows& live, httplib::Response& response) {
           return true;
         }
         return sink.write(line.data(), line.size());
-      });
+      },
+      [&live](bool) { live.end_answer(); });
 }
 
 void answer(const Files& files, LiveRows* live, int port, const httplib::Request& request,
