@@ -37,6 +37,7 @@ export PKG_CONFIG_ALLOW_SYSTEM_CFLAGS=1 PKG_CONFIG_ALLOW_SYSTEM_LIBS=1
 use "$root/usr" "$libdir" "$work"
 
 run "$libdir" "$root/usr/bin/mien" gen --preset tiny -o "$work/tiny.dna"
+[ -s "$libdir/mien/view_server.so" ] || { echo "no web server of mien view" >&2; exit 1; }
 for file in share/man/man1/mien.1.gz share/bash-completion/completions/mien \
   share/zsh/vendor-completions/_mien share/fish/vendor_completions.d/mien.fish; do
   [ -s "$root/usr/$file" ] || { echo "no $file" >&2; exit 1; }

@@ -7,6 +7,7 @@
 import http.client
 import json
 import os
+import shutil
 import signal
 import socket
 import stat
@@ -287,6 +288,17 @@ class View(ProgramTest):
         self.fails(USAGE, *page, path("some.glb"), "--live", "livelink://127.0.0.1:0", says="GLB")
         self.start(path("tiny.dna"))
         self.assertEqual(self.ask("/live")[0], 404)
+
+    def test_a_missing_server_is_told_with_what_to_do(self):
+        moved = path("moved/bin/mien")
+        os.makedirs(os.path.dirname(moved), exist_ok=True)
+        shutil.copy(program.mien, moved)
+        libraries = os.path.join(os.path.dirname(os.path.dirname(program.mien)), "lib")
+        done = subprocess.run([moved, "view", path("tiny.dna"), "--page", path("page"), "--no-open"], capture_output=True,
+                              text=True, timeout=60, env={**os.environ, "LD_LIBRARY_PATH": libraries})
+        self.assertEqual(done.returncode, FILE)
+        self.assertIn("view_server", done.stderr)
+        self.assertIn("install mien again", done.stderr)
 
     def test_a_missing_page_is_told_with_what_to_do(self):
         self.fails(FILE, "view", "--page", path("bin-nowhere"), says="dev web build")

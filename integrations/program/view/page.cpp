@@ -31,10 +31,8 @@ bool is_page(const fs::path& folder) {
 
 /// PREFIX/bin/mien has it in PREFIX/share, BUILD/release/bin/mien in BUILD/web.
 fs::path find_page() {
-  std::error_code failed;
-  const fs::path program = fs::read_symlink("/proc/self/exe", failed);
-  if (!failed) {
-    const fs::path above = program.parent_path().parent_path();
+  const fs::path above = installed_folder();
+  if (!above.empty()) {
     for (const fs::path& folder :
          {above / "share" / "mien" / "viewer", above.parent_path() / "web" / "viewer"}) {
       if (is_page(folder)) return folder;
@@ -46,6 +44,12 @@ fs::path find_page() {
 }
 
 }  // namespace
+
+fs::path installed_folder() {
+  std::error_code failed;
+  const fs::path program = fs::read_symlink("/proc/self/exe", failed);
+  return failed ? fs::path() : program.parent_path().parent_path();
+}
 
 Files load_page(const std::string& named) {
   const fs::path folder = named.empty() ? find_page() : fs::path(named);
