@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 // For a build without libmien-author: `mien gen`, `mien demo-head`, `mien author`,
-// `mien edit` and `mien solve` say so.
+// `mien edit`, `mien solve` and landmarks of `mien play` say so.
 #include <mien_author.h>
 
 #include <cstring>
 
 #include "integrations/program/commands/commands.h"
 #include "integrations/program/commands/solve.h"
+#include "integrations/program/commands/solve_live.h"
 #include "integrations/program/reduce/reduce.h"
 
 namespace {
@@ -55,6 +56,16 @@ Command add_solve_command(CLI::App& app, const Session&) {
 void solve_file(const SolveCommand&, const Session&) {
   fail(kUsage, "mien solve", "", "this build of mien cannot solve (MIEN_BUILD_COMPILER=OFF)",
        "use a full build");
+}
+
+void check_landmark_options(const LandmarkOptions&) {
+  fail(kUsage, "mien play --live landmarks", "",
+       "this build of mien cannot solve (MIEN_BUILD_COMPILER=OFF)", "use a full build");
+}
+
+live::LandmarkSolver open_landmark_solver(const LandmarkOptions&, bool, const MienRig*,
+                                          const MienDeformer*, const std::string&) {
+  return {};
 }
 
 Reduced reduce_rig(const MienDna*, const ReduceOptions&) {

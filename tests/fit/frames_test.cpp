@@ -87,6 +87,144 @@ TEST(Frames, RefuseWrongArguments) {
             MIEN_ERROR_INVALID_ARGUMENT);
 }
 
+/// What both ways to solve frames refuse, before they write anything. `good` has two frames.
+void expect_refusals(MienFit* fit, const MienFitFrame& good, size_t raw_count) {
+  std::vector<float> found(2 * raw_count, 7.0f);
+  const std::vector<float> untouched = found;
+  std::vector<float> row(raw_count);
+  row.back() = std::numeric_limits<float>::quiet_NaN();
+  std::vector<uint32_t> stages(raw_count);
+  stages.back() = 16;
+  const float image[4] = {};
+  const MienFitCamera camera = {};
+  const std::vector<uint64_t> no_surface(64);
+  MienFitConstraint constraint = {};
+  constraint.kind = 99;
+  const auto refuse = [&](MienStatus expected, const char* what, auto change) {
+    MienFitFrame wrong = good;
+    change(wrong);
+    std::vector<MienFitResult> results = results_of(2);
+    EXPECT_EQ(mien_fit_solve_frames(fit, &wrong, 2, found.data(), results.data()), expected)
+        << what;
+    EXPECT_EQ(found, untouched) << what;
+    EXPECT_EQ(mien_fit_solve(fit, &wrong, found.data(), nullptr), expected) << what << ", alone";
+  };
+  using Frame = MienFitFrame;
+  refuse(MIEN_ERROR_STRUCT_SIZE, "size", [](Frame& f) { f.struct_size = 1; });
+  const MienStatus wrong = MIEN_ERROR_INVALID_ARGUMENT;
+  refuse(wrong, "start", [&](Frame& f) { f.start = row.data(); });
+  refuse(wrong, "prior", [&](Frame& f) { f.prior = row.data(); });
+  refuse(wrong, "stage", [&](Frame& f) { f.stages = stages.data(); });
+  refuse(wrong, "prior_weight", [](Frame& f) { f.prior_weight = -1; });
+  refuse(wrong, "smooth_weight", [](Frame& f) { f.smooth_weight = -1; });
+  refuse(wrong, "symmetric_weight", [](Frame& f) { f.symmetric_weight = INFINITY; });
+  refuse(wrong, "robust_scale", [](Frame& f) { f.robust_scale = -1; });
+  refuse(wrong, "joint_weight", [](Frame& f) { f.joint_weight = -1; });
+  refuse(wrong, "constraint", [&](Frame& f) {
+    f.constraints = &constraint;
+    f.constraint_count = 1;
+  });
+  refuse(MIEN_ERROR_NULL_ARGUMENT, "no camera", [&](Frame& f) {
+    f.points = nullptr;
+    f.images = image;
+  });
+  if (!good.points) {
+    refuse(MIEN_ERROR_NULL_ARGUMENT, "a fit without points", [&](Frame& f) { f.points = image; });
+    return;
+  }
+  refuse(wrong, "two kinds of points", [&](Frame& f) {
+    f.images = image;
+    f.camera = &camera;
+  });
+  refuse(MIEN_ERROR_HANDLE, "surface", [&](Frame& f) {
+    f.points = nullptr;
+    f.surface = reinterpret_cast<const MienFitSurface*>(no_surface.data());
+  });
+}
+
+TEST(Frames, OfJointsAndOfPointsRefuseTheSame) {
+  Head head(MIEN_PRESET_MEDIUM);
+  const size_t raw_count = head.character.raw.count;
+  const FitHandle of_joints = create_fit(head.rig, sized<MienFitDesc>());
+  const std::vector<float> joints(2 * head.character.joints.count);
+  MienFitFrame frame = mien_fit_frame_default();
+  frame.joints = joints.data();
+  expect_refusals(of_joints.get(), frame, raw_count);
+
+  const std::vector<MienSolvePoint> points =
+      every(mesh_of(head.deformer.get(), 0).position_count, 50);
+  MienFitDesc desc = sized<MienFitDesc>();
+  desc.deformer = head.deformer.get();
+  desc.points = points.data();
+  desc.point_count = points.size();
+  const FitHandle of_points = create_fit(head.rig, desc);
+  std::vector<float> targets(6 * points.size());
+  frame = mien_fit_frame_default();
+  frame.points = targets.data();
+  expect_refusals(of_points.get(), frame, raw_count);
+
+  // A weight of the last frame is found before the first one is solved.
+  std::vector<float> weights(2 * points.size(), 1.0f), found(2 * raw_count, 7.0f);
+  weights.back() = -1;
+  frame.point_weights = weights.data();
+  EXPECT_EQ(mien_fit_solve_frames(of_points.get(), &frame, 2, found.data(), nullptr),
+            MIEN_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(found, std::vector<float>(2 * raw_count, 7.0f));
+}
+
+/// Frames with stages, and single solves of which only the first one has them.
+void expect_stages_of_the_first_frame(MienFit* fit, MienFitFrame frame, const float* row,
+                                      size_t width, size_t raw_count) {
+  std::vector<uint32_t> stages(raw_count, 1);
+  for (size_t i = 0; i < raw_count; i += 18) stages[i] = 0;
+  frame.max_iterations = 3;
+  std::vector<float> found(2 * raw_count), plain(2 * raw_count), one(raw_count), before;
+  ASSERT_EQ(mien_fit_solve_frames(fit, &frame, 2, plain.data(), nullptr), MIEN_OK);
+  frame.stages = stages.data();
+  std::vector<MienFitResult> results = results_of(2);
+  ASSERT_EQ(mien_fit_solve_frames(fit, &frame, 2, found.data(), results.data()), MIEN_OK);
+  EXPECT_NE(std::vector<float>(found.begin(), found.begin() + static_cast<int>(raw_count)),
+            std::vector<float>(plain.begin(), plain.begin() + static_cast<int>(raw_count)))
+      << "stages take other steps";
+  MienFitResult result = mien_fit_result_default();
+  for (size_t i = 0; i < 2; ++i) {
+    (frame.joints ? frame.joints : frame.points) = row + i * width;
+    ASSERT_EQ(mien_fit_solve(fit, &frame, one.data(), &result), MIEN_OK);
+    for (size_t c = 0; c < raw_count; ++c) ASSERT_NEAR(one[c], found[i * raw_count + c], 5e-3) << c;
+    before = one;
+    frame.start = before.data();
+    frame.stages = nullptr;
+  }
+}
+
+TEST(Frames, StagesAreOfTheFirstFrame) {
+  Head head(MIEN_PRESET_MEDIUM);
+  const size_t raw_count = head.character.raw.count, joint_count = head.character.joints.count;
+  const std::vector<MienSolvePoint> points =
+      every(mesh_of(head.deformer.get(), 0).position_count, 10);
+  std::vector<float> joints, places;
+  for (const double time : {1.0, 1.1}) {
+    const std::vector<float> raw = swing(raw_count, time), own = head.joints(raw);
+    joints.insert(joints.end(), own.begin(), own.end());
+    const std::vector<float> skin = head.positions(raw);
+    for (const MienSolvePoint& p : points) {
+      for (size_t k = 0; k < 3; ++k) places.push_back(skin[p.positions[0] * size_t{3} + k]);
+    }
+  }
+  MienFitFrame frame = mien_fit_frame_default();
+  frame.joints = joints.data();
+  expect_stages_of_the_first_frame(create_fit(head.rig, sized<MienFitDesc>()).get(), frame,
+                                   joints.data(), joint_count, raw_count);
+  MienFitDesc desc = sized<MienFitDesc>();
+  desc.deformer = head.deformer.get();
+  desc.points = points.data();
+  desc.point_count = points.size();
+  frame = mien_fit_frame_default();
+  frame.points = places.data();
+  expect_stages_of_the_first_frame(create_fit(head.rig, desc).get(), frame, places.data(),
+                                   3 * points.size(), raw_count);
+}
+
 /// Landmarks of a motion with noise, every tenth an outlier in some frames, and some frames without any.
 struct Landmarks {
   Head head;

@@ -123,6 +123,10 @@ void run(const PlayOptions& options, const Session& session) {
   if (outputs.empty() && options.real_time.send.empty()) outputs = {"-"};
   check_outputs(outputs, options);
   RealTime::check(options.real_time);
+  const bool solves = solves_landmarks(options.real_time);
+  if (solves && !options.names.empty()) {
+    fail_usage("--names", "landmarks have places, and no controls of their names", "leave it out");
+  }
   std::map<std::string, StripPlan> strips;
   for (const std::string& output : outputs) {
     if (ends_with(output, ".png")) strips.emplace(output, plan_strip(options.strip, output));
@@ -154,7 +158,7 @@ void run(const PlayOptions& options, const Session& session) {
   Deformer deformer;
   const MienRig* rig = nullptr;
   const MienDeformer* meshes = nullptr;
-  std::string name;
+  std::string name;  // of the rig
   if (is_baked_file(options.rig)) {
     baked = open_baked_rig(options.rig, load, evaluation);
     rig = baked->rig.get();
@@ -163,7 +167,7 @@ void run(const PlayOptions& options, const Session& session) {
   } else {
     const bool measured =
         script.guards != 0 || std::any_of(script.layers.begin(), script.layers.end(), is_gaze);
-    const uint32_t geometry = measured ? uint32_t{MIEN_LAYER_GEOMETRY} : 0;
+    const uint32_t geometry = measured || solves ? uint32_t{MIEN_LAYER_GEOMETRY} : 0;
     dna =
         open_rig_file(options.rig, parse_load_options(load, kEvaluationLayers | geometry), session);
     made = create_rig(*dna, parse_rig_options(evaluation));
@@ -185,7 +189,8 @@ void run(const PlayOptions& options, const Session& session) {
 
   std::unique_ptr<RealTime> real_time;
   if (options.real_time.given()) {
-    real_time = std::make_unique<RealTime>(options.real_time, rig, names, session);
+    const LiveRig moved = {rig, meshes, baked ? baked->shown : dna->shown};
+    real_time = std::make_unique<RealTime>(options.real_time, moved, names, session);
   }
   const StreamScript stream = real_time ? real_time->stream() : StreamScript();
   Performance performance(script, rig, meshes, stream, names, session);
@@ -288,7 +293,8 @@ Command add_play_command(CLI::App& app, const Session& session) {
   play->add_option(
           "--live", options->real_time.live,
           "Listen on a port: livelink://:11111 for the Live Link Face app,\n"
-          "vmc://:39539 for VMC; from other machines too, unless a host is named.\n"
+          "vmc://:39539 for VMC, landmarks3://:11112 or landmarks2://:11112 for\nlandmarks in "
+          "space or in pictures; from other machines too, unless a\nhost is named.\n"
           "Drives the layer with the source {\"live\": true}; without one, adds it before\nall "
           "other layers")
       ->type_name("FROM")
@@ -303,6 +309,30 @@ Command add_play_command(CLI::App& app, const Session& session) {
           "Take packets of Live Link Face only from this device, by its id or the\nname of "
           "its subject (default: the first that sends)")
       ->type_name("NAME")
+      ->group(clock);
+  LandmarkOptions& landmarks = options->real_time.landmarks;
+  play->add_option("--landmarks", landmarks.file,
+                   "JSON that says where the landmarks of packets are on the rig, and the\ncamera: "
+                   "see 'mien help solve'")
+      ->type_name("FILE")
+      ->group(clock);
+  play->add_option("--smooth", landmarks.smooth,
+                   "Weight of changes from packet to packet against the mean squared\ndistance of "
+                   "landmarks (default: 0)")
+      ->type_name("S")
+      ->group(clock);
+  play->add_option("--sparse", landmarks.sparse,
+                   "Weight of the sum of all controls against it (default: 0)")
+      ->type_name("S")
+      ->group(clock);
+  play->add_option("--robust", landmarks.robust,
+                   "Landmarks farther off than S count less, in the unit of the rig, or\npixels "
+                   "(default: all count)")
+      ->type_name("S")
+      ->group(clock);
+  play->add_option("--solve-time", landmarks.seconds,
+                   "Seconds that solving landmarks may take in a frame (default: 0.008)")
+      ->type_name("S")
       ->group(clock);
   play->add_option("--send", options->real_time.send,
                    "Send the raw controls of each frame by VMC: vmc://HOST:PORT")
@@ -366,7 +396,10 @@ Command add_play_command(CLI::App& app, const Session& session) {
       "  mien play scene.json head.dna -o scene.glb\n"
       "  mien play scene.json head.dna -o strip.png --every 0.1 --target mouth\n"
       "  mien play scene.json head.dna -o 'frame-%04d.png' --every 0.04\n"
-      "  mien play scene.json head.dna --live livelink://:11111 --send vmc://127.0.0.1:39539\n\n"
+      "  mien play scene.json head.dna --live livelink://:11111 --send vmc://127.0.0.1:39539\n"
+      "  mien play scene.json head.dna --live landmarks2://:11112 --landmarks points.json\n\n"
+      "Packets of landmarks are JSON: {\"time\": 1.5, \"size\": [1280, 720], \"landmarks\": "
+      "[[0.51, 0.4],\n...]}; see docs/face-capture.md.\n"
       "--live and --send play in real time, for --seconds or until Ctrl-C; then outputs are "
       "written.");
   return {play, [options, &session] {

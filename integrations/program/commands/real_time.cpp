@@ -37,12 +37,24 @@ live::Address checked_address(const std::string& option, const std::string& text
 
 }  // namespace
 
-std::unique_ptr<live::LiveInput> open_live(const RealTimeOptions& options, const MienRig* rig,
+bool solves_landmarks(const RealTimeOptions& options) {
+  return !options.live.empty() &&
+         live::has_landmarks(live::parse_address("--live", options.live, false).protocol);
+}
+
+std::unique_ptr<live::LiveInput> open_live(const RealTimeOptions& options, const LiveRig& rig,
                                            const NamesFile& names, const Session& session) {
   const auto delay =
       static_cast<int64_t>(parse_delay(options.delay) * static_cast<double>(MIEN_TICKS_PER_SECOND));
-  return std::make_unique<live::LiveInput>(checked_address("--live", options.live, false), delay,
-                                           options.device, rig, names, session);
+  const live::Address address = checked_address("--live", options.live, false);
+  if (live::has_landmarks(address.protocol)) {
+    return std::make_unique<live::LiveInput>(
+        address, delay,
+        open_landmark_solver(options.landmarks, address.protocol == live::Protocol::kLandmarks2,
+                             rig.rig, rig.deformer, rig.shown),
+        rig.rig, session);
+  }
+  return std::make_unique<live::LiveInput>(address, delay, options.device, rig.rig, names, session);
 }
 
 void RealTime::check(const RealTimeOptions& options) {
@@ -58,15 +70,20 @@ void RealTime::check(const RealTimeOptions& options) {
     fail_usage("--device", "only packets of Live Link Face have names of devices",
                "add --live livelink://:11111");
   }
+  if (solves_landmarks(options)) {
+    check_landmark_options(options.landmarks);
+  } else if (const char* option = options.landmarks.named()) {
+    fail_usage(option, "no landmarks come in", "add --live landmarks3://:11112");
+  }
 }
 
-RealTime::RealTime(const RealTimeOptions& options, const MienRig* rig, const NamesFile& names,
+RealTime::RealTime(const RealTimeOptions& options, const LiveRig& rig, const NamesFile& names,
                    const Session& session) {
   stream_.delay = parse_delay(options.delay);
   if (!options.send.empty()) {
     std::vector<std::string> sent;
-    for (uint32_t i = 0; i < rig_count(rig, MIEN_KIND_RAW_CONTROL); ++i) {
-      sent.emplace_back(short_name(rig_name(rig, MIEN_KIND_RAW_CONTROL, i)));
+    for (uint32_t i = 0; i < rig_count(rig.rig, MIEN_KIND_RAW_CONTROL); ++i) {
+      sent.emplace_back(short_name(rig_name(rig.rig, MIEN_KIND_RAW_CONTROL, i)));
     }
     sender_ = std::make_unique<live::VmcSender>(checked_address("--send", options.send, true),
                                                 std::move(sent));

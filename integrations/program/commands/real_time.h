@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "integrations/program/commands/solve_live.h"
 #include "integrations/program/live/live_input.h"
 #include "integrations/program/play/performance.h"
 
@@ -14,12 +15,23 @@ namespace mien::cli {
 /// As they were typed; empty: none.
 struct RealTimeOptions {
   std::string live, send, delay, device;
+  LandmarkOptions landmarks;
 
   bool given() const { return !live.empty() || !send.empty(); }
 };
 
+/// Whether --live takes landmarks, for which a rig needs its meshes.
+bool solves_landmarks(const RealTimeOptions& options);
+
+/// A rig that live data move.
+struct LiveRig {
+  const MienRig* rig = nullptr;
+  const MienDeformer* deformer = nullptr;  // null without geometry, which landmarks need
+  std::string shown;
+};
+
 /// The live source of checked options. Listens from now on. The rig and the session outlive it.
-std::unique_ptr<live::LiveInput> open_live(const RealTimeOptions& options, const MienRig* rig,
+std::unique_ptr<live::LiveInput> open_live(const RealTimeOptions& options, const LiveRig& rig,
                                            const NamesFile& names, const Session& session);
 
 class RealTime {
@@ -28,7 +40,7 @@ class RealTime {
   static void check(const RealTimeOptions& options);
 
   /// Listens from now on.
-  RealTime(const RealTimeOptions& options, const MienRig* rig, const NamesFile& names,
+  RealTime(const RealTimeOptions& options, const LiveRig& rig, const NamesFile& names,
            const Session& session);
   ~RealTime();
   RealTime(const RealTime&) = delete;

@@ -5,12 +5,12 @@
 #include <mien_solve.h>
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <numeric>
 
 #include "integrations/program/commands/landmark_sets.h"
+#include "integrations/program/commands/solve_landmarks.h"
 #include "integrations/program/commands/solve_output.h"
 #include "integrations/program/commands/solve_target.h"
 #include "integrations/program/io/controls.h"
@@ -23,22 +23,9 @@ namespace mien::cli {
 
 namespace {
 
-using Fit = std::unique_ptr<MienFit, Destroy<MienFit, mien_fit_destroy>>;
-
 // The first frame starts from rest, the others from the frame before.
 constexpr uint32_t kFirstIterations = 200, kMostIterations = 50;
 constexpr uint32_t kMostSolvedFrames = 10000000;
-constexpr float kUnobservable = 1e-5f;  // of what mien_fit_observability() gives; rounding is below
-
-float parse_weight(const char* option, const std::string& word) {
-  if (word.empty()) return 0;
-  float weight = 0;
-  const char* const end = word.data() + word.size();
-  const auto [stop, error] = std::from_chars(word.data(), end, weight);
-  if (error == std::errc() && stop == end && weight >= 0 && std::isfinite(weight)) return weight;
-  fail_usage(std::string(option) + " \"" + word + "\"", "not a number from 0 on",
-             "give a number such as 0.01");
-}
 
 void check_command(const SolveCommand& command, TargetKind kind) {
   const bool landmarks = kind == TargetKind::kLandmarks3 || kind == TargetKind::kLandmarks2;
@@ -66,9 +53,6 @@ void check_command(const SolveCommand& command, TargetKind kind) {
   }
   if (!command.robust.empty() && kind == TargetKind::kJoints) {
     fail_usage("--robust", "only distances of points are compared with it", "leave it out");
-  }
-  if (!command.images.empty() && kind == TargetKind::kSurface) {
-    fail_usage("--pictures", "vertices have no targets of their own on a surface", "leave it out");
   }
   const std::string& path = command.output.path;
   if (path != "-" && !ends_with(path, ".clip") && !ends_with(path, ".json")) {
@@ -153,10 +137,6 @@ void note_frames_without_data(const SolvedTake& take, const Session& session) {
                     " frames have no data; they hold the frame before");
 }
 
-bool knows_rotation(const MienFitCamera& camera) {
-  return std::any_of(camera.rotation, camera.rotation + 9, [](float v) { return v != 0; });
-}
-
 SolvedTake solve_take(const SolveCommand& command, const SolvedRig& rig, const SolveTarget& target,
                       const Fit& fit, const Session& session) {
   SolvedTake take;
@@ -185,7 +165,7 @@ SolvedTake solve_take(const SolveCommand& command, const SolvedRig& rig, const S
   frame.focal = command.focal ? 1 : 0;
   frame.point_weights = joints || !masked ? nullptr : target.weights.data();
   frame.robust_scale = parse_weight("--robust", command.robust);
-  frame.surface_reach = parse_weight("--reach", command.reach);
+  frame.surface_reach = take.reach = parse_weight("--reach", command.reach);
   frame.rigid = command.rigid ? 1 : 0;
   frame.sparse_weight = parse_weight("--sparse", command.sparse) * amount;
   frame.max_iterations = kFirstIterations;
@@ -199,7 +179,7 @@ SolvedTake solve_take(const SolveCommand& command, const SolvedRig& rig, const S
   for (size_t f = 0; f < target.frame_count; ++f) {
     progress.at(f);
     target.read(f, row.data());
-    const FitSurface surface = surfaces ? target.read_surface(f) : nullptr;
+    const FitSurface surface = surfaces ? create_surface(target.read_surface(f)) : nullptr;
     frame.surface = surface.get();
     auto result = sized<MienFitResult>();
     float* const out = take.values.data() + f * count;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "integrations/program/commands/solve_landmarks.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <map>
 #include <nlohmann/json.hpp>
 
 #include "integrations/program/io/input.h"
@@ -23,14 +23,6 @@ constexpr const char* kLandmarksExample =
     "give {\"points\": {NAME: 1234, NAME: {\"positions\": [1, 2, 3], \"weights\": [0.2, 0.3, "
     "0.5]}}}";
 
-/// What --landmarks says: places of names on one mesh, and a camera.
-struct Landmarks {
-  std::string shown;
-  uint32_t mesh = 0, position_count = 0;
-  std::map<std::string, MienSolvePoint> points;
-  std::optional<MienFitCamera> camera;
-};
-
 [[noreturn]] void fail_landmarks(const std::string& where, const std::string& why,
                                  const std::string& what_to_do = kLandmarksExample) {
   fail(kInvalid, kWhatLandmarks, where, why, what_to_do);
@@ -48,7 +40,7 @@ void read_numbers(const LandmarkJson& values, size_t count, float* to, const std
   }
 }
 
-uint32_t read_position(const LandmarkJson& value, const Landmarks& landmarks,
+uint32_t read_position(const LandmarkJson& value, const PlacedLandmarks& landmarks,
                        const std::string& where) {
   if (!value.is_number_unsigned()) fail_landmarks(where, "a position is not a whole number");
   if (value.get<uint64_t>() < landmarks.position_count) return value.get<uint32_t>();
@@ -58,7 +50,7 @@ uint32_t read_position(const LandmarkJson& value, const Landmarks& landmarks,
                  "count from 0");
 }
 
-MienSolvePoint read_point(const LandmarkJson& value, const Landmarks& landmarks,
+MienSolvePoint read_point(const LandmarkJson& value, const PlacedLandmarks& landmarks,
                           const std::string& where) {
   MienSolvePoint point = {landmarks.mesh, {}, {1, 0, 0}};
   if (!value.is_object()) {
@@ -98,8 +90,32 @@ MienFitCamera read_camera(const LandmarkJson& value, const std::string& where) {
   return camera;
 }
 
-Landmarks read_places(const TargetOptions& options, const SolvedRig& rig) {
-  Landmarks out;
+/// A name of the file, or the number of a position.
+MienSolvePoint find_point(const PlacedLandmarks& landmarks, const std::string& name,
+                          const std::string& where) {
+  const auto found = landmarks.points.find(name);
+  if (found != landmarks.points.end()) return found->second;
+  uint32_t number = 0;
+  const auto [stop, error] = std::from_chars(name.data(), name.data() + name.size(), number);
+  if (error == std::errc() && stop == name.data() + name.size()) {
+    return read_point(number, landmarks, where);
+  }
+  std::vector<std::string> known;
+  for (const auto& [other, point] : landmarks.points) known.push_back(other);
+  fail_landmarks(where, "no point is named \"" + one_line(name) + "\"",
+                 known.empty() ? "say where it is with --landmarks FILE, or name it by the number "
+                                 "of its position: 1234.x"
+                               : nearest_question(name, known, kLandmarksExample));
+}
+
+}  // namespace
+
+bool knows_rotation(const MienFitCamera& camera) {
+  return std::any_of(camera.rotation, camera.rotation + 9, [](float v) { return v != 0; });
+}
+
+PlacedLandmarks read_places(const TargetOptions& options, const SolvedRig& rig) {
+  PlacedLandmarks out;
   LandmarkJson document = LandmarkJson::object();
   if (!options.landmarks.empty()) {
     out.shown = shown_name(options.landmarks);
@@ -128,28 +144,8 @@ Landmarks read_places(const TargetOptions& options, const SolvedRig& rig) {
   return out;
 }
 
-/// A name of the file, or the number of a position.
-MienSolvePoint find_point(const Landmarks& landmarks, const std::string& name,
-                          const std::string& where) {
-  const auto found = landmarks.points.find(name);
-  if (found != landmarks.points.end()) return found->second;
-  uint32_t number = 0;
-  const auto [stop, error] = std::from_chars(name.data(), name.data() + name.size(), number);
-  if (error == std::errc() && stop == name.data() + name.size()) {
-    return read_point(number, landmarks, where);
-  }
-  std::vector<std::string> known;
-  for (const auto& [other, point] : landmarks.points) known.push_back(other);
-  fail_landmarks(where, "no point is named \"" + one_line(name) + "\"",
-                 known.empty() ? "say where it is with --landmarks FILE, or name it by the number "
-                                 "of its position: 1234.x"
-                               : nearest_question(name, known, kLandmarksExample));
-}
-
-}  // namespace
-
 SolveTarget read_landmarks(const TargetOptions& options, bool images, const SolvedRig& rig) {
-  const Landmarks landmarks = read_places(options, rig);
+  const PlacedLandmarks landmarks = read_places(options, rig);
   auto take = std::make_shared<Take>(parse_csv_take(read_text(options.path, "cannot read target"),
                                                     shown_name(options.path), true));
   const std::vector<std::string> axes =

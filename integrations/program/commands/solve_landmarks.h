@@ -2,9 +2,23 @@
 // Landmarks to solve: a CSV of their positions, and JSON that says where they are on the mesh.
 #pragma once
 
+#include <map>
+
 #include "integrations/program/commands/solve_target.h"
 
 namespace mien::cli {
+
+/// What --landmarks says: places of names on one mesh, and a camera.
+struct PlacedLandmarks {
+  std::string shown;
+  uint32_t mesh = 0, position_count = 0;
+  std::map<std::string, MienSolvePoint> points;
+  std::optional<MienFitCamera> camera;  // its rotation is 0 if the file has none
+};
+/// Without a file, the mesh alone.
+PlacedLandmarks read_places(const TargetOptions& options, const SolvedRig& rig);
+
+bool knows_rotation(const MienFitCamera& camera);
 
 /// `images`: two coordinates each, as the camera of the JSON sees them.
 SolveTarget read_landmarks(const TargetOptions& options, bool images, const SolvedRig& rig);

@@ -209,34 +209,38 @@ struct MeshFrames {
 };
 
 /// In the unit and axes of the rig, faces as fans of triangles.
-FitSurface create_surface(const MeshFile& file, const std::string& shown,
-                          const std::vector<Vec3d>& points, const RigSpace& space) {
-  std::vector<float> positions;
+SurfaceMesh surface_of(const MeshFile& file, const std::string& shown,
+                       const std::vector<Vec3d>& points, const RigSpace& space) {
+  SurfaceMesh surface;
+  surface.shown = shown;
   for (const Vec3d& point : points) {
     const Vec3d p = file.in_meters ? space.from_gltf(point) : point;
-    for (int k = 0; k < 3; ++k) positions.push_back(static_cast<float>(p[k]));
+    for (int k = 0; k < 3; ++k) surface.positions.push_back(static_cast<float>(p[k]));
   }
-  std::vector<uint32_t> triangles;
   size_t first = 0;
   for (const uint32_t size : file.face_sizes) {
     for (uint32_t k = 2; k < size; ++k) {
       for (const uint32_t corner : {0u, k - 1, k})
-        triangles.push_back(file.corners[first + corner]);
+        surface.triangles.push_back(file.corners[first + corner]);
     }
     first += size;
   }
-  auto desc = sized<MienFitSurfaceDesc>();
-  desc.positions = positions.data();
-  desc.position_count = points.size();
-  desc.triangles = triangles.data();
-  desc.triangle_count = triangles.size() / 3;
-  auto error = sized<MienError>();
-  MienFitSurface* surface = nullptr;
-  check(mien_fit_surface_create(&desc, &surface, &error), &error, "cannot solve", shown);
-  return FitSurface(surface);
+  return surface;
 }
 
 }  // namespace
+
+FitSurface create_surface(const SurfaceMesh& mesh) {
+  auto desc = sized<MienFitSurfaceDesc>();
+  desc.positions = mesh.positions.data();
+  desc.position_count = mesh.positions.size() / 3;
+  desc.triangles = mesh.triangles.data();
+  desc.triangle_count = mesh.triangles.size() / 3;
+  auto error = sized<MienError>();
+  MienFitSurface* surface = nullptr;
+  check(mien_fit_surface_create(&desc, &surface, &error), &error, "cannot solve", mesh.shown);
+  return FitSurface(surface);
+}
 
 SolveTarget read_meshes(const TargetOptions& options, const SolvedRig& rig, uint32_t mesh) {
   SolveTarget target;
@@ -261,7 +265,7 @@ SolveTarget read_surfaces(const TargetOptions& options, const SolvedRig& rig) {
   target.read_surface = [frames, space = RigSpace(rig)](size_t frame) {
     return frames->at(frame, [&](const MeshFile& file, const std::string& path,
                                  const std::vector<Vec3d>& points) {
-      return create_surface(file, path, points, space);
+      return surface_of(file, path, points, space);
     });
   };
   target.read = [](size_t, float*) {};

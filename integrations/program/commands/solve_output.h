@@ -25,6 +25,7 @@ struct SolvedTake {
   std::vector<std::vector<uint32_t>> keys;  // of each control, frame numbers; empty: every frame
   Rate rate;
   bool rigid = false;  // frames have a rotation and a translation
+  float reach = 0;     // of surfaces; 0: no limit
   double seconds = 0;  // that solving took
 
   const float* row(size_t frame) const { return values.data() + frame * controls.size(); }

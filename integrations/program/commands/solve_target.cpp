@@ -2,6 +2,8 @@
 #include "integrations/program/commands/solve_target.h"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 
@@ -66,6 +68,16 @@ SolveTarget read_joints(const TargetOptions& options, const SolvedRig& rig,
 }
 
 }  // namespace
+
+float parse_weight(const char* option, const std::string& word) {
+  if (word.empty()) return 0;
+  float weight = 0;
+  const char* const end = word.data() + word.size();
+  const auto [stop, error] = std::from_chars(word.data(), end, weight);
+  if (error == std::errc() && stop == end && weight >= 0 && std::isfinite(weight)) return weight;
+  fail_usage(std::string(option) + " \"" + word + "\"", "not a number from 0 on",
+             "give a number such as 0.01");
+}
 
 SolvedRig open_solved_rig(const std::string& path, bool geometry, const Session& session) {
   SolvedRig out;

@@ -37,6 +37,14 @@ MienMesh mesh_of(const SolvedRig& rig, uint32_t mesh);
 using FitSurface =
     std::unique_ptr<MienFitSurface, Destroy<MienFitSurface, mien_fit_surface_destroy>>;
 
+using Fit = std::unique_ptr<MienFit, Destroy<MienFit, mien_fit_destroy>>;
+
+/// Of what mien_fit_observability() gives; rounding is below.
+constexpr float kUnobservable = 1e-5f;
+
+/// A number from 0 on; 0 if the word is empty. Wrong usage for anything else.
+float parse_weight(const char* option, const std::string& word);
+
 /// In the order of the words of --kind.
 enum class TargetKind { kVertices, kJoints, kLandmarks3, kLandmarks2, kWeights, kSurface };
 
@@ -49,6 +57,13 @@ bool is_array_file(const std::string& path);
 
 /// The kind that is named, or that the file tells.
 TargetKind find_kind(const TargetOptions& options);
+
+/// Triangles in the unit and axes of the rig.
+struct SurfaceMesh {
+  std::vector<float> positions;     // x y z each
+  std::vector<uint32_t> triangles;  // three positions each
+  std::string shown;                // its file
+};
 
 struct SolveTarget {
   TargetKind kind = TargetKind::kVertices;
@@ -63,8 +78,10 @@ struct SolveTarget {
   Rate rate;                             // unknown if the file has none
   /// Writes the numbers of a frame. Missing ones are NaN.
   std::function<void(size_t frame, float* row)> read;
-  std::function<FitSurface(size_t frame)> read_surface;  // of kSurface
+  std::function<SurfaceMesh(size_t frame)> read_surface;  // of kSurface
 };
+
+FitSurface create_surface(const SurfaceMesh& mesh);
 
 /// Fails with kInvalid if the file does not fit the rig.
 SolveTarget open_target(const TargetOptions& options, TargetKind kind, const SolvedRig& rig,

@@ -64,7 +64,8 @@ class LiveView {
  public:
   LiveView(const ViewOptions& options, Rig rig, const Session& session)
       : rig_(std::move(rig)), session_(session),
-        input_(open_live(options.real_time, rig_.get(), NamesFile(options.names), session)),
+        input_(open_live(options.real_time, {rig_.get(), nullptr, shown_name(options.file)},
+                         NamesFile(options.names), session)),
         rows_(heading()) {}
   ~LiveView() {
     is_over_ = true;
@@ -175,6 +176,10 @@ void run(const ViewOptions& options, const Session& session) {
   if (!options.port.empty()) {
     port = parse_number("--port", options.port, 65535);
     if (port == 0) fail_usage("--port 0", "no port has this number", "leave it out for a free one");
+  }
+  if (solves_landmarks(options.real_time)) {
+    fail_usage("--live " + options.real_time.live, "landmarks are solved by 'mien play' only",
+               "send its controls on: mien play SCENE RIG --live ... --send vmc://127.0.0.1:39539");
   }
   RealTime::check(options.real_time);
   const bool is_live = !options.real_time.live.empty();

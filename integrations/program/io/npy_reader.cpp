@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "integrations/program/io/failure.h"
+#include "integrations/program/io/npz_member.h"
 
 namespace mien::cli {
 
@@ -59,66 +60,10 @@ void append(const char* bytes, size_t count, std::vector<float>& numbers) {
   }
 }
 
-// NPZ: a ZIP file, which ends with a list of its members.
-
-constexpr size_t kZipEndSize = 22, kZipEntrySize = 46, kZipHeaderSize = 30;
-constexpr uint64_t kMostZipComment = 65535;
-
-[[noreturn]] void fail_npz(const std::string& path, const std::string& why,
-                           const std::string& what_to_do = "save it again with numpy.savez()") {
-  fail(kInvalid, "invalid NPZ file", path, why, what_to_do);
-}
-
-uint64_t little_endian(const std::string& bytes, uint64_t at, size_t size) {
-  uint64_t number = 0;
-  for (size_t i = size; i-- > 0;) number = number << 8 | static_cast<unsigned char>(bytes[at + i]);
-  return number;
-}
-
-bool has_mark(const std::string& bytes, uint64_t at, size_t size, const char* mark) {
-  return at <= bytes.size() && bytes.size() - at >= size && bytes.compare(at, 4, mark, 4) == 0;
-}
-
-uint64_t find_zip_end(const std::string& bytes, const std::string& path) {
-  for (uint64_t back = kZipEndSize; back <= bytes.size() && back <= kZipEndSize + kMostZipComment;
-       ++back) {
-    if (has_mark(bytes, bytes.size() - back, kZipEndSize, "PK\5\6")) return bytes.size() - back;
-  }
-  fail_npz(path, "the list of its arrays is missing");
-}
-
-/// The bytes of the only member.
-std::string read_only_member(const std::string& bytes, const std::string& path) {
-  const uint64_t end = find_zip_end(bytes, path);
-  const uint64_t count = little_endian(bytes, end + 10, 2);
-  const uint64_t entry = little_endian(bytes, end + 16, 4);
-  if (count != 1) {
-    fail_npz(path, "it has " + std::to_string(count) + " arrays", "save one array in it");
-  }
-  if (!has_mark(bytes, entry, kZipEntrySize, "PK\1\2")) {
-    fail_npz(path, "the list of its arrays is damaged");
-  }
-  if (little_endian(bytes, entry + 10, 2) != 0) {
-    fail_npz(path, "its array is compressed", "save it with numpy.savez()");
-  }
-  const uint64_t size = little_endian(bytes, entry + 20, 4);
-  const uint64_t header = little_endian(bytes, entry + 42, 4);
-  if (size == UINT32_MAX) fail_npz(path, "its array has 4 GiB or more", "save it as .npy");
-  if (!has_mark(bytes, header, kZipHeaderSize, "PK\3\4")) {
-    fail_npz(path, "its array is not where the list says");
-  }
-  const uint64_t data = header + kZipHeaderSize + little_endian(bytes, header + 26, 2) +
-                        little_endian(bytes, header + 28, 2);
-  if (data > bytes.size() || size > bytes.size() - data) {
-    fail_npz(path, "its array is cut off");
-  }
-  return bytes.substr(data, size);
-}
-
 }  // namespace
 
 NpyArray read_npy_or_npz(const std::string& bytes, const std::string& path) {
-  return bytes.compare(0, 4, "PK\3\4") == 0 ? read_npy(read_only_member(bytes, path), path)
+  return bytes.compare(0, 4, "PK\3\4") == 0 ? read_npy(read_npz_member(bytes, path), path)
                                             : read_npy(bytes, path);
 }
 

@@ -17,7 +17,7 @@ struct NpyArray {
 /// type, another order, a size that does not fit the shape, numbers that are not finite as floats.
 NpyArray read_npy(const std::string& bytes, const std::string& path);
 
-/// The same, or the only array of an NPZ file, as numpy.savez() writes it: not compressed.
+/// The same, or the only array of an NPZ file, compressed or not.
 NpyArray read_npy_or_npz(const std::string& bytes, const std::string& path);
 
 }  // namespace mien::cli

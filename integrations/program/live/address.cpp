@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "integrations/program/live/address.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "integrations/program/io/failure.h"
+#include "integrations/program/live/landmark_packet.h"
 #include "integrations/program/live/live_link_face.h"
 #include "integrations/program/live/vmc.h"
 
@@ -9,7 +13,16 @@ namespace mien::live {
 
 namespace {
 
-constexpr const char* kSchemes[] = {"livelink://", "vmc://"};
+struct Scheme {
+  std::string text;
+  uint16_t port;  // the usual one
+};
+
+/// In the order of Protocol.
+const Scheme kSchemes[] = {{"livelink://", kLiveLinkPort},
+                           {"vmc://", kVmcPort},
+                           {"landmarks2://", kLandmarksPort},
+                           {"landmarks3://", kLandmarksPort}};
 
 uint16_t parse_port(const std::string& option, const std::string& text, const std::string& digits,
                     bool is_destination, const char* advice) {
@@ -27,20 +40,24 @@ uint16_t parse_port(const std::string& option, const std::string& text, const st
 
 Address parse_address(const std::string& option, const std::string& text, bool is_destination) {
   Address address;
-  const bool is_link = text.rfind(kSchemes[0], 0) == 0, is_vmc = text.rfind(kSchemes[1], 0) == 0;
-  const char* advice = is_destination ? "write it as vmc://127.0.0.1:39539"
-                                      : "write it as livelink://:11111 or vmc://:39539";
-  if (!is_vmc && (!is_link || is_destination)) {
+  const auto scheme = std::find_if(
+      std::begin(kSchemes), std::end(kSchemes),
+      [&](const Scheme& known) { return text.compare(0, known.text.size(), known.text) == 0; });
+  address.protocol = static_cast<Protocol>(scheme - std::begin(kSchemes));
+  const char* advice = is_destination
+                           ? "write it as vmc://127.0.0.1:39539"
+                           : "write it as livelink://:11111, vmc://:39539 or landmarks3://:11112";
+  if (scheme == std::end(kSchemes) || (is_destination && address.protocol != Protocol::kVmc)) {
     cli::fail_usage(option + " " + text,
-                    is_destination ? "only vmc:// can be sent" : "neither livelink:// nor vmc://",
+                    is_destination ? "only vmc:// can be sent"
+                                   : "none of livelink://, vmc://, landmarks2:// and landmarks3://",
                     advice);
   }
-  address.protocol = is_vmc ? Protocol::kVmc : Protocol::kLiveLink;
-  const std::string rest = text.substr(std::string(kSchemes[is_vmc ? 1 : 0]).size());
+  const std::string rest = text.substr(scheme->text.size());
   const size_t colon = rest.find(':');
   address.host = rest.substr(0, colon);
   address.port = colon == std::string::npos
-                     ? (is_vmc ? kVmcPort : kLiveLinkPort)
+                     ? scheme->port
                      : parse_port(option, text, rest.substr(colon + 1), is_destination, advice);
   const bool has_odd_bytes = address.host.find_first_not_of(
                                  "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
@@ -53,7 +70,7 @@ Address parse_address(const std::string& option, const std::string& text, bool i
 }
 
 std::string to_text(const Address& address) {
-  return kSchemes[address.protocol == Protocol::kVmc ? 1 : 0] + address.host + ":" +
+  return kSchemes[static_cast<size_t>(address.protocol)].text + address.host + ":" +
          std::to_string(address.port);
 }
 

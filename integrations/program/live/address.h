@@ -7,7 +7,12 @@
 
 namespace mien::live {
 
-enum class Protocol { kLiveLink, kVmc };
+/// In the order of the schemes. Landmarks: two coordinates each, or three.
+enum class Protocol { kLiveLink, kVmc, kLandmarks2, kLandmarks3 };
+
+inline bool has_landmarks(Protocol protocol) {
+  return protocol == Protocol::kLandmarks2 || protocol == Protocol::kLandmarks3;
+}
 
 struct Address {
   Protocol protocol = Protocol::kLiveLink;
@@ -15,7 +20,7 @@ struct Address {
   uint16_t port = 0;
 };
 
-/// "livelink://:11111", "vmc://127.0.0.1:39539"; without a port the usual one of the protocol. Wrong usage of
+/// "livelink://:11111", "vmc://127.0.0.1:39539", "landmarks3://:11112"; without a port the usual one of the protocol. Wrong usage of
 /// `option` for anything else. A destination needs a host and takes VMC only.
 Address parse_address(const std::string& option, const std::string& text, bool is_destination);
 

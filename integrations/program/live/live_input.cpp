@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
+#include <ctime>
 #include <thread>
 
 #include "integrations/program/io/controls.h"
@@ -20,6 +22,7 @@ constexpr const char* kCannot = "cannot listen";
 constexpr int64_t kSecond = MIEN_TICKS_PER_SECOND;
 // Of VMC senders: names that mean something on the rig, and all that are remembered.
 constexpr size_t kMostOtherNames = 128, kMostNewNames = 1024;
+constexpr size_t kMostNotes = 8;
 
 std::string lower_case(std::string_view name) {
   std::string lower(name);
@@ -53,6 +56,16 @@ LiveInput::LiveInput(const Address& address, int64_t delay, const std::string& d
   }
   // For VMC the names of the file are not among the channels.
   bind(address.protocol == Protocol::kVmc ? cli::NamesFile() : names);
+  address_.port = socket_.port();
+  cli::note(session, "listening on " + to_text(address_));
+  start();
+}
+
+LiveInput::LiveInput(const Address& address, int64_t delay, LandmarkSolver solver,
+                     const MienRig* rig, const cli::Session& session)
+    : rig_(rig), session_(session), address_(address), socket_(address), play_out_(delay, kSecond),
+      curves_(solver.curves), raw_(cli::rig_count(rig, MIEN_KIND_RAW_CONTROL)),
+      solver_(std::move(solver)), landmarks_(std::make_unique<LandmarkDecoder>(solver_.names)) {
   address_.port = socket_.port();
   cli::note(session, "listening on " + to_text(address_));
   start();
@@ -135,6 +148,7 @@ int64_t LiveInput::now() const {
 }
 
 void LiveInput::receive_until(int64_t tick) {
+  solving_ = 0;
   const std::chrono::duration<double> seconds(static_cast<double>(tick) /
                                               static_cast<double>(kSecond));
   const auto end =
@@ -144,6 +158,10 @@ void LiveInput::receive_until(int64_t tick) {
 
 void LiveInput::use_datagram(const uint8_t* bytes, size_t size) {
   ++packets_;
+  if (landmarks_) {
+    use_landmarks(bytes, size);
+    return;
+  }
   if (!vmc_) {
     use_live_link(bytes, size);
     return;
@@ -183,6 +201,50 @@ void LiveInput::use_live_link(const uint8_t* bytes, size_t size) {
   use_row(packet.seconds, packet.values);
 }
 
+/// Says a problem when it comes up first, so that a stream of wrong packets is no stream of lines.
+void LiveInput::note_once(const std::string& what) {
+  if (noted_.size() < kMostNotes && noted_.insert(what).second) {
+    cli::note(session_, to_text(address_) + ": " + what);
+  }
+}
+
+void LiveInput::use_landmarks(const uint8_t* bytes, size_t size) {
+  LandmarkPacket packet;
+  const std::string why = landmarks_->decode(bytes, size, packet);
+  if (!why.empty()) {
+    ++damaged_;
+    note_once("a packet is left out: " + why);
+    return;
+  }
+  if (packet.unknown != 0) {
+    note_once("the rig has no places for " + std::to_string(packet.unknown) +
+              " landmarks of a packet");
+  }
+  if (solving_ >= solver_.seconds) {
+    ++unsolved_;
+    return;
+  }
+  const int64_t arrived = now();
+  const bool anew = solved_at_ < 0 || arrived - solved_at_ > kSecond;
+  const std::clock_t cpu = std::clock();
+  const auto begin = std::chrono::steady_clock::now();
+  const LandmarkSolver::Outcome outcome =
+      solver_.solve(packet, solver_.seconds - solving_, anew, raw_.data());
+  solving_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  if (outcome == LandmarkSolver::Outcome::kNoFace) {
+    ++faceless_;
+    return;
+  }
+  const double used = static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
+  cpu_sum_ += used;
+  cpu_most_ = std::max(cpu_most_, used);
+  ++solved_;
+  if (outcome == LandmarkSolver::Outcome::kCutShort) ++cut_short_;
+  solved_at_ = arrived;
+  play(packet.seconds < 0 ? static_cast<double>(arrived) / static_cast<double>(kSecond)
+                          : packet.seconds);
+}
+
 void LiveInput::use_row(double seconds, const float* values) {
   cli::check(
       mien_clip_binding_apply(binding_.get(), values, channels_.size(), raw_.data(), raw_.size()),
@@ -195,6 +257,11 @@ void LiveInput::use_row(double seconds, const float* values) {
       control = others_[i].adds_up ? control + part : std::max(control, part);
     }
   }
+  play(seconds);
+}
+
+/// The row of `raw_`, at that time of the sender.
+void LiveInput::play(double seconds) {
   std::vector<float> row;
   for (const uint16_t curve : curves_) {
     if (!std::isfinite(raw_[curve])) {
@@ -229,6 +296,15 @@ std::string LiveInput::summary() const {
   add(twice_, "repeated");
   add(foreign_, "of another device");
   add(strange_, "of another time");
+  add(faceless_, "without the face");
+  add(unsolved_, "not solved for lack of time");
+  add(cut_short_, "solved in part for lack of time");
+  if (solved_ != 0) {
+    char times[80];
+    std::snprintf(times, sizeof(times), "; solving took %.2f ms of CPU time each, at most %.2f ms",
+                  1e3 * cpu_sum_ / static_cast<double>(solved_), 1e3 * cpu_most_);
+    text += times;
+  }
   return text;
 }
 

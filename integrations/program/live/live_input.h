@@ -2,7 +2,9 @@
 // A live source on a rig: datagrams of a port -> rows of raw controls with times, ready for a mixer.
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <set>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -10,11 +12,27 @@
 
 #include "integrations/program/io/bound_clip.h"
 #include "integrations/program/io/terminal.h"
+#include "integrations/program/live/landmark_packet.h"
 #include "integrations/program/live/play_out.h"
 #include "integrations/program/live/udp_socket.h"
 #include "integrations/program/live/vmc.h"
 
 namespace mien::live {
+
+/// What makes raw controls of landmarks.
+struct LandmarkSolver {
+  enum class Outcome {
+    kSolved,
+    kCutShort,  // by the time; the best controls so far
+    kNoFace,    // too few landmarks, or they are not those of the face
+  };
+  LandmarkNames names;
+  std::vector<uint16_t> curves;  // raw controls that the landmarks determine
+  double seconds = 0;            // that solving may take in a frame
+  /// Writes all raw controls of the rig, unless there is no face. Each solve starts from the one before, but `anew`
+  /// from rest.
+  std::function<Outcome(const LandmarkPacket& packet, double seconds, bool anew, float* raw)> solve;
+};
 
 class LiveInput {
  public:
@@ -23,13 +41,17 @@ class LiveInput {
   /// its subject; empty: whichever comes first. The rig and the session outlive it.
   LiveInput(const Address& address, int64_t delay, const std::string& device, const MienRig* rig,
             const cli::NamesFile& names, const cli::Session& session);
+  /// Landmarks, which `solver` makes controls of. Listens from now on.
+  LiveInput(const Address& address, int64_t delay, LandmarkSolver solver, const MienRig* rig,
+            const cli::Session& session);
 
   /// Raw controls that the source drives, in the order of the rows.
   const std::vector<uint16_t>& curves() const { return curves_; }
 
   /// Begins to count time: tick 0 is now.
   void start();
-  /// Receives until `tick`. Returns early on a signal.
+  /// Receives until `tick`, which is a frame: landmarks are solved when they arrive, as long as the time of the frame
+  /// lasts. Returns early on a signal.
   void receive_until(int64_t tick);
   /// The next row that playing at `tick` needs.
   bool take(int64_t tick, int64_t& time, std::vector<float>& row);
@@ -51,7 +73,10 @@ class LiveInput {
   int64_t now() const;
   void use_datagram(const uint8_t* bytes, size_t size);
   void use_live_link(const uint8_t* bytes, size_t size);
+  void use_landmarks(const uint8_t* bytes, size_t size);
   void use_row(double seconds, const float* values);
+  void play(double seconds);
+  void note_once(const std::string& what);
 
   const MienRig* rig_;
   const cli::Session& session_;
@@ -75,6 +100,15 @@ class LiveInput {
   // VMC: what the sender last said, and when; frames without a time go on from it.
   double said_ = -1;
   int64_t said_at_ = 0;
+
+  // Landmarks.
+  LandmarkSolver solver_;
+  std::unique_ptr<LandmarkDecoder> landmarks_;
+  double solving_ = 0;      // seconds in this frame
+  int64_t solved_at_ = -1;  // negative: never
+  std::set<std::string> noted_;
+  uint64_t solved_ = 0, cut_short_ = 0, unsolved_ = 0, faceless_ = 0;
+  double cpu_sum_ = 0, cpu_most_ = 0;  // seconds of the processor for each solve
 
   uint64_t packets_ = 0, damaged_ = 0, foreign_ = 0, twice_ = 0, late_ = 0, strange_ = 0;
 };

@@ -35,6 +35,8 @@ namespace mien::live {
 namespace {
 
 constexpr size_t kLargestDatagram = 65536;
+// What arrives while a frame is computed waits here: packets of landmarks are large. The system may give less.
+constexpr int kWaitingBytes = 1 << 20;
 // Between two looks at the clock, so that a flood cannot hold up the frames.
 constexpr int kAtOnce = 64;
 
@@ -56,6 +58,9 @@ UdpSocket::UdpSocket(const Address& address) {
   if (found != 0) fail_listen(address, gai_strerror(found));
   const std::unique_ptr<addrinfo, void (*)(addrinfo*)> owner(list, freeaddrinfo);
   socket_ = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+  if (socket_ >= 0) {
+    setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &kWaitingBytes, sizeof(kWaitingBytes));
+  }
   sockaddr_in bound = {};
   socklen_t size = sizeof(bound);
   if (socket_ < 0 || bind(socket_, list->ai_addr, list->ai_addrlen) != 0 ||

@@ -80,9 +80,9 @@ def by_the_clock(test):
 class Listener:
     """`mien play --live` on a free port, and a socket that sends to it."""
 
-    def __init__(self, scheme, *options, scene=None):
+    def __init__(self, scheme, *options, scene=None, rig="head.dna"):
         self.process = subprocess.Popen(
-            [program.mien, "play", write("live.json", json.dumps(scene or {})), path("head.dna"), "--live",
+            [program.mien, "play", write("live.json", json.dumps(scene or {})), path(rig), "--live",
              scheme + "://127.0.0.1:0", *options], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         self.errors = b""
         while True:

@@ -499,6 +499,35 @@ class Options(SolveTest):
         travel = [sum(abs(b["jawOpen"] - a["jawOpen"]) for a, b in zip(take, take[1:])) for take in (rows, smooth)]
         self.assertLess(travel[1], 0.8 * travel[0])
 
+    def test_the_first_controls_explain_what_they_can(self):
+        """With few data, several controls would do: those of --first take it all, from joints, vertices and landmarks
+        alike."""
+        mesh, points = self.obj({"jawOpen": 0.5})
+        rest = self.obj({})[1]
+        chin = max(range(len(points)), key=lambda i: math.dist(points[i], rest[i]))
+        write("one.npy", npy((len(points), 3), [x for point in points for x in point]))
+        write("mask.json", json.dumps({"positions": [chin]}))
+        write("marks.csv", "time,chin.x,chin.y,chin.z\n0,%.6f,%.6f,%.6f\n" % tuple(points[chin]))
+        write("points.json", json.dumps({"mesh": mesh, "points": {"chin": chin}}))
+        raw = [name.rpartition(".")[2] for name in self.names(SMALL, "raw")]
+        joints = self.joints(SMALL, [{raw[0]: 0.5}])
+        write("joint.json", json.dumps({"names": {self.names(SMALL, "joints")[21]: 1}}))
+        for first, rig, target in (
+                ("jawOpen", HEAD, [path("one.npy"), "--mesh", mesh, "--mask", path("mask.json")]),
+                ("jawOpen", HEAD, [path("marks.csv"), "--landmarks", path("points.json")]),
+                (raw[0], SMALL, [joints, "--kind", "joints", "--mask", path("joint.json")])):
+            with self.subTest(target[1:]):
+                rows, report = self.solved(*target, rig=rig)
+                staged, of_staged = self.solved(*target, "--first", first, rig=rig)
+                others = [sum(abs(v) for name, v in row.items() if name != first) for row in (rows[0], staged[0])]
+                self.assertAlmostEqual(staged[0][first], 0.5, delta=0.02)
+                self.assertLess(others[1], 0.05)
+                self.assertGreater(others[0], 4 * others[1] + 0.05, "without it, others take a share")
+                for one in (report, of_staged):
+                    self.assertLess(one["residual"]["worst"], 0.01)
+                self.fails(INVALID, "solve", path(rig), *target, "-o", path("no.json"), "--first", "jaw*,nobody",
+                           says="nobody")
+
     def test_images(self):
         write("take.json", frames_of([POSE]))
         self.ok("solve", path(HEAD), path("take.json"), "--from", path(HEAD), "-o", path("out.json"),
@@ -565,7 +594,7 @@ class Refusals(SolveTest):
         whole = zipped(["a.npy"])
         self.assertEqual(self.solved(path("wrong.npz"), "--kind", "joints", rig=TINY)[1]["frames"], 1)
         for bytes_, says in ((zipped([]), "NPY"), (zipped(["a.npy", "b.npy"]), "2 arrays"),
-                             (zipped(["a.npy"], zipfile.ZIP_DEFLATED), "compressed"), (whole[:-30], "missing"),
+                             (zipped(["a.npy"], zipfile.ZIP_BZIP2), "another way"), (whole[:-30], "missing"),
                              (whole[:100] + whole[-60:], "NPZ"), (whole[:50] + whole[60:], "NPZ")):
             self.refuse(write("wrong.npz", bytes_), says, "--kind", "joints")
         for at in range(len(whole) - 73, len(whole), 3):  # the list of members
@@ -573,6 +602,54 @@ class Refusals(SolveTest):
             damaged[at] ^= 0xFF
             self.run_quietly(write("wrong.npz", bytes(damaged)))
         self.refuse(path("none.npy"), "none.npy", "--kind", "joints", code=FILE)
+
+    def test_compressed_arrays(self):
+        poses = [{name.rpartition(".")[2]: 0.3} for name in self.names(TINY, "raw")[:3]]
+        array = read(os.path.basename(self.joints(TINY, poses)))
+
+        def packed(content, file="packed.npz", **changes):
+            """A file of numpy.savez_compressed(), with other numbers in its list."""
+            with zipfile.ZipFile(path(file), "w", zipfile.ZIP_DEFLATED) as made:
+                with made.open("arr_0.npy", "w", force_zip64=True) as member:
+                    member.write(content)
+            bytes_ = bytearray(read(file))
+            entry = bytes_.find(b"PK\1\2")
+            for name, value in changes.items():
+                at, kind = {"flags": (8, "<H"), "method": (10, "<H"), "checksum": (16, "<I"), "packed": (20, "<I"),
+                            "size": (24, "<I")}[name]
+                struct.pack_into(kind, bytes_, entry + at, value)
+            return bytes(bytes_)
+        expected, _ = self.solved(write("plain.npy", array), "--kind", "joints", rig=TINY)
+        whole = packed(array)
+        self.assertLess(len(whole), len(array) / 2)
+        self.assertEqual(self.solved(write("whole.npz", whole), "--kind", "joints", rig=TINY)[0], expected)
+        try:
+            import numpy
+            numpy.savez_compressed(path("numpy.npz"), numpy.load(path("plain.npy")))
+            self.assertEqual(self.solved(path("numpy.npz"), "--kind", "joints", rig=TINY)[0], expected)
+        except ImportError:
+            print("NOT TESTED: files of numpy.savez_compressed() itself; there is no numpy")
+        size = len(array)
+        data = whole.find(b"arr_0.npy") + 9 + 20 + 40  # in the compressed bytes
+        for bytes_, says in ((packed(array, size=size - 1), "size"), (packed(array, size=size + 1), "size"),
+                             (packed(array, size=2**32 - 1), "4 GiB"), (packed(array, size=2**32 - 2), "200 times"),
+                             (packed(array, checksum=1), "checksum"), (packed(array, flags=1), "encrypted"),
+                             (packed(array, packed=9), "damaged"), (packed(array, packed=2**31), "cut off"),
+                             (packed(array, method=0), "damaged"), (packed(array, method=12), "another way"),
+                             (packed(b""), "NPY"), (packed(array[:-4]), "size of the shape"),
+                             (whole[:data] + bytes(30) + whole[data + 30:], "NPZ")):
+            self.refuse(write("wrong.npz", bytes_), says, "--kind", "joints")
+        for at in range(0, len(whole), max(1, len(whole) // 40)):
+            damaged = bytearray(whole)
+            damaged[at] ^= 0x10
+            self.run_quietly(write("wrong.npz", bytes(damaged)))
+        # A thousandth of what it would take.
+        bomb = write("bomb.npz", packed(npy((1, 2**24, 1), [])[:128] + bytes(2**26)))
+        self.assertLess(os.path.getsize(bomb), 2**17)
+        self.refuse(bomb, "200 times", "--kind", "joints")
+        arguments = "solve", path(TINY), "-o", path("any.json"), "--force", "--kind", "joints", "-q"
+        peaks = [program.cost(*arguments, target, runs=1)[1] for target in (path("whole.npz"), bomb)]
+        self.assertLess(peaks[1], peaks[0] + 2**23)
 
     def test_meshes_that_do_not_fit(self):
         self.refuse(write("wrong.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), "3 positions", rig=HEAD)
