@@ -6,10 +6,12 @@
 //
 //     ./build/release/bench/bench_solve [frames [HEAD.dna]]
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <thread>
 #include <vector>
 
 #include "author/base/random.h"
@@ -155,16 +157,28 @@ void run(const char* name, Rig&& rig, uint32_t every, int frames) {
   mien_fit_destroy(fit);
 }
 
-/// The same joints in one call.
-void run_frames(const char* name, Rig&& rig, size_t frames) {
+MienFit* fit_of(const Rig& rig) {
   MienFit* fit = nullptr;
   const MienFitDesc desc = mien_fit_desc_default();
   if (mien_fit_create(rig.rig, &desc, &fit, nullptr) != MIEN_OK) std::exit(1);
-  std::vector<float> targets, found(frames * rig.raw.count);
+  return fit;
+}
+
+std::vector<float> joints_of(Rig& rig, size_t frames) {
+  std::vector<float> targets;
+  targets.reserve(frames * rig.joints.count);
   for (size_t f = 0; f < frames; ++f) {
     rig.pose(motion(rig.raw.count, static_cast<double>(f) / 60));
     targets.insert(targets.end(), rig.joints.data, rig.joints.data + rig.joints.count);
   }
+  return targets;
+}
+
+/// The same joints in one call.
+void run_frames(const char* name, Rig&& rig, size_t frames) {
+  MienFit* const fit = fit_of(rig);
+  const std::vector<float> targets = joints_of(rig, frames);
+  std::vector<float> found(frames * rig.raw.count);
   std::vector<MienFitResult> results(frames, mien_fit_result_default());
   MienFitFrame frame = mien_fit_frame_default();
   frame.joints = targets.data();
@@ -180,6 +194,47 @@ void run_frames(const char* name, Rig&& rig, size_t frames) {
               name, size_t{rig.joints.count}, time / static_cast<double>(frames) * 1e3, frames,
               worst / range);
   mien_fit_destroy(fit);
+}
+
+/// Ranges of 500 frames, each of which starts by itself, on several threads with a fit each: no range depends on which
+/// thread solves it.
+std::vector<float> solve_ranges(const Rig& rig, const std::vector<float>& targets, size_t frames,
+                                const std::vector<MienFit*>& fits) {
+  constexpr size_t kRange = 500;
+  std::vector<float> found(frames * rig.raw.count);
+  std::vector<std::thread> threads;
+  for (size_t t = 0; t < fits.size(); ++t) {
+    threads.emplace_back([&, t] {
+      for (size_t first = t * kRange; first < frames; first += fits.size() * kRange) {
+        MienFitFrame frame = mien_fit_frame_default();
+        frame.joints = targets.data() + first * rig.joints.count;
+        if (mien_fit_solve_frames(fits[t], &frame, std::min(kRange, frames - first),
+                                  found.data() + first * rig.raw.count, nullptr) != MIEN_OK) {
+          std::exit(1);
+        }
+      }
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  return found;
+}
+
+void run_ranges(const char* name, Rig&& rig, size_t frames) {
+  std::vector<MienFit*> fits = {fit_of(rig), fit_of(rig)};
+  const std::vector<float> targets = joints_of(rig, frames);
+  const auto begin = std::chrono::steady_clock::now();
+  const std::clock_t start = std::clock();
+  const std::vector<float> found = solve_ranges(rig, targets, frames, fits);
+  const double cpu = seconds_since(start);
+  const double time =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const bool same = found == solve_ranges(rig, targets, frames, {fits[0]});
+  std::printf(
+      "%-34s %5zu targets  %7.3f ms a frame of %zu by the clock, %.3f ms of processors  %s\n", name,
+      size_t{rig.joints.count}, time / static_cast<double>(frames) * 1e3, frames,
+      cpu / static_cast<double>(frames) * 1e3,
+      same ? "the same bits as on one thread" : "OTHER BITS THAN ON ONE THREAD");
+  for (MienFit* fit : fits) mien_fit_destroy(fit);
 }
 
 /// Positions that controls move by more than 0.02, evenly chosen.
@@ -311,6 +366,8 @@ int main(int argc, char** argv) {
   const auto generated = [](uint32_t preset) { return Rig(Rig::generate(preset)); };
   run("joints, large head", generated(MIEN_PRESET_LARGE), 0, frames);
   run_frames("the same in one call", generated(MIEN_PRESET_LARGE), static_cast<size_t>(frames));
+  run_ranges("ranges of 500 on two threads", generated(MIEN_PRESET_LARGE),
+             static_cast<size_t>(frames));
   run("all vertices, head", generated(MIEN_PRESET_HEAD), 1, frames / 4 + 2);
   run("every 12th vertex, head", generated(MIEN_PRESET_HEAD), 12, frames / 4 + 2);
   if (argc < 3) return 0;

@@ -48,11 +48,13 @@ void add_point_cost(Frame& f, Cost& cost) {
       const double *at = fit.surface.data + 3 * i, *target = fit.targets.data + 3 * i;
       for (size_t k = 0; k < 3; ++k) gradient[k] = at[k] - target[k];
       squared = gradient[0] * gradient[0] + gradient[1] * gradient[1] + gradient[2] * gradient[2];
-    } else if (fit.lost[i] >= 0) {
-      cost.points += fit.weights[i] * robust(fit.lost[i], scale, weight);
-      continue;
     } else {
       squared = point_residual(f, i, gradient);
+    }
+    if (f.in.surface) {
+      cost.compared_points +=
+          fit.weights[i] * robust(compared_residual(f, i, squared), scale, weight);
+      if (fit.lost[i]) continue;
     }
     cost.points += fit.weights[i] * robust(squared, scale, weight);
     cost.point_weight += fit.weights[i];

@@ -103,7 +103,9 @@ void place(const MienFitDesc& desc, Placer& placer, MienFit& fit) {
   fit.triangles = placer.array<uint32_t>(fit.triangle_count * 3);
   fit.normals = placer.array<double>(desc.point_count * 3);
   fit.pulls = placer.array<double>(desc.point_count);
-  fit.lost = placer.array<double>(desc.point_count);
+  fit.lost = placer.array<uint8_t>(desc.point_count);
+  fit.kept_targets = placer.array<double>(desc.point_count * 3);
+  fit.kept_lost = placer.array<uint8_t>(desc.point_count);
   fit.position_normals = placer.array<float>(fit.whole_count * 3);
   fit.sample_effects = placer.array<float>(all * fit.samples.count * 3);
   fit.step_effects = placer.array<float>(moving * fit.samples.count * 3);

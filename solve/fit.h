@@ -59,6 +59,9 @@ struct MienFit {
   mien::Span<uint32_t> joint_first;  // [control + 1]
   mien::Span<uint32_t> joint_rows;
   mien::Span<float> joint_effects;
+  mien::Span<uint32_t>
+      depends_first;  // [control + 1] raw controls that a corrective reads, directly or not
+  mien::Span<uint32_t> depends_on;
   void* joint_block = nullptr;
   size_t joint_block_size = 0;
   mien::Span<float> observability;  // [raw control]
@@ -79,10 +82,12 @@ struct MienFit {
   mien::Span<uint32_t> rows, columns, first;      // D by free control
   mien::Span<float> values;
   mien::Span<double> surface, targets;  // [point][3]: in model space; where it is drawn to
-  mien::Span<double> normals;  // [point][3] of the surface, or of the one that it is drawn to
-  mien::Span<double> weights;  // [point]: 0 if it is missing
-  mien::Span<double> pulls;    // [point]: weights, less those of outliers
-  mien::Span<double> lost;     // [point]: squared distance of one without a target, or -1
+  mien::Span<double> normals;       // [point][3] of the surface, or of the one that it is drawn to
+  mien::Span<double> weights;       // [point]: 0 if it is missing
+  mien::Span<double> pulls;         // [point]: weights, less those of outliers
+  mien::Span<uint8_t> lost;         // [point] it has no target on the surface
+  mien::Span<double> kept_targets;  // [point][3], and `lost`, at the best controls
+  mien::Span<uint8_t> kept_lost;
   mien::Span<float> position_normals;   // [position of the mesh][3]
   mien::Span<float> directions, moved;  // kDirections of [raw control]; of [position of samples][3]
   mien::Span<float> step_effects;       // [control that may move][sample][3]
@@ -101,8 +106,16 @@ struct MienFit {
   mien::Span<double> row_residuals, row_weights, row_changes;  // [row]
   mien::Span<float> start_joints;    // [joint value] at the start of a frame
   mien::Span<double> start_surface;  // [point][3]
-  mien::Span<float> block_targets;   // [joint value][frame of a block]
-  mien::Span<double> block_pulls;    // [control][frame of a block]
+
+  // Frames of joints (joint_frames.cpp), in the block of joint effects.
+  mien::Span<float> block_targets;  // [joint value][frame of a block]
+  mien::Span<double> block_pulls;   // [control][frame of a block], of those that count
+  mien::Span<uint32_t> counting;    // controls that count
+  mien::Span<uint8_t> counts;       // [control]
+  mien::Span<uint8_t> above_zero;   // [raw control]
+  mien::Span<uint32_t> matrix_free,
+      factor_free;  // free controls of the matrix that is kept, and of the factor
+  mien::Span<double> kept_matrix;
 };
 
 namespace mien {
@@ -123,6 +136,8 @@ void project_metric(MienFit& fit, const double* metric, double factor, size_t fr
 
 /// factor = the Cholesky factor of matrix with `damping` of its diagonal added; false if it is not definite.
 bool factor_matrix(const double* matrix, size_t count, double damping, double* factor);
+/// The same with as much damping as it takes to be definite.
+void factor_damped(const double* matrix, size_t count, double damping, double* factor);
 /// x = solution for the right side in x.
 void solve_factored(const double* factor, size_t count, double* x);
 

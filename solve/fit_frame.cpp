@@ -113,81 +113,6 @@ MienFitFrame row_of(const MienFit& fit, const MienFitFrame& frame, size_t i) {
   return in;
 }
 
-// Frames of joints ----------------------------------------------------------------------------------------
-
-/// Whether joint values are the only targets and are there in all frames, and are sums over the controls.
-bool are_plain_joints(const MienFit& fit, const MienFitFrame& in, size_t count) {
-  if (!in.joints || in.points || in.images || in.surface || in.constraints || !fit.joint_block) {
-    return false;
-  }
-  return std::all_of(in.joints, in.joints + count * fit.joint_count,
-                     [](float v) { return std::isfinite(v); });
-}
-
-/// block_pulls = what the change of targets from frame to frame does to the pull of each control.
-void multiply_targets(MienFit& fit, const MienFitFrame& in, size_t count) {
-  constexpr size_t kLanes = kBlockFrames;
-  for (size_t j = 0; j < fit.joint_count; ++j) {
-    float* const to = fit.block_targets.data + j * kLanes;
-    const float* const from = in.joints + j;
-    for (size_t k = 0; k < kLanes; ++k) {
-      const bool changes = k != 0 && k < count;
-      to[k] = changes ? fit.joint_weights[j] *
-                            (from[(k - 1) * fit.joint_count] - from[k * fit.joint_count])
-                      : 0.0f;
-    }
-  }
-  for (size_t c = 0; c < fit.control_count; ++c) {
-    float sums[kLanes] = {};
-    for (uint32_t i = fit.joint_first[c]; i < fit.joint_first[c + 1]; ++i) {
-      const float* const from = fit.block_targets.data + size_t{fit.joint_rows[i]} * kLanes;
-      const float effect = fit.joint_effects[i];
-      for (size_t k = 0; k < kLanes; ++k) sums[k] += effect * from[k];
-    }
-    std::copy(sums, sums + kLanes, fit.block_pulls.data + c * kLanes);
-  }
-}
-
-/// Frame `lane` of a block by its model alone, which is the cost up to rounding. Unless `follows`, the model is made
-/// anew; else the pull is what the frame before has left, and the change of the targets. False: not so.
-bool solve_by_model(Frame& f, size_t lane, bool follows, MienFitResult& told) {
-  MienFit& fit = f.fit;
-  std::copy(fit.raw.begin(), fit.raw.end(), fit.best.begin());
-  double first = regularize(f, fit.raw.data, nullptr);
-  if (follows) {
-    for (size_t c = 0; c < fit.control_count; ++c) {
-      fit.pull[c] += fit.response[c] + f.joint_factor() * fit.block_pulls[c * kBlockFrames + lane];
-    }
-    for (size_t j = 0; j < fit.joint_count; ++j) {
-      first += f.joint_factor() * double{fit.joint_weights[j]} *
-               square(double{fit.joints[j]} - f.in.joints[j]);
-    }
-    std::copy(fit.all_controls.begin(), fit.all_controls.end(), fit.model_controls.begin());
-  } else {
-    first += find_cost(f).total;
-    make_model(f);
-  }
-  double weights = 0, largest = 0;
-  for (size_t j = 0; j < fit.joint_count; ++j) {
-    weights += f.joint_factor() * double{fit.joint_weights[j]};
-    largest = std::max(largest, std::fabs(double{f.in.joints[j]}));
-  }
-  const double rounding = weights * square(kRounding * largest);
-  const ModelStep step = minimize_model(f, first, first, rounding, kFirstDamping);
-  double moved = 0;
-  for (size_t c = 0; c < fit.control_count; ++c) moved += fit.change[c] * fit.response[c];
-  Cost cost = find_cost(f);
-  cost.total += regularize(f, fit.raw.data, nullptr);
-  const double close = std::max({1e-3 * cost.total, 1e-6 * first, rounding});
-  if (!step.solved || std::fabs(cost.total - step.predicted) > close) return false;
-  std::copy(fit.raw.begin(), fit.raw.end(), fit.best.begin());
-  told.status = MIEN_FIT_CONVERGED;
-  told.iterations = 1;
-  told.jumped = moved > 1.01 * first + 100 * rounding;
-  tell_cost(cost, told);
-  return true;
-}
-
 }  // namespace
 
 namespace mien {
@@ -239,13 +164,13 @@ MienStatus mien_fit_solve_frames(MienFit* fit, const MienFitFrame* frame, size_t
     }
     if (MienStatus status = check_frame(*fit, row_of(*fit, known, i))) return status;
   }
-  const bool plain = are_plain_joints(*fit, known, count);
-  bool follows = false;  // the model is that of the frame before
+  JointFrames joints = {*fit};
+  bool plain = false;  // joints are the only targets of this block of frames
   MienFitCamera camera = known.camera ? *known.camera : MienFitCamera{};
   for (size_t i = 0; i < count; ++i) {
     MienFitFrame in = row_of(*fit, known, i);
-    if (plain && i % kBlockFrames == 0)
-      multiply_targets(*fit, in, std::min<size_t>(count - i, kBlockFrames));
+    const size_t lane = i % kBlockFrames;
+    if (lane == 0) plain = joints.begin_block(in, std::min<size_t>(count - i, kBlockFrames));
     if (i != 0) {
       in.start = out_raw + (i - 1) * fit->raw_count;
       in.stages = nullptr;
@@ -257,12 +182,14 @@ MienStatus mien_fit_solve_frames(MienFit* fit, const MienFitFrame* frame, size_t
     if (plain && !in.stages) {
       Frame f = {*fit, in, {}};
       read_rows(f);
-      solved = !(in.canceled && in.canceled(in.user)) &&
-               solve_by_model(f, i % kBlockFrames, follows && i % kBlockFrames != 0, told);
+      solved = !(in.canceled && in.canceled(in.user)) && joints.solve(f, lane, told);
       if (solved) tell(*fit, f, out, told);
     }
-    follows = solved;
-    if (!solved) solve_one(*fit, in, out, told);
+    if (!solved) {
+      solve_one(*fit, in, out, told);
+      joints.follows = false;
+      joints.factor_count = 0;
+    }
     if (in.camera && in.rigid) {
       std::copy(told.rotation, told.rotation + 9, camera.rotation);
       std::copy(told.translation, told.translation + 3, camera.translation);

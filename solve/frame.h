@@ -38,9 +38,10 @@ struct Frame {
   MienFitFrame in;
   Motion motion;
   uint32_t missing = 0;
-  bool exact = false;    // steps take the effects of controls on points from the pose at hand
-  uint32_t stage = 0;    // controls of later stages are held
-  size_t row_count = 0;  // of constraints, at the pose at hand
+  bool starting = false;  // there are no best controls yet
+  bool exact = false;     // steps take the effects of controls on points from the pose at hand
+  uint32_t stage = 0;     // controls of later stages are held
+  size_t row_count = 0;   // of constraints, at the pose at hand
 
   bool has_points() const { return in.points || in.images || in.surface; }
   bool is_locked(uint32_t control) const { return in.stages && in.stages[control] > stage; }
@@ -66,6 +67,7 @@ struct Cost {
   double total = 0, joints = 0, points = 0, constraints = 0;
   double joint_weight = 0, point_weight = 0, constraint_weight = 0;
   double joint_worst = 0, point_worst = 0, constraint_worst = 0;  // the latter two squared
+  double compared_points = 0;  // of a surface, to compare a step by: compared_residual()
 };
 
 constexpr double kEnoughDecrease = 1e-6;  // of the cost: far below what noise is worth
@@ -119,6 +121,25 @@ ModelStep minimize_model(Frame& f, double cost, double first, double rounding, d
 /// MienFit::step of the free controls, from those of the instance: where it would leave the bounds, a control stops
 /// and the others take that into account.
 void find_bounded_step(Frame& f, size_t free_count, double damping);
+/// What a step may still gain: each control by itself.
+struct Gains {
+  double held = 0;  // those at a bound
+  double all = 0;
+};
+constexpr double kOwnDamping = 1e-9;
+constexpr double kLittle = 0.25;  // together controls gain more than each by itself
+/// Controls within their bounds; and those at a bound that gain by leaving it, unless `inside_only`. Returns how many.
+size_t list_model_free(Frame& f, bool inside_only, Gains& gains);
+/// The derivatives of all controls by raw ones, at the values of the instance.
+void linearize_controls(MienFit& fit);
+/// Half of the gradient of the model by the controls that may move, from that by all controls in MienFit::metric_row.
+void take_model_gradient(Frame& f, double damping);
+/// The diagonal of the model's matrix.
+void find_stiffness(const Frame& f);
+/// The matrix of a step for the free controls.
+void set_model_matrix(Frame& f, size_t free_count, double damping);
+/// Moves the free controls by MienFit::step from MienFit::kept.
+void move_free(MienFit& fit, size_t free_count);
 /// response = metric times the change of controls; returns the change of the model's cost.
 double find_change(Frame& f);
 /// Control values alone.
@@ -130,6 +151,29 @@ void evaluate_controls(MienFit& fit);
 void solve_frame(Frame& f, MienFitResult& told);
 void tell_cost(const Cost& cost, MienFitResult& told);
 
+// Frames of joints (joint_frames.cpp) -------------------------------------------------------------------
+
+/// A motion whose only targets are joint values that are sums: its frames follow from each other.
+struct JointFrames {
+  MienFit& fit;
+  double weight = 0;        // sum of the weights of joint values
+  bool follows = false;     // the pulls are those of the frame before
+  size_t matrix_count = 0;  // free controls of the matrix that is kept. 0: there is none
+  size_t factor_count = 0;  // of the factor at hand
+
+  /// The targets of up to kBlockFrames frames, of which `in` is the first. False if there are other targets, or one is
+  /// missing.
+  bool begin_block(const MienFitFrame& in, size_t count);
+  /// Frame `lane` of the block, from the controls of the instance. False: it has to be solved by itself.
+  bool solve(Frame& f, size_t lane, MienFitResult& told);
+
+  bool take_matrix(size_t free_count);
+  void make_matrix(Frame& f, size_t free_count);
+  void factor(size_t free_count);
+  bool step(Frame& f, size_t free_count, double terms, double& value);
+  double minimize(Frame& f, double first, double rounding);
+};
+
 // Points ------------------------------------------------------------------------------------------------
 
 /// Targets and weights as given; missing ones have no weight.
@@ -140,6 +184,11 @@ void find_points(Frame& f);
 void view_point(const Frame& f, const double* point, double* out);
 /// Where each point is drawn to, if that is a surface.
 void match_surface(Frame& f);
+/// The targets on the surface are those that steps are compared by.
+void keep_targets(MienFit& fit);
+/// What a point on a surface counts where steps are compared: points that had no target before the step count nothing,
+/// whatever they find; for the others the target before the step is one that they may still have.
+double compared_residual(const Frame& f, size_t point, double squared);
 /// The squared residual of a point, and half of its derivative by the point in model space.
 double point_residual(const Frame& f, size_t point, double* gradient);
 /// The residuals of a point as steps see them, and their derivatives by the point where the targets are. Up to 3.

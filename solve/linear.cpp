@@ -34,6 +34,10 @@ bool factor_matrix(const double* matrix, size_t count, double damping, double* f
   return true;
 }
 
+void factor_damped(const double* matrix, size_t count, double damping, double* factor) {
+  while (!factor_matrix(matrix, count, damping, factor)) damping = std::max(damping * 10, 1e-8);
+}
+
 void solve_factored(const double* factor, size_t count, double* x) {
   for (size_t i = 0; i < count; ++i) {
     const double* const row = factor + i * count;

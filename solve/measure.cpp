@@ -33,19 +33,18 @@ void multiply_columns(Span<Column> columns, const uint32_t* rows, const float* v
   }
 }
 
-/// P of a point of the chain: entries of all controls. Null data if memory ran out.
+/// The derivatives of a point of the chain by one before it, by column. Null data if memory ran out.
 struct Entries {
   Span<Column> columns;
   Span<uint32_t> rows, numbers;
   Span<float> values;
 };
-bool find_entries(MienFit& fit, MienDerivatives* derivatives, uint32_t to, Arena& arena,
-                  Entries& out) {
+bool find_entries(MienFit& fit, MienDerivatives* derivatives, uint32_t from, uint32_t to,
+                  Arena& arena, Entries& out) {
   MienJacobian jacobian = mien_jacobian_default();
   size_t count = 0;
   if (mien_derivatives_linearize(derivatives, fit.instance, MIEN_STAGE_ALL) != MIEN_OK ||
-      mien_derivatives_jacobian(derivatives, MIEN_POINT_CONTROLS, to, fit.mesh, &jacobian,
-                                &count) != MIEN_OK) {
+      mien_derivatives_jacobian(derivatives, from, to, fit.mesh, &jacobian, &count) != MIEN_OK) {
     return false;
   }
   out.columns = arena.array<Column>(fit.control_count + 1);
@@ -57,8 +56,8 @@ bool find_entries(MienFit& fit, MienDerivatives* derivatives, uint32_t to, Arena
   jacobian.columns = out.numbers.data;
   jacobian.values = out.values.data;
   jacobian.capacity = count;
-  if (count != 0 && mien_derivatives_jacobian(derivatives, MIEN_POINT_CONTROLS, to, fit.mesh,
-                                              &jacobian, &count) != MIEN_OK) {
+  if (count != 0 &&
+      mien_derivatives_jacobian(derivatives, from, to, fit.mesh, &jacobian, &count) != MIEN_OK) {
     return false;
   }
   out.columns = out.columns.first(fit.control_count);
@@ -93,40 +92,83 @@ bool are_sums(MienFit& fit, const Entries& entries, const Span<double>& sums) {
   return worst <= 1e-5 * largest;
 }
 
-void place_effects(size_t count, Placer& placer, MienFit& fit) {
+/// What correctives read: the derivatives by raw controls where all are a little above 0, so that no factor is 0 and
+/// no product above 1. Networks and RBF solvers have none. False if memory ran out.
+bool find_dependencies(MienFit& fit, Arena& arena, Entries& out) {
+  uint32_t learned = 0, solved = 0;
+  static_cast<void>(mien_rig_count(fit.rig, MIEN_KIND_ML_CONTROL, &learned));
+  static_cast<void>(mien_rig_count(fit.rig, MIEN_KIND_RBF_CONTROL, &solved));
+  if (learned + solved != 0) return true;
+  std::fill(fit.raw.begin(), fit.raw.end(), 0.01f);
+  evaluate(fit);
+  const bool found =
+      find_entries(fit, fit.control_derivatives, MIEN_POINT_RAW, MIEN_POINT_CONTROLS, arena, out);
+  std::copy(fit.initial.begin(), fit.initial.end(), fit.raw.begin());
+  evaluate(fit);
+  return found;
+}
+
+void place_effects(size_t count, size_t dependency_count, Placer& placer, MienFit& fit) {
   fit.joint_first = placer.array<uint32_t>(fit.control_count + 1);
   fit.joint_rows = placer.array<uint32_t>(count);
   fit.joint_effects = placer.array<float>(count);
+  fit.depends_first = placer.array<uint32_t>(fit.control_count + 1);
+  fit.depends_on = placer.array<uint32_t>(dependency_count);
   fit.block_targets = placer.array<float>(fit.joint_count * kBlockFrames);
   fit.block_pulls = placer.array<double>(fit.control_count * kBlockFrames);
+  fit.counting = placer.array<uint32_t>(fit.control_count);
+  fit.counts = placer.array<uint8_t>(fit.control_count);
+  fit.above_zero = placer.array<uint8_t>(fit.raw_count);
+  fit.matrix_free = placer.array<uint32_t>(fit.controls.count);
+  fit.factor_free = placer.array<uint32_t>(fit.controls.count);
+  fit.kept_matrix = placer.array<double>(fit.controls.count * fit.controls.count);
+}
+
+void keep_dependencies(MienFit& fit, const Entries& entries, size_t count) {
+  const auto for_each = [&](auto&& f) {
+    for (size_t i = 0; i < count; ++i) {
+      if (entries.rows[i] >= fit.raw_count) f(entries.rows[i], entries.numbers[i]);
+    }
+  };
+  for_each([&](uint32_t control, uint32_t) { ++fit.depends_first[control + 1]; });
+  for (size_t c = 0; c < fit.control_count; ++c) fit.depends_first[c + 1] += fit.depends_first[c];
+  // Each list is filled from its end, then it begins where it should.
+  for (size_t c = fit.control_count; c > 0; --c) fit.depends_first[c] = fit.depends_first[c - 1];
+  for_each([&](uint32_t control, uint32_t raw) {
+    fit.depends_on[fit.depends_first[control + 1]++] = raw;
+  });
 }
 
 /// For mien_fit_solve_frames(). False if memory ran out.
-bool keep_effects(MienFit& fit, const Entries& entries) {
+bool keep_effects(MienFit& fit, const Entries& entries, Arena& arena) {
   const size_t count = entries.rows.count - 1;
+  Entries dependencies;
+  if (!find_dependencies(fit, arena, dependencies)) return false;
+  const size_t dependency_count = dependencies.rows.empty() ? 0 : dependencies.rows.count - 1;
   MienFit measured = fit;
   Placer sizes(nullptr);
-  place_effects(count, sizes, measured);
+  place_effects(count, dependency_count, sizes, measured);
   fit.joint_block_size = sizes.size();
   fit.joint_block = fit.allocator.get(fit.joint_block_size, kBlockAlignment);
   if (!fit.joint_block) return false;
   Placer placer(fit.joint_block);
-  place_effects(count, placer, fit);
+  place_effects(count, dependency_count, placer, fit);
   std::copy(entries.rows.data, entries.rows.data + count, fit.joint_rows.data);
   std::copy(entries.values.data, entries.values.data + count, fit.joint_effects.data);
   for (size_t c = 0; c < fit.control_count; ++c) {
     fit.joint_first[c + 1] = fit.joint_first[c] + entries.columns[c].count;
   }
+  keep_dependencies(fit, dependencies, dependency_count);
   return true;
 }
 
 bool measure_joints(MienFit& fit, Arena& arena, Entries& entries) {
   const Span<double> dense = arena.array<double>(fit.joint_count + 1);
-  if (!dense.data ||
-      !find_entries(fit, fit.control_derivatives, MIEN_POINT_JOINTS, arena, entries)) {
+  if (!dense.data || !find_entries(fit, fit.control_derivatives, MIEN_POINT_CONTROLS,
+                                   MIEN_POINT_JOINTS, arena, entries)) {
     return false;
   }
-  if (are_sums(fit, entries, dense.first(fit.joint_count)) && !keep_effects(fit, entries)) {
+  if (are_sums(fit, entries, dense.first(fit.joint_count)) && !keep_effects(fit, entries, arena)) {
     return false;
   }
   std::fill(dense.begin(), dense.end(), 0.0);
@@ -142,8 +184,10 @@ bool measure_joints(MienFit& fit, Arena& arena, Entries& entries) {
 bool measure_points(MienFit& fit, Arena& arena) {
   const size_t count = fit.samples.count;
   Entries entries;
-  if (!find_entries(fit, fit.sample_derivatives, MIEN_POINT_POSITIONS, arena, entries))
+  if (!find_entries(fit, fit.sample_derivatives, MIEN_POINT_CONTROLS, MIEN_POINT_POSITIONS, arena,
+                    entries)) {
     return false;
+  }
   const Span<float> coordinates = arena.array<float>(fit.sample_position_count * 3 + 1);
   const Span<double> dense = arena.array<double>(count * 3 + 1);
   const Span<Column> columns = arena.array<Column>(fit.control_count + 1);

@@ -18,17 +18,9 @@ constexpr uint32_t kControlStages = MIEN_STAGE_ML | MIEN_STAGE_RBF | MIEN_STAGE_
 constexpr uint32_t kModelRounds = 24;
 constexpr uint32_t kBoundRounds = 6;
 constexpr double kShareOfBest = 0.01;  // of the best gain that frees a control held at a bound
-constexpr double kOwnDamping = 1e-9;
-constexpr double kLittle = 0.25;  // together controls gain more than each by itself
 
-/// What a step may still gain: each control by itself.
-struct Gains {
-  double held = 0;  // those at a bound
-  double all = 0;
-};
+}  // namespace
 
-/// Controls within their bounds; and those at a bound that gain by leaving it, unless `inside_only`. Returns
-/// how many.
 size_t list_model_free(Frame& f, bool inside_only, Gains& gains) {
   MienFit& fit = f.fit;
   const auto gain_of = [&](size_t i) {
@@ -63,21 +55,13 @@ size_t list_model_free(Frame& f, bool inside_only, Gains& gains) {
   return count;
 }
 
-/// Half of the gradient of the model by the controls that may move.
-void find_model_gradient(Frame& f, double damping) {
-  MienFit& fit = f.fit;
+void linearize_controls(MienFit& fit) {
   static_cast<void>(
       mien_derivatives_linearize(fit.control_derivatives, fit.instance, kControlStages));
-  std::copy(fit.pull.begin(), fit.pull.end(), fit.projected.begin());
-  for (size_t c = 0; c < fit.control_count; ++c) fit.projected[c] += fit.response[c];
-  for (size_t r = 0; r < f.row_count; ++r) {
-    const double factor = fit.row_weights[r] * fit.row_changes[r];
-    const float* row = fit.constraint_rows.data + r * fit.control_count;
-    for (size_t c = 0; c < fit.control_count; ++c) fit.projected[c] += factor * double{row[c]};
-  }
-  for (size_t c = 0; c < fit.control_count; ++c) {
-    fit.metric_row[c] = static_cast<float>(fit.projected[c]);
-  }
+}
+
+void take_model_gradient(Frame& f, double damping) {
+  MienFit& fit = f.fit;
   static_cast<void>(mien_derivatives_reverse(fit.control_derivatives, MIEN_POINT_RAW,
                                              MIEN_POINT_CONTROLS, 0, 1, fit.metric_row.data,
                                              fit.from_joints.data));
@@ -90,7 +74,27 @@ void find_model_gradient(Frame& f, double damping) {
   add_symmetric_gradient(f);
 }
 
-/// The matrix of a step for the free controls.
+namespace {
+
+/// Half of the gradient of the model by the controls that may move.
+void find_model_gradient(Frame& f, double damping) {
+  MienFit& fit = f.fit;
+  linearize_controls(fit);
+  std::copy(fit.pull.begin(), fit.pull.end(), fit.projected.begin());
+  for (size_t c = 0; c < fit.control_count; ++c) fit.projected[c] += fit.response[c];
+  for (size_t r = 0; r < f.row_count; ++r) {
+    const double factor = fit.row_weights[r] * fit.row_changes[r];
+    const float* row = fit.constraint_rows.data + r * fit.control_count;
+    for (size_t c = 0; c < fit.control_count; ++c) fit.projected[c] += factor * double{row[c]};
+  }
+  for (size_t c = 0; c < fit.control_count; ++c) {
+    fit.metric_row[c] = static_cast<float>(fit.projected[c]);
+  }
+  take_model_gradient(f, damping);
+}
+
+}  // namespace
+
 void set_model_matrix(Frame& f, size_t free_count, double damping) {
   MienFit& fit = f.fit;
   list_free_derivatives(fit, free_count);
@@ -118,8 +122,6 @@ void set_model_matrix(Frame& f, size_t free_count, double damping) {
     fit.matrix[a * free_count + a] += damping * fit.stiffness[fit.free[a]];
   }
 }
-
-}  // namespace
 
 void evaluate_controls(MienFit& fit) {
   static_cast<void>(mien_rig_evaluate_stages(fit.rig, fit.instance, fit.lod, kControlStages));
@@ -207,9 +209,7 @@ void find_bounded_step(Frame& f, size_t free_count, double damping) {
       const double* const from = fit.matrix.data + moving[a] * free_count;
       for (size_t b = 0; b <= a; ++b) fit.reduced[a * count + b] = from[moving[b]];
     }
-    for (double own = damping; !factor_matrix(fit.reduced.data, count, own, fit.factor.data);) {
-      own = std::max(own * 10, 1e-8);
-    }
+    factor_damped(fit.reduced.data, count, damping, fit.factor.data);
     // The right side: the gradient at the steps of those that stopped.
     for (size_t a = 0; a < count; ++a) {
       const double* const from = fit.matrix.data + moving[a] * free_count;
@@ -239,19 +239,37 @@ void find_bounded_step(Frame& f, size_t free_count, double damping) {
   }
 }
 
+void find_stiffness(const Frame& f) {
+  MienFit& fit = f.fit;
+  const double points = f.has_points() ? point_factor(fit) : 0;
+  for (size_t i = 0; i < fit.controls.count; ++i) {
+    const size_t place = size_t{fit.controls[i]} * (fit.control_count + 1);
+    fit.stiffness[i] = 1e-12 + double{f.in.prior_weight} + f.in.smooth_weight +
+                       (f.in.joints ? f.joint_factor() * fit.joint_metric[place] : 0) +
+                       (f.has_points() ? points * fit.point_metric[place] : 0);
+  }
+}
+
+void move_free(MienFit& fit, size_t free_count) {
+  for (size_t a = 0; a < free_count; ++a) {
+    const uint32_t i = fit.free[a], c = fit.controls[i];
+    const double to = double{fit.kept[c]} + fit.step[a];
+    // A control that all but reaches a bound is held there in the next round.
+    fit.raw[c] = to - fit.lower[i] < kEnoughStep   ? fit.lower[i]
+                 : fit.upper[i] - to < kEnoughStep ? fit.upper[i]
+                                                   : static_cast<float>(to);
+  }
+}
+
 ModelStep minimize_model(Frame& f, double cost, double first, double rounding, double damping) {
   MienFit& fit = f.fit;
   std::copy(fit.best.begin(), fit.best.end(), fit.raw.begin());
   evaluate_controls(fit);
   double value = find_change(f);
-  const double points = f.has_points() ? point_factor(fit) : 0;
+  find_stiffness(f);
   bool any_inside = false;
   for (size_t i = 0; i < fit.controls.count; ++i) {
     const uint32_t c = fit.controls[i];
-    const size_t place = size_t{c} * (fit.control_count + 1);
-    fit.stiffness[i] = 1e-12 + double{f.in.prior_weight} + f.in.smooth_weight +
-                       (f.in.joints ? f.joint_factor() * fit.joint_metric[place] : 0) +
-                       (f.has_points() ? points * fit.point_metric[place] : 0);
     any_inside =
         any_inside || (!f.is_locked(c) && fit.raw[c] > fit.lower[i] && fit.raw[c] < fit.upper[i]);
   }
@@ -284,14 +302,7 @@ ModelStep minimize_model(Frame& f, double cost, double first, double rounding, d
     double own = kOwnDamping;
     for (int tries = 0; tries < 6; ++tries, own = std::max(own * 100, 1e-6)) {
       find_bounded_step(f, free_count, own);
-      for (size_t a = 0; a < free_count; ++a) {
-        const uint32_t i = fit.free[a], c = fit.controls[i];
-        const double to = double{fit.kept[c]} + fit.step[a];
-        // A control that all but reaches a bound is held there in the next round.
-        fit.raw[c] = to - fit.lower[i] < kEnoughStep   ? fit.lower[i]
-                     : fit.upper[i] - to < kEnoughStep ? fit.upper[i]
-                                                       : static_cast<float>(to);
-      }
+      move_free(fit, free_count);
       evaluate_controls(fit);
       const double next =
           find_change(f) + regularize(f, fit.raw.data, nullptr) - terms + held_back();

@@ -7,20 +7,28 @@
 namespace mien {
 namespace {
 
-/// The cost of the points as they are placed now.
-double motion_cost(Frame& f) {
+/// The cost of the points as they are placed now, and what it is compared by.
+struct MotionCost {
+  double total = 0, compared = 0;
+};
+MotionCost motion_cost(Frame& f) {
   MienFit& fit = f.fit;
   if (f.in.surface) match_surface(f);
-  double sum = 0;
+  MotionCost cost;
   for (size_t i = 0; i < fit.points.count; ++i) {
+    fit.pulls[i] = 0;
     if (!(fit.weights[i] > 0)) continue;
     double gradient[3], weight;
-    const bool lost = fit.lost[i] >= 0;
-    const double squared = lost ? fit.lost[i] : point_residual(f, i, gradient);
-    sum += fit.weights[i] * robust(squared, double{f.in.robust_scale}, weight);
-    fit.pulls[i] = lost ? 0 : fit.weights[i] * weight;
+    const double scale = double{f.in.robust_scale}, squared = point_residual(f, i, gradient);
+    if (f.in.surface) {
+      cost.compared += fit.weights[i] * robust(compared_residual(f, i, squared), scale, weight);
+      if (fit.lost[i]) continue;
+    }
+    cost.total += fit.weights[i] * robust(squared, scale, weight);
+    fit.pulls[i] = fit.weights[i] * weight;
   }
-  return sum;
+  if (!f.in.surface) cost.compared = cost.total;
+  return cost;
 }
 
 /// A small rotation about the origin, by the vector of its angle, then a translation, and a factor of the focal
@@ -69,8 +77,12 @@ void list_motion(const Frame& f, const double* moved, const double* direction, s
 void fit_motion(Frame& f, uint32_t rounds) {
   MienFit& fit = f.fit;
   const size_t n = f.motion_count();
-  double cost = motion_cost(f), damping = 1e-6;
+  MotionCost cost = motion_cost(f);
+  double damping = 1e-6;
   for (uint32_t round = 0; round < rounds; ++round) {
+    // Before there are best controls, each round is compared by the targets before it.
+    if (f.in.surface && f.starting) keep_targets(fit);
+    const double from = f.starting ? cost.total : cost.compared;
     double matrix[kMostMotion * kMostMotion] = {}, factor[kMostMotion * kMostMotion];
     double right[kMostMotion] = {};
     for (size_t i = 0; i < fit.points.count; ++i) {
@@ -94,7 +106,8 @@ void fit_motion(Frame& f, uint32_t rounds) {
       std::copy(right, right + n, step);
       solve_factored(factor, n, step);
       f.motion = changed(before, step, n);
-      decrease = cost - motion_cost(f);
+      cost = motion_cost(f);
+      decrease = from - cost.compared;
     }
     if (!(decrease > 0)) {
       f.motion = before;
@@ -102,8 +115,7 @@ void fit_motion(Frame& f, uint32_t rounds) {
       return;
     }
     damping = std::max(damping * 0.01, 1e-9);
-    cost -= decrease;
-    if (decrease <= 1e-9 * cost) return;
+    if (decrease <= 1e-9 * from) return;
   }
 }
 

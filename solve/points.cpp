@@ -41,7 +41,8 @@ double squared_length(const double* v) { return v[0] * v[0] + v[1] * v[1] + v[2]
 
 void read_points(Frame& f) {
   MienFit& fit = f.fit;
-  std::fill(fit.lost.begin(), fit.lost.end(), -1.0);
+  std::fill(fit.lost.begin(), fit.lost.end(), uint8_t{0});
+  std::fill(fit.kept_lost.begin(), fit.kept_lost.end(), uint8_t{1});
   const float* rows = f.in.points ? f.in.points : f.in.images;
   const size_t width = f.in.points ? 3 : 2;
   for (size_t i = 0; i < fit.points.count; ++i) {
@@ -113,21 +114,27 @@ void match_surface(Frame& f) {
     }
     SurfacePoint found;
     const bool near_enough = find_nearest(*f.in.surface, at, normal, reach, found);
-    fit.lost[i] = -1;
     if (near_enough) {
       std::copy(found.position, found.position + 3, fit.targets.data + 3 * i);
       std::copy(found.normal, found.normal + 3, fit.normals.data + 3 * i);
     }
-    if (near_enough && !found.border) continue;
-    // It counts as far as it is, so that nothing is gained when a target is lost.
-    ++f.missing;
-    fit.lost[i] = f.in.surface_reach > 0 ? reach * reach : 0;
-    if (near_enough) {
-      double apart[3];
-      for (size_t k = 0; k < 3; ++k) apart[k] = at[k] - found.position[k];
-      fit.lost[i] = squared_length(apart);
-    }
+    fit.lost[i] = !near_enough || found.border;
+    f.missing += fit.lost[i];
   }
+}
+
+void keep_targets(MienFit& fit) {
+  std::copy(fit.targets.begin(), fit.targets.end(), fit.kept_targets.begin());
+  std::copy(fit.lost.begin(), fit.lost.end(), fit.kept_lost.begin());
+}
+
+double compared_residual(const Frame& f, size_t i, double squared) {
+  const MienFit& fit = f.fit;
+  if (fit.kept_lost[i]) return 0;
+  double apart[3];
+  f.motion.place(fit.surface.data + 3 * i, apart);
+  for (size_t k = 0; k < 3; ++k) apart[k] -= fit.kept_targets[3 * i + k];
+  return fit.lost[i] ? squared_length(apart) : std::min(squared, squared_length(apart));
 }
 
 double point_residual(const Frame& f, size_t i, double* gradient) {

@@ -102,7 +102,9 @@ void start_motion(Frame& f) {
       std::all_of(f.motion.rotation, f.motion.rotation + 9, [](double v) { return v == 0; })) {
     guess_camera(f);
   }
+  f.starting = true;
   follow_points(f, kFirstRounds);
+  f.starting = false;
 }
 
 struct Solve {
@@ -116,7 +118,14 @@ struct Solve {
     return f.in.max_seconds > 0 &&
            std::chrono::duration<double>(Clock::now() - begin).count() >= f.in.max_seconds;
   }
-  void keep() { std::copy(f.fit.raw.begin(), f.fit.raw.end(), f.fit.best.begin()); }
+  void keep() {
+    std::copy(f.fit.raw.begin(), f.fit.raw.end(), f.fit.best.begin());
+    if (f.in.surface) keep_targets(f.fit);
+  }
+  /// The total after a step, as it is compared with the total before.
+  double compared(const Cost& next) const {
+    return f.in.surface ? next.total - next.points + next.compared_points : next.total;
+  }
   Cost find_all() {
     Cost found = find_cost(f);
     found.total += regularize(f, f.fit.raw.data, nullptr);
@@ -170,8 +179,9 @@ uint32_t Solve::run_stage(uint32_t limit, double enough_decrease) {
         step.farthest = take_step(f, free_count, damping);
       }
       const Cost next = find_all();
-      if (next.total < cost.total) {
-        const double decrease = cost.total - next.total, enough = enough_of(cost.total);
+      const double reached = compared(next);
+      if (reached < cost.total) {
+        const double decrease = cost.total - reached, enough = enough_of(cost.total);
         slow = decrease > kSlow * before && before > 0 ? slow + 1 : 0;
         before = decrease;
         cost = next;

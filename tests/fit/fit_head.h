@@ -36,8 +36,9 @@ struct Head {
   Character character;
   std::vector<float> observed;
 
-  explicit Head(uint32_t preset = MIEN_PRESET_HEAD)
-      : dna(generate_dna(preset, 3)), rig(create_rig(dna.get())),
+  explicit Head(uint32_t preset = MIEN_PRESET_HEAD) : Head(generate_dna(preset, 3)) {}
+  explicit Head(DnaHandle opened)
+      : dna(std::move(opened)), rig(create_rig(dna.get())),
         deformer(create_deformer(dna.get(), rig.get())),
         deformed(create_deformer_instance(deformer.get())), character(rig) {}
 

@@ -202,8 +202,7 @@ class Kinds(SolveTest):
                                    "--first", "jaw*")
         for name, value in POSE.items():
             self.assertAlmostEqual(rows[0][name], value, delta=0.02, msg=name)
-        # In the mouth, the nearest place may be that of another layer.
-        self.assertLess(report["residual"]["rms"], 0.02)  # cm
+        self.assertLess(report["residual"]["rms"], 0.01)  # cm
         self.assertAlmostEqual(report["by_frame"][0]["translation"][0], 0.3, delta=0.02)
 
     def test_a_posed_glb(self):
