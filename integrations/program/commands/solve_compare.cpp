@@ -191,26 +191,30 @@ std::vector<SolvedMark> compare_landmarks(const SolvedTake& take, const SolveTar
 
 std::vector<float> spread_distances(const std::vector<SolvedMark>& marks, const float* positions,
                                     size_t count) {
-  std::vector<float> all(count, NAN), gaps;
+  std::vector<float> all(count, NAN), radii;
   for (const SolvedMark& mark : marks) {
     float nearest = INFINITY;
     for (const SolvedMark& other : marks) {
       const float d = length(mark.solved - other.solved);
       if (d > 0) nearest = std::min(nearest, d);
     }
-    gaps.push_back(nearest);
+    radii.push_back(nearest);
   }
-  if (gaps.empty()) return all;
-  std::nth_element(gaps.begin(), gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2),
-                   gaps.end());
-  const float radius = gaps[gaps.size() / 2];
+  if (radii.empty()) return all;
+  std::vector<float> sorted = radii;
+  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2),
+                   sorted.end());
+  // Where landmarks are sparse, each stands for more of the skin; at least for what the middle one does.
+  const float median = sorted[sorted.size() / 2];
+  if (!std::isfinite(median)) return all;  // all are in one place
+  for (float& radius : radii) radius = std::max(radius, median);
   for (size_t p = 0; p < count; ++p) {
     const Vec3 at = load3(positions, p);
     float sum = 0, weights = 0, nearest = INFINITY;
-    for (const SolvedMark& mark : marks) {
-      const float share = length(mark.solved - at) / radius;
+    for (size_t m = 0; m < marks.size(); ++m) {
+      const float share = length(marks[m].solved - at) / radii[m];
       const float weight = std::exp(-share * share);
-      sum += weight * mark.distance;
+      sum += weight * marks[m].distance;
       weights += weight;
       nearest = std::min(nearest, share);
     }

@@ -220,7 +220,7 @@ struct SolveDrawing {
   void draw_marks(const std::vector<SolvedMark>& marks, float most, Image& image) const {
     for (const SolvedMark& mark : marks) {
       if (mark.hidden) continue;
-      draw_dot(image, find_spot(camera, kSolveTile, mark.target), 2.5f,
+      draw_dot(image, find_spot(camera, kSolveTile, mark.target), marks.size() > 150 ? 1.5f : 2.5f,
                most > 0 ? heat_of(mark.distance, most) : kDot);
     }
   }
