@@ -478,6 +478,15 @@ void export_json(const ClipFile& file, Output& output) {
     json.end_array();
   }
   if (info.event_count != 0) write_events(file, json);
+  const bool has_head = std::any_of(names.begin(), names.end(), turns_head);
+  if (has_head) {
+    json.key("variables");
+    json.begin_array();
+    for (const std::string& name : names) {
+      if (turns_head(name)) json.value(name);
+    }
+    json.end_array();
+  }
   json.key("frames");
   json.begin_array(JsonWriter::Layout::kLines);
   for_each_frame(file, [&](uint32_t frame, const float* values) {
@@ -486,11 +495,20 @@ void export_json(const ClipFile& file, Output& output) {
     json.shortest(frame_time(info, frame));
     json.key("raw");
     json.begin_object();
+    std::vector<float> head;
     for (uint32_t c = 0; c < info.channel_count; ++c) {
+      if (turns_head(names[c])) {
+        head.push_back(values[c]);
+        continue;
+      }
       json.key(names[c]);
       json.shortest(static_cast<double>(values[c]));
     }
     json.end_object();
+    if (has_head) {
+      json.key("variables");
+      json.floats(head.data(), head.size());
+    }
     json.end_object();
   });
   json.end_array();

@@ -81,7 +81,7 @@ Command add_gen_command(CLI::App& app, const Session& session) {
 Command add_demo_head_command(CLI::App& app, const Session& session) {
   auto options = std::make_shared<GenOptions>();
   options->preset = "head";
-  CLI::App* head = app.add_subcommand("demo-head", "Generate a stylized head with 52 expressions");
+  CLI::App* head = app.add_subcommand("demo-head", "Generate a stylized head with 72 expressions");
   add_common_options(head, *options, "Each number gives another person (default: 0)");
   head->add_option("--textures", options->textures,
                    "Also write base color, normal and roughness of the skin into this\nfolder, and "

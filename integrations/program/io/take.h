@@ -40,6 +40,10 @@ Take parse_take(std::string_view text, const std::string& shown);
 /// apart, so a few bytes could ask for any number.
 inline size_t most_values(size_t bytes) { return (size_t{1} << 22) + 8 * bytes; }
 
+/// Names of what turns the head, for which faces have no controls: head.left, head.turn and head.up
+/// (docs/mixing.md). Clips have them as channels, JSON has them in "variables".
+inline bool turns_head(const std::string& name) { return name.compare(0, 5, "head.") == 0; }
+
 // The two, which parse_take() chooses from. `gaps`: empty cells are NaN; otherwise they are refused.
 Take parse_csv_take(std::string_view text, const std::string& shown, bool gaps = false);
 Take parse_json_take(std::string_view text, const std::string& shown);

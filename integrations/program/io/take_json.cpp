@@ -24,13 +24,14 @@ constexpr const char* kCannotReadTake = "cannot read take";
 constexpr const char* kTakeExample =
     "give one JSON object: {\"frames\": [{\"raw\": {NAME: number}}]}";
 
-const std::vector<std::string> kIgnoredInTake = {"rig", "variables", "keys"};
-const std::vector<std::string> kIgnoredInTakeFrames = {"variables", "stages", "guards"};
+const std::vector<std::string> kIgnoredInTake = {"rig", "keys"};
+const std::vector<std::string> kIgnoredInTakeFrames = {"stages", "guards"};
 
 struct Reader {
   Take take;
   std::unordered_map<std::string, size_t> channels;
-  size_t listed = 0;  // channels of the list "controls"
+  size_t listed = 0;                   // channels of the list "controls"
+  std::vector<std::string> variables;  // the list "variables"
   size_t frames = 0, most_values = 0;
 
   size_t channel(const std::string& name) {
@@ -105,6 +106,18 @@ void read_values(Reader& reader, const json& values, const std::string& where,
   }
 }
 
+/// Variables that turn the head become channels; others are no part of a take.
+void read_variables(Reader& reader, const json& values, const std::string& where,
+                    std::vector<float>& row) {
+  if (!values.is_array() || values.size() != reader.variables.size()) return;
+  for (size_t v = 0; v < values.size(); ++v) {
+    if (!turns_head(reader.variables[v])) continue;
+    const size_t c = reader.channel(reader.variables[v]);
+    if (c >= row.size()) row.resize(c + 1);
+    row[c] = number(values[v], where + "[" + std::to_string(v) + "]");
+  }
+}
+
 std::vector<float> read_frame(Reader& reader, const json& frame, const std::string& where) {
   if (!frame.is_object()) {
     fail(kInvalid, kCannotReadTake, where,
@@ -115,6 +128,8 @@ std::vector<float> read_frame(Reader& reader, const json& frame, const std::stri
     const std::string member = where + "." + key;
     if (key == "raw" || key == "gui") {
       read_values(reader, value, member, row);
+    } else if (key == "variables") {
+      read_variables(reader, value, member, row);
     } else if (key == "time") {
       reader.take.times.seconds.push_back(static_cast<double>(number(value, member)));
     } else if (key == "raw_after_gui" || key == "ml_mask") {
@@ -210,6 +225,10 @@ Take parse_json_take(std::string_view text, const std::string& shown) {
       take.rate = read_rate(value, shown + ", rate");
     } else if (key == "controls") {
       read_controls(reader, value);
+    } else if (key == "variables") {
+      for (const json& name : value) {
+        reader.variables.push_back(name.is_string() ? name.get<std::string>() : std::string());
+      }
     } else if (key == "events") {
       read_events(reader, value);
     } else if (key != "frames" && !is_one_of(key, kIgnoredInTake)) {

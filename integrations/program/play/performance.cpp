@@ -11,6 +11,7 @@
 #include "integrations/program/io/frame_rate.h"
 #include "integrations/program/io/nearest_name.h"
 #include "integrations/program/io/rig_file.h"
+#include "integrations/program/io/take.h"
 #include "integrations/program/io/text.h"
 
 namespace mien::cli {
@@ -28,7 +29,6 @@ const NamedValues kSquintControls = {{"eyeSquintLeft", 0.8f},
 const char* const kGazeVariables[] = {"gaze.x", "gaze.y", "gaze.z", "head.left", "head.up"};
 const std::vector<std::string> kVariables = {"gaze.x",    "gaze.y",  "gaze.z", "head.left",
                                              "head.turn", "head.up", "pupil",  "breath"};
-constexpr const char* kHeadUp = "head.up";
 constexpr double kSpeechRate = 60;  // of the clips that speech becomes
 const NamedValues kPupilControls = {{"eyePupilNarrowL", 1}, {"eyePupilNarrowR", 1}};
 
@@ -81,25 +81,45 @@ void Performance::say(const speech::SpeechSource& source, BoundClip& bound) {
   for (std::string* path : {&here.audio, &here.phonemes}) {
     if (!path->empty()) *path = (folder / *path).string();
   }
-  speech::SpokenTake take =
+  const speech::SpokenTake take =
       speech::make_take(speech::read_speech(here, session_), kSpeechRate, session_);
   bound.file.shown = "speech";
   bound.file.clip = speech::make_clip(take, script_.shown);
   bound.file.info = sized<MienClipInfo>();
   check(mien_clip_info(bound.file.clip.get(), &bound.file.info), nullptr, kCannot, script_.shown);
-  bound.head_up = std::move(take.head_up);
-  curves_.variable(kHeadUp);
 }
 
-float Performance::head_up(int64_t tick) const {
-  const double now = static_cast<double>(tick) / static_cast<double>(MIEN_TICKS_PER_SECOND);
-  float sum = 0;
-  for (const auto& [layer, talk] : talks_) {
-    const double at = (talk.start + (now - talk.begin) * talk.speed) * kSpeechRate;
-    const std::vector<float>& up = talk.clip->head_up;
-    if (at >= 0 && at < static_cast<double>(up.size())) sum += up[static_cast<size_t>(at)];
+/// Channels such as head.up are no controls: they are added to the variables of these names.
+void Performance::read_head(BoundClip& bound, const std::vector<std::string>& names) {
+  std::vector<size_t> channels;
+  for (size_t c = 0; c < names.size(); ++c) {
+    if (!turns_head(names[c])) continue;
+    channels.push_back(c);
+    bound.head.push_back({curves_.variable(names[c]), {}});
   }
-  return sum;
+  if (channels.empty()) return;
+  const ClipFile& file = bound.file;
+  if (channels.size() > most_values(file.info.file_bytes) / file.info.frame_count) {
+    fail(kInvalid, kCannot, file.shown, "it is too long for its size",
+         "leave out " + names[channels[0]]);
+  }
+  for_each_frame(file, [&](uint32_t, const float* values) {
+    for (size_t i = 0; i < channels.size(); ++i)
+      bound.head[i].values.push_back(values[channels[i]]);
+  });
+}
+
+void Performance::turn_head(int64_t tick, float* row) const {
+  const double now = static_cast<double>(tick) / static_cast<double>(MIEN_TICKS_PER_SECOND);
+  for (const auto& [layer, turn] : head_turns_) {
+    const MienClipInfo& info = turn.clip->file.info;
+    const double rate = static_cast<double>(info.rate_numerator) / info.rate_denominator;
+    const double frames = info.frame_count;
+    double at = (turn.start + (now - turn.begin) * turn.speed) * rate;
+    if (turn.loops) at -= std::floor(at / frames) * frames;
+    const auto frame = static_cast<size_t>(std::clamp(at, 0.0, frames - 1));
+    for (const HeadChannel& head : turn.clip->head) row[head.variable] += head.values[frame];
+  }
 }
 
 const Performance::BoundClip& Performance::clip(const ClipScript& what) {
@@ -115,12 +135,17 @@ const Performance::BoundClip& Performance::clip(const ClipScript& what) {
   bound.binding =
       bind_clip(bound.file.clip.get(), rig_, names_, kCannot, bound.file.shown, session_);
   const MienClipBindingInfo info = binding_info(bound.binding.get());
-  if (info.missing_channels.count != 0) {
-    const std::vector<std::string> names = channel_names(bound.file);
+  const std::vector<std::string> names = channel_names(bound.file);
+  read_head(bound, names);
+  std::vector<std::string> missing;
+  for (size_t i = 0; i < info.missing_channels.count; ++i) {
+    const std::string& name = names[info.missing_channels.data[i]];
+    if (!turns_head(name)) missing.push_back(name);
+  }
+  if (!missing.empty()) {
     note(session_, bound.file.shown + ": the rig has no controls for " +
-                       std::to_string(info.missing_channels.count) + " of " +
-                       std::to_string(names.size()) + " channels, the first is " +
-                       one_line(names[info.missing_channels.data[0]]));
+                       std::to_string(missing.size()) + " of " + std::to_string(names.size()) +
+                       " channels, the first is " + one_line(missing[0]));
   }
   return clips_.emplace(what.path, std::move(bound)).first->second;
 }
@@ -353,10 +378,11 @@ void Performance::make_mix(const MienDeformer* deformer) {
 void Performance::play(uint32_t layer, const ClipScript& what, uint32_t transition, double duration,
                        const std::string& where) {
   const BoundClip& bound = clip(what);
-  talks_.erase(layer);
-  if (!bound.head_up.empty()) {
+  head_turns_.erase(layer);
+  if (!bound.head.empty()) {
     const double now = static_cast<double>(now_) / static_cast<double>(MIEN_TICKS_PER_SECOND);
-    talks_[layer] = {&bound, now, what.start, what.speed};
+    const bool loops = what.loop ? *what.loop : bound.file.info.looping == MIEN_LOOPING_WRAP;
+    head_turns_[layer] = {&bound, now, what.start, what.speed, loops};
   }
   auto desc = sized<MienPlayDesc>();
   desc.start_tick = ticks_of(what.start);
@@ -432,7 +458,7 @@ void Performance::apply(const EventScript& event) {
       break;
     case EventKind::kStop:
       checked(mien_mixer_stop(mixer, event.target, fade), error, event.where);
-      talks_.erase(event.target);
+      head_turns_.erase(event.target);
       break;
     case EventKind::kTrigger:
       checked(mien_mixer_trigger(mixer, event.target, event.weight, ticks_of(event.hold)), error,
@@ -503,7 +529,7 @@ void Performance::run(double rate, double seconds, const std::function<bool(int6
     }
     for (const auto& place : gaze_places_)
       row[place.first] = of_scene(place.first, row[place.first]);
-    if (!talks_.empty()) row[curves_.variable(kHeadUp)] += head_up(tick);
+    turn_head(tick, row.data());
     use(f, time, row.data());
   }
 }

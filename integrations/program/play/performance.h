@@ -73,15 +73,21 @@ class Performance {
   std::vector<GuardFrame> guard_frames() const;
 
  private:
+  /// A channel that turns the head, such as head.up.
+  struct HeadChannel {
+    uint16_t variable;          // curve of the scene
+    std::vector<float> values;  // of each frame
+  };
   struct BoundClip {
     ClipFile file;
     ClipBinding binding;
-    std::vector<float> head_up;  // of each frame of speech: its beats of the head
+    std::vector<HeadChannel> head;
   };
-  /// Speech that a layer plays, for the head.
-  struct Talk {
+  /// A clip that a layer plays, for the head.
+  struct HeadTurns {
     const BoundClip* clip = nullptr;
     double begin = 0, start = 0, speed = 1;  // seconds
+    bool loops = false;
   };
   struct LayerParts {
     std::vector<float> mask;
@@ -94,8 +100,9 @@ class Performance {
 
   const BoundClip& clip(const ClipScript& what);
   void say(const speech::SpeechSource& source, BoundClip& bound);
-  /// What speech adds to head.up.
-  float head_up(int64_t tick) const;
+  void read_head(BoundClip& bound, const std::vector<std::string>& names);
+  /// Adds the head's channels of the clips that play.
+  void turn_head(int64_t tick, float* row) const;
   uint32_t add_pose(CurveValues values);
   CurveValues of_mixer(CurveValues values, uint32_t mode, const std::string& where) const;
   float of_scene(size_t curve, float value) const;
@@ -118,8 +125,8 @@ class Performance {
   const NamesFile& names_;
   RigCurves curves_;
   std::map<std::string, BoundClip> clips_;
-  std::map<uint32_t, Talk> talks_;       // by layer
-  std::deque<CurveValues> pose_values_;  // where poses point to
+  std::map<uint32_t, HeadTurns> head_turns_;  // by layer
+  std::deque<CurveValues> pose_values_;       // where poses point to
   std::deque<LayerParts> parts_;
   std::deque<std::vector<MienMixStroke>> strokes_;
   std::vector<MienMixPose> poses_;

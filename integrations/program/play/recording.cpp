@@ -8,6 +8,7 @@
 #include "integrations/program/io/failure.h"
 #include "integrations/program/io/frame_rate.h"
 #include "integrations/program/io/json_writer.h"
+#include "integrations/program/io/take.h"
 #include "integrations/program/io/text.h"
 #include "integrations/program/play/curves_svg.h"
 
@@ -170,7 +171,22 @@ void write_clip(const Performance& performance, const Recording& recording,
                 const std::string& shown, Output& output) {
   const RigCurves& curves = performance.curves();
   std::vector<MienStringView> names;
-  for (const std::string& name : curves.controls()) names.push_back({name.data(), name.size()});
+  std::vector<size_t> kept;  // curves: all controls, and the variables that turn the head
+  const auto keep = [&](const std::string& name, size_t curve) {
+    names.push_back({name.data(), name.size()});
+    kept.push_back(curve);
+  };
+  for (const std::string& name : curves.controls()) keep(name, kept.size());
+  for (size_t v = 0; v < curves.variables().size(); ++v) {
+    if (turns_head(curves.variables()[v])) {
+      keep(curves.variables()[v], curves.controls().size() + v);
+    }
+  }
+  std::vector<float> values;
+  values.reserve(recording.times.size() * kept.size());
+  for (size_t f = 0; f < recording.times.size(); ++f) {
+    for (const size_t curve : kept) values.push_back(recording.rows[f * curves.count() + curve]);
+  }
   const Rate fraction = nearest_rate(recording.rate, 1e-9);
   auto desc = sized<MienClipDesc>();
   desc.rate_numerator = fraction.numerator;
@@ -178,8 +194,7 @@ void write_clip(const Performance& performance, const Recording& recording,
   desc.frame_count = static_cast<uint32_t>(recording.times.size());
   desc.channel_count = static_cast<uint32_t>(names.size());
   desc.names = names.data();
-  desc.values = recording.rows.data();
-  desc.frame_stride = curves.count();
+  desc.values = values.data();
   auto error = sized<MienError>();
   MienClip* made = nullptr;
   check(mien_clip_build(&desc, &made, &error), &error, "cannot build clip", shown);

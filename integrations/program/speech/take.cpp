@@ -83,7 +83,8 @@ SpokenTake make_take(Utterance utterance, Alphabet alphabet, double rate, size_t
   move_upper_face(found.list, utterance.phonemes, curves);
   for (float& value : curves.values) value = std::round(value / kStep) * kStep;
   take.head_up = move_head(found.list, utterance.phonemes, rate, curves.frame_count);
-  for (float& value : take.head_up) value = std::round(value / kStep) * kStep;
+  // Plus 0, so that none is -0, which JSON does not keep.
+  for (float& value : take.head_up) value = std::round(value / kStep) * kStep + 0.0f;
   add_events(utterance.phonemes, closures, take);
   return take;
 }
@@ -130,20 +131,31 @@ void bind(SpokenTake& take, const MienRig* rig, const cli::NamesFile& names,
 }
 
 cli::Clip make_clip(const SpokenTake& take, const std::string& shown) {
+  const Curves& curves = take.curves;
+  const size_t controls = curves.controls.size();
   std::vector<MienStringView> names;
-  for (const std::string& name : take.curves.controls) names.push_back({name.data(), name.size()});
+  for (const std::string& name : curves.controls) names.push_back({name.data(), name.size()});
+  const std::string head_up = kHeadUp;
+  names.push_back({head_up.data(), head_up.size()});
+  std::vector<float> values;
+  values.reserve(curves.frame_count * names.size());
+  for (size_t f = 0; f < curves.frame_count; ++f) {
+    const auto row = curves.values.begin() + static_cast<long>(f * controls);
+    values.insert(values.end(), row, row + static_cast<long>(controls));
+    values.push_back(take.head_up[f]);
+  }
   std::vector<MienClipEvent> events;
   for (const SpokenEvent& event : take.events) {
     events.push_back({event.tick, {event.name.data(), event.name.size()}, event.seconds, 0});
   }
-  const cli::Rate rate = cli::nearest_rate(take.curves.rate, 1e-9);
+  const cli::Rate rate = cli::nearest_rate(curves.rate, 1e-9);
   auto desc = cli::sized<MienClipDesc>();
   desc.rate_numerator = rate.numerator;
   desc.rate_denominator = rate.denominator;
-  desc.frame_count = static_cast<uint32_t>(take.curves.frame_count);
+  desc.frame_count = static_cast<uint32_t>(curves.frame_count);
   desc.channel_count = static_cast<uint32_t>(names.size());
   desc.names = names.data();
-  desc.values = take.curves.values.data();
+  desc.values = values.data();
   desc.events = events.data();
   desc.event_count = static_cast<uint32_t>(events.size());
   auto error = cli::sized<MienError>();
@@ -167,7 +179,7 @@ void write_frames(const SpokenTake& take, const std::string& rig_name, cli::Outp
   json.end_array();
   json.key("variables");
   json.begin_array();
-  json.value("head.up");
+  json.value(kHeadUp);
   json.end_array();
   json.key("events");
   json.begin_array(Layout::kLines);

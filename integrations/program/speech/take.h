@@ -29,6 +29,9 @@ struct SpokenTake {
   std::vector<uint32_t> raw;
 };
 
+/// The channel of clips, and the variable of frames, that has `head_up`.
+constexpr const char* kHeadUp = "head.up";
+
 /// Rates from 1 to 1000. Fails with exit code 2 if no phoneme is known, or if the utterance is too
 /// long for the bytes that it came from.
 SpokenTake make_take(Utterance utterance, Alphabet alphabet, double rate, size_t bytes,
@@ -38,6 +41,7 @@ SpokenTake make_take(Utterance utterance, Alphabet alphabet, double rate, size_t
 void bind(SpokenTake& take, const MienRig* rig, const cli::NamesFile& names,
           const std::string& rig_shown, const cli::Session& session);
 
+/// Its last channel is kHeadUp.
 cli::Clip make_clip(const SpokenTake& take, const std::string& shown);
 
 /// The frames as `mien play` writes them, for `mien eval` and `mien render`; without a rig, values have names.

@@ -18,7 +18,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[3]
 RECIPE = re.compile(r"### ([^\n]+)\n(?:(?!###)[\s\S])*?```json\n([\s\S]*?)```\s*```c\n([\s\S]*?)```")
 CONTROLS = ["jawOpen", "mouthSmileLeft", "browInnerUp", "eyeBlinkLeft"]
-CURVES = 52  # of the head
+CURVES = 72  # of the head
 
 BEFORE = r"""
 #include <mien.h>

@@ -177,6 +177,30 @@ class Takes(ProgramTest):
         self.assertEqual(take["variables"], ["head.up"])
         self.assertLess(min(frame["variables"][0] for frame in take["frames"]), -0.02)
 
+    def test_clips_carry_the_beats_of_the_head(self):
+        source = write("mama.json", phonemes(*MAMA))
+        up = [frame["variables"][0] for frame in self.frames("--phonemes", source)["frames"]]
+        self.ok("speak", "--phonemes", source, "-o", path("beats.clip"))
+        self.assertEqual(json.loads(self.ok("clip", "info", path("beats.clip"), "--json").stdout)["channels"][-1], "head.up")
+        # As frames, and back.
+        self.ok("clip", "export", path("beats.clip"), "-o", path("beats.json"))
+        frames = json.loads(read("beats.json"))
+        self.assertEqual(frames["variables"], ["head.up"])
+        self.assertEqual([frame["variables"][0] for frame in frames["frames"]], up)
+        self.ok("eval", path("head.dna"), "--input", path("beats.json"), "-o", path("out.json"))
+        for json_of in ("beats.json", "take.json"):
+            self.ok("clip", "build", path(json_of), "-o", path("again.clip"))
+            self.assertEqual(read("again.clip"), read("beats.clip"), json_of)
+        # In a scene; a loop begins again.
+        for loop, later in ((True, up[:20]), (False, [up[-1]] * 20)):
+            scene = {"rate": 60, "seconds": 3, "layers": [{"name": "talk", "source": {"clip": "beats.clip", "loop": loop}}]}
+            done = self.ok("play", write("scene.json", json.dumps(scene)), path("head.dna"), "-o", path("played.json"))
+            self.assertNotIn("head.up", done.stderr)
+            played = json.loads(read("played.json"))
+            at = played["variables"].index("head.up")
+            beats = [frame["variables"][at] for frame in played["frames"]]
+            self.assertEqual(beats[:len(up) + 20], up + later)
+
     def test_rigs_with_other_names(self):
         source = write("mama.json", phonemes(*MAMA))
         take = self.frames("--phonemes", source, "--rig", path("metahuman.dna"))

@@ -127,7 +127,7 @@ test("scenes play as the program plays them, and so do its frames", options, asy
   await open(scene);
   assert.match(await text("error"), /the clip talk\.clip is missing: drop it together/);
   await open(scene, join(work, "talk.clip"));
-  assert.match(await text("file"), /52 controls played, 2\.0 s/);
+  assert.match(await text("file"), /72 controls played, 2\.0 s/);
   for (const file of [null, join(work, "played.json")]) {
     if (file) await open(file);
     const [names, values, width] = await played();
@@ -177,7 +177,7 @@ test("scenes speak as in the program, with takes of `mien speak`", options, asyn
   await open(scene, takes[0]);
   assert.match(await text("error"), /make it with mien speak --phonemes 'second\.json' -o 'talk-2\.speech\.json'/);
   await open(...takes, scene);
-  assert.match(await text("file"), /52 controls played, 2\.5 s/);
+  assert.match(await text("file"), /72 controls played, 2\.5 s/);
   const [names, values] = await page.run(() => {
     const { clip } = window.viewer.player.take;
     return [clip.channels.map(({ name }) => name), Array.from(clip.read())];

@@ -60,7 +60,7 @@ test("controls are set by name, and by the end of a name", () => {
   assert.equal(face.controls.mouthClose, 0.25);
   assert.ok("jawOpen" in face.controls);
   assert.ok(!("jawopen" in face.controls));
-  assert.equal(Object.keys(face.controls).length, 52);
+  assert.equal(Object.keys(face.controls).length, 72);
   assert.equal(Object.values(face.controls).filter((value) => value !== 0).length, 2);
   face.dispose();
 });

@@ -74,7 +74,7 @@ test("the built-in head opens by its button", options, async () => {
   await page.until("() => !document.body.hasAttribute('aria-busy')", "done");
   await frames();
   assert.equal(await text("file"), "Built-in head");
-  assert.equal(await text("count"), "52 controls");
+  assert.equal(await text("count"), "72 controls");
   assert.match(await text("facts"), /109 joints.*8 LODs/);
   assert.deepEqual(page.errors, []);
 });

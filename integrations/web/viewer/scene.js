@@ -11,7 +11,6 @@ const BREATH = { noseNostrilDilateL: 0.3, noseNostrilDilateR: 0.3 };
 const SQUINT = { eyeSquintLeft: 0.8, eyeSquintRight: 0.8, browDownLeft: 0.7, browDownRight: 0.7 };
 const PUPILS = { eyePupilNarrowL: 1, eyePupilNarrowR: 1 };
 const VARIABLE = /^(pupil$|breath$|head\.|gaze\.|user\.)/;
-const HEAD_UP = "head.up";
 const MOST_FRAMES = 36000;
 const MOST_EVENTS = 1024;
 
@@ -101,7 +100,7 @@ const clipKey = (source) => source?.clip ?? (source?.speech && JSON.stringify(so
 
 class Scene {
   clips = new Map(); // clip and binding, by clipKey()
-  talks = new Map(); // what moves the head, by layer
+  headTurns = new Map(); // clips that turn the head, by layer
   now = 0;           // ticks
 
   constructor(value, rig, mien, liveCurves) {
@@ -128,8 +127,15 @@ class Scene {
     return this.#bind(await this.mien.openClip(file));
   }
 
-  #bind(clip, more = {}) {
-    return { clip, binding: clip.bind(this.rig, { matrix: this.mien.arkitMatrix() }), ...more };
+  /** Channels such as head.up are no controls: they are added to the variables of these names. */
+  #bind(clip) {
+    const names = clip.channels.map(({ name }) => name);
+    const channels = names.map((_, i) => i).filter((i) => names[i].startsWith("head."));
+    const values = channels.length > 0 ? clip.read() : [];
+    const head = channels.map((channel) => ({
+      variable: this.names.variable(names[channel]), values: values.filter((_, i) => i % names.length === channel),
+    }));
+    return { clip, binding: clip.bind(this.rig, { matrix: this.mien.arkitMatrix() }), head };
   }
 
   /** The take that `mien speak` has written as JSON. */
@@ -142,15 +148,12 @@ class Scene {
     const take = JSON.parse(new TextDecoder().decode(bytes));
     const { names, values, rate } = readFrames(take);
     if (!names || !Array.isArray(take.events)) throw new Error(`${file} is no take of \`mien speak\``);
-    const [width, up] = [names.length, names.indexOf(HEAD_UP)];
-    const headUp = up < 0 ? [] : values.filter((_, i) => i % width === up);
-    if (up >= 0) this.names.variable(HEAD_UP);
     const clip = this.mien.buildClip({
-      names: names.filter((_, i) => i !== up), values: up < 0 ? values : values.filter((_, i) => i % width !== up),
+      names, values,
       events: take.events.map(({ time, name, value }) => ({ tick: BigInt(ticks(time)), name, value })),
       rateNumerator: rate, rateDenominator: 1,
     });
-    return this.#bind(clip, { headUp, rate });
+    return this.#bind(clip);
   }
 
   #findEyes() {
@@ -228,7 +231,7 @@ class Scene {
     const { value } = this;
     this.mixer?.dispose();
     this.mixer = this.mix.mixer({ seed: value.seed ?? 0 });
-    this.talks.clear();
+    this.headTurns.clear();
     this.now = 0;
     this.events = [...(value.events ?? [])].sort((a, b) => a.time - b.time);
     EYES.forEach((name, axis) => this.middle && this.mixer.setVariable(name, this.middle[axis] + (axis === 2 ? 1000 : 0)));
@@ -240,22 +243,28 @@ class Scene {
 
   #play(number, source, desc) {
     const { loop, speed = 1, start = 0 } = source;
-    const { clip, binding, headUp, rate } = this.clips.get(clipKey(source));
-    this.talks.delete(number);
-    if (headUp) this.talks.set(number, { headUp, rate, speed, start, begin: this.now / TICKS_PER_SECOND });
+    const { clip, binding, head } = this.clips.get(clipKey(source));
+    this.headTurns.delete(number);
+    if (head.length > 0) {
+      const { rateNumerator, rateDenominator, looping } = clip.info;
+      this.headTurns.set(number, { head, rate: rateNumerator / rateDenominator, speed, start,
+        loops: loop ?? looping === Looping.WRAP, begin: this.now / TICKS_PER_SECOND });
+    }
     this.mixer.play(number, clip, binding, {
       startTick: ticks(start), speedNumerator: Math.round(speed * 1e6), speedDenominator: 1e6,
       ...(loop === undefined ? {} : { looping: loop ? Looping.WRAP : Looping.CLAMP }), ...desc,
     });
   }
 
-  /** The beats of the head of what is said now. */
-  #headUp() {
-    let sum = 0;
-    for (const { headUp, rate, speed, start, begin } of this.talks.values()) {
-      sum = Math.fround(sum + (headUp[Math.trunc((start + (this.now / TICKS_PER_SECOND - begin) * speed) * rate)] ?? 0));
+  /** Adds the head's channels of the clips that play. */
+  #turnHead(row) {
+    for (const [, { head, rate, speed, start, loops, begin }] of [...this.headTurns].sort(([a], [b]) => a - b)) {
+      const at = (start + (this.now / TICKS_PER_SECOND - begin) * speed) * rate;
+      for (const { variable, values } of head) {
+        const frame = loops ? at - Math.floor(at / values.length) * values.length : at;
+        row[this.rig.count(Kind.RAW_CONTROL) + this.names.variables.indexOf(variable)] += values[Math.trunc(Math.min(Math.max(frame, 0), values.length - 1))];
+      }
     }
-    return sum;
   }
 
   #weigh(number, weights, fade) {
@@ -288,7 +297,7 @@ class Scene {
           transitionTicks: ticks(event.duration ?? 0.25) });
       } else if (event.stop) {
         mixer.stop(number, fade);
-        this.talks.delete(number);
+        this.headTurns.delete(number);
       } else if (event.weights) this.#weigh(number, event.weights, fade);
       else mixer.setWeight(number, required(event.weight, `an event of ${event.layer}`, "number"), fade);
     }
@@ -312,7 +321,7 @@ class Scene {
     const row = this.mixer.row.slice(0, this.width);
     // The w of rotations that nothing moves.
     this.rig.initialRawControls.forEach((value, i) => { row[i] ||= value; });
-    if (this.talks.size) row[this.rig.count(Kind.RAW_CONTROL) + this.names.variables.indexOf(HEAD_UP)] += this.#headUp();
+    this.#turnHead(row);
     return row;
   }
 
