@@ -57,7 +57,7 @@ TEST(MixProbes, MirrorKeepsVariables) {
   ASSERT_EQ(mien_mix_mirror(head().deformer.get(), curves.data(), curves.size(), nullptr), MIEN_OK);
   EXPECT_EQ(curves[head().control("mouthSmileLeft")], head().control("mouthSmileRight"));
   EXPECT_EQ(curves[head().control("jawOpen")], head().control("jawOpen"));
-  EXPECT_EQ(curves[53], 53);
+  EXPECT_EQ(curves.back(), curves.size() - 1);
   EXPECT_EQ(mien_mix_mirror(head().deformer.get(), curves.data(), 51, nullptr),
             MIEN_ERROR_MISMATCH);
   EXPECT_EQ(mien_mix_mirror(head().deformer.get(), nullptr, 52, nullptr), MIEN_ERROR_NULL_ARGUMENT);

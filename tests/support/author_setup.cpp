@@ -154,7 +154,7 @@ void make_author_head(uint32_t lod, uint32_t bones, uint32_t influences, uint32_
     for (uint32_t i = f.count; i-- > 0;) there.push_back(twin[f.corners[i]]);
     out.add_face(there);
   }
-  for (uint32_t s = 0; s < head::kExpressionCount; ++s) {
+  for (uint32_t s = 0; s < head::kArkitCount; ++s) {
     out.add_shape(head::kExpressions[s].name, [&](uint32_t v) -> Vec3 {
       const head::Vertex& at = half.vertices[left[v]];
       if (at.carrier != head::Carrier::kSkin) return {};

@@ -42,7 +42,7 @@ constexpr SkinJoint kPlaces[] = {
     {"LipLowerMiddle", 1.3, -6.6, 1, kJawGroup, true},
     {"BrowInner", 1.3, 2.95, 1, kBrowGroup, false},
 
-    {"NoseWing", 1.3, -3.1, 2, kCheekGroup, false},
+    {"NoseWing", 1.3, -3.1, 0, kCheekGroup, false},
     {"CheekLower", 4.3, -5.4, 2, kCheekGroup, false},
     {"BrowOuter", 4.6, 3.2, 2, kBrowGroup, false},
 
@@ -60,7 +60,7 @@ constexpr SkinJoint kPlaces[] = {
     {"Philtrum", 0, -4.6, 5, kMouthGroup, false},
     {"ChinFold", 0, -7.7, 5, kJawGroup, true},
     {"ChinSide", 1.4, -8.9, 5, kJawGroup, true},
-    {"JawLine", 4.6, -7.4, 5, kJawGroup, true},
+    {"JawLine", 4.6, -7.4, 0, kJawGroup, true},
 
     {"NoseBridge", 0, 0.2, 6, kCheekGroup, false},
     {"LipUpperInner", 0.65, -5.5, 6, kMouthGroup, false},
@@ -70,7 +70,8 @@ constexpr SkinJoint kPlaces[] = {
     {"EyeOuter", 5.6, 0.8, 6, kCheekGroup, false},
 
     {"Throat", 0, -11.6, 7, kJawGroup, true},
-    {"NeckSide", 3.0, -12.4, 7, kCheekGroup, false},
+    {"NeckSide", 3.0, -12.4, 0, kCheekGroup, false},
+    {"Larynx", 0, -13.0, 0, kJawGroup, false},
     {"LipCornerUpper", 2.35, -5.15, 7, kMouthGroup, false},
     {"MouthCornerLower", 2.5, -6.1, 0, kJawGroup, true},
     {"PhiltrumSide", 1.2, -4.7, 7, kMouthGroup, false},

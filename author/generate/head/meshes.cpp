@@ -19,6 +19,8 @@ constexpr const char* kPartNames[kPartCount] = {"head",     "teeth", "tongue", "
                                                 "eyeRight", "hair",  "brows",  "lashes"};
 /// Smaller offsets are not stored.
 constexpr double kLeastOffset = 0.002;
+/// Correctives that only moderate the sum of a pair come this close to it.
+constexpr double kModerationError = 0.03;
 
 Text mesh_name(Part part, uint32_t lod) {
   return Text().add(kPartNames[static_cast<int>(part)]).add("_lod").add(uint64_t{lod}).add("_mesh");
@@ -279,6 +281,9 @@ void MeshMaker::find_offsets(uint32_t shape, Span<Affine> pose, Span<Vec3> out) 
     Vec3 offset = author::residual(pose.data, influences(weights_[i]), from, target);
     if (half_.on_plane(i) && twin == shape) offset.x = 0;
     offset = offset * share;
+    if (head_.shapes.is_moderation(shape) && !v.edge) {
+      offset = offset * std::max(0.0, 1 - kModerationError / std::max(length(offset), 1e-9));
+    }
     out[i] = is_moved(i, offset) ? offset : Vec3();
   }
 }

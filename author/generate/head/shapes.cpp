@@ -2,7 +2,6 @@
 #include "author/generate/head/shapes.h"
 
 #include <algorithm>
-#include <cstring>
 
 namespace mien::head {
 
@@ -12,164 +11,6 @@ using author::exact_sine_cosine;
 using author::kPi;
 using author::mix;
 using author::smooth_step;
-
-const Shape kExpressions[kExpressionCount] = {
-    {"eyeBlinkLeft", Motion::kBlink, 1},
-    {"eyeLookDownLeft", Motion::kLookDown, 1},
-    {"eyeLookInLeft", Motion::kLookIn, 1},
-    {"eyeLookOutLeft", Motion::kLookOut, 1},
-    {"eyeLookUpLeft", Motion::kLookUp, 1},
-    {"eyeSquintLeft", Motion::kSquint, 1},
-    {"eyeWideLeft", Motion::kWide, 1},
-    {"eyeBlinkRight", Motion::kBlink, -1},
-    {"eyeLookDownRight", Motion::kLookDown, -1},
-    {"eyeLookInRight", Motion::kLookIn, -1},
-    {"eyeLookOutRight", Motion::kLookOut, -1},
-    {"eyeLookUpRight", Motion::kLookUp, -1},
-    {"eyeSquintRight", Motion::kSquint, -1},
-    {"eyeWideRight", Motion::kWide, -1},
-    {"jawForward", Motion::kJawForward, 0},
-    {"jawLeft", Motion::kJawLeft, 1},
-    {"jawRight", Motion::kJawLeft, -1},
-    {"jawOpen", Motion::kJawOpen, 0},
-    {"mouthClose", Motion::kMouthClose, 0},
-    {"mouthFunnel", Motion::kFunnel, 0},
-    {"mouthPucker", Motion::kPucker, 0},
-    {"mouthLeft", Motion::kMouthLeft, 1},
-    {"mouthRight", Motion::kMouthLeft, -1},
-    {"mouthSmileLeft", Motion::kSmile, 1},
-    {"mouthSmileRight", Motion::kSmile, -1},
-    {"mouthFrownLeft", Motion::kFrown, 1},
-    {"mouthFrownRight", Motion::kFrown, -1},
-    {"mouthDimpleLeft", Motion::kDimple, 1},
-    {"mouthDimpleRight", Motion::kDimple, -1},
-    {"mouthStretchLeft", Motion::kStretch, 1},
-    {"mouthStretchRight", Motion::kStretch, -1},
-    {"mouthRollLower", Motion::kRollLower, 0},
-    {"mouthRollUpper", Motion::kRollUpper, 0},
-    {"mouthShrugLower", Motion::kShrugLower, 0},
-    {"mouthShrugUpper", Motion::kShrugUpper, 0},
-    {"mouthPressLeft", Motion::kPress, 1},
-    {"mouthPressRight", Motion::kPress, -1},
-    {"mouthLowerDownLeft", Motion::kLowerDown, 1},
-    {"mouthLowerDownRight", Motion::kLowerDown, -1},
-    {"mouthUpperUpLeft", Motion::kUpperUp, 1},
-    {"mouthUpperUpRight", Motion::kUpperUp, -1},
-    {"browDownLeft", Motion::kBrowDown, 1},
-    {"browDownRight", Motion::kBrowDown, -1},
-    {"browInnerUp", Motion::kBrowInnerUp, 0},
-    {"browOuterUpLeft", Motion::kBrowOuterUp, 1},
-    {"browOuterUpRight", Motion::kBrowOuterUp, -1},
-    {"cheekPuff", Motion::kCheekPuff, 0},
-    {"cheekSquintLeft", Motion::kCheekSquint, 1},
-    {"cheekSquintRight", Motion::kCheekSquint, -1},
-    {"noseSneerLeft", Motion::kSneer, 1},
-    {"noseSneerRight", Motion::kSneer, -1},
-    {"tongueOut", Motion::kTongueOut, 0},
-};
-
-namespace {
-
-uint8_t find(Motion motion, int side) {
-  uint8_t i = 0;
-  while (kExpressions[i].motion != motion || kExpressions[i].side != side) ++i;
-  return i;
-}
-
-/// The joints of the left half that a motion turns.
-JointTurns turns_of(Motion motion) {
-  JointTurns t;
-  switch (motion) {
-    case Motion::kBlink: t.upper_lid = t.lower_lid = -1; break;
-    case Motion::kWide: t.upper_lid = 0.34, t.lower_lid = 0.40; break;
-    case Motion::kSquint: t.upper_lid = -0.22, t.lower_lid = -1.15; break;
-    case Motion::kLookUp: t.upper_lid = 0.34, t.lower_lid = -0.35, t.eye_up = 24; break;
-    case Motion::kLookDown: t.upper_lid = -0.54, t.lower_lid = 0.60, t.eye_up = -26; break;
-    case Motion::kLookIn: t.eye_out = -26; break;
-    case Motion::kLookOut: t.eye_out = 26; break;
-    case Motion::kSmile: t.lower_lid = -0.75, t.upper_lid = -0.08; break;
-    case Motion::kCheekSquint: t.lower_lid = -0.9, t.upper_lid = -0.10; break;
-    case Motion::kSneer: t.lower_lid = -0.45, t.upper_lid = -0.06; break;
-    case Motion::kJawOpen: t.jaw_open = kJawOpenAngle; break;
-    case Motion::kFunnel: t.jaw_open = 8; break;
-    case Motion::kJawForward: t.jaw_shift = {0, -0.08, 0.95}; break;
-    case Motion::kJawLeft: t.jaw_shift = {1.0, -0.05, -0.05}; break;
-    case Motion::kTongueOut: t.jaw_open = 7, t.tongue = 1; break;
-    default: break;
-  }
-  return t;
-}
-
-bool moves_jaw(Motion m) {
-  return m == Motion::kJawOpen || m == Motion::kJawForward || m == Motion::kJawLeft ||
-         m == Motion::kTongueOut || m == Motion::kFunnel;
-}
-
-}  // namespace
-
-uint32_t list_correctives(Corrective (&out)[kMaxCorrectives]) {
-  uint32_t count = 0;
-  const auto add = [&](Motion a, int side_a, Motion b, int side_b, Motion motion, int side,
-                       uint8_t undone = 0) {
-    const uint8_t first = find(a, side_a), second = find(b, side_b);
-    out[count++] = {std::min(first, second), std::max(first, second), motion,
-                    static_cast<int8_t>(side), undone};
-  };
-  add(Motion::kJawOpen, 0, Motion::kMouthClose, 0, Motion::kSeal, 0);
-  add(Motion::kJawOpen, 0, Motion::kPucker, 0, Motion::kLessRaise, 0);
-  add(Motion::kJawOpen, 0, Motion::kFunnel, 0, Motion::kLessRound, 0);
-  add(Motion::kFunnel, 0, Motion::kPucker, 0, Motion::kLessPout, 0);
-  for (int side : {1, -1}) {
-    // Blinking closes the eye whatever else moves the lids.
-    for (Motion m : {Motion::kSquint, Motion::kWide, Motion::kLookUp, Motion::kLookDown,
-                     Motion::kSmile, Motion::kCheekSquint, Motion::kSneer}) {
-      add(Motion::kBlink, side, m, side, Motion::kKeepLidsShut, side, find(m, side));
-    }
-    add(Motion::kJawOpen, 0, Motion::kSmile, side, Motion::kLessWide, side);
-    add(Motion::kWide, side, Motion::kBrowDown, side, Motion::kBrowsApart, side);
-  }
-  return count;
-}
-
-Shape Shapes::shape(uint32_t index) const {
-  if (index < kExpressionCount) return kExpressions[index];
-  const Corrective& c = list_[index - kExpressionCount];
-  return {"", c.motion, c.side};
-}
-
-uint32_t Shapes::twin(uint32_t index) const {
-  if (index < kExpressionCount) {
-    const Shape& s = kExpressions[index];
-    return s.side == 0 ? index : find(s.motion, -s.side);
-  }
-  const Corrective& c = list_[index - kExpressionCount];
-  if (c.side == 0) return index;
-  const auto other = [this](uint32_t expression) { return static_cast<uint8_t>(twin(expression)); };
-  for (uint32_t i = 0; i < corrective_count_; ++i) {
-    const Corrective& d = list_[i];
-    const uint8_t a = other(d.first), b = other(d.second);
-    if (std::min(a, b) == c.first && std::max(a, b) == c.second) return kExpressionCount + i;
-  }
-  return index;
-}
-
-JointTurns Shapes::turns(uint32_t index, int side) const {
-  const Shape s = shape(index);
-  if (s.motion == Motion::kKeepLidsShut) {
-    JointTurns t;
-    if (s.side != side) return t;
-    const JointTurns undone = turns_of(kExpressions[list_[index - kExpressionCount].undone].motion);
-    t.upper_lid = -undone.upper_lid;
-    t.lower_lid = -undone.lower_lid;
-    return t;
-  }
-  JointTurns t = turns_of(s.motion);
-  if (moves_jaw(s.motion)) {  // one jaw for both halves
-    if (s.side < 0) t.jaw_shift.x = -t.jaw_shift.x;
-    return t;
-  }
-  return s.side == 0 || s.side == side ? t : JointTurns();
-}
 
 // Jaw -------------------------------------------------------------------------------------------
 
@@ -224,7 +65,31 @@ struct Fold {
   }
 };
 
+/// Moves one lip to a line between where the open jaw has put both.
+Vec3 seal(const Vertex& v, bool above) {
+  if (above != (v.side == Side::kAbove)) return {};
+  JointTurns jaw;
+  jaw.jaw_open = kJawOpenAngle;
+  const Vec3 look = v.look;
+  const Vec3 gap = (move_with_jaw(jaw, look) - look) *
+                   (between_corners(look.x) * smooth_step(-15.6, -10.4, look.y) *
+                    smooth_step(-2.5, 3.5, look.z));
+  const double line = v.above_mouth;
+  const double near = above ? bump(0, line, 0, 0, 1, 1.5) : bump(0, line, 0, 0, 1, 2.3);
+  return gap * (near * (above ? 0.36 : -0.64));
+}
+
 }  // namespace
+
+/// Where both move the skin in one direction, it goes as far as the root of the sum of their squares, not as far as
+/// their sum.
+Vec3 Shapes::not_twice(const Corrective& pair, const Vertex& v) const {
+  if (v.lid != 0) return {};
+  const Vec3 a = skin_displacement(pair.first, v), b = skin_displacement(pair.second, v);
+  const Vec3 sum = a + b;
+  if (dot(a, b) <= 0) return {};
+  return sum * (std::sqrt(dot(a, a) + dot(b, b)) / length(sum) - 1);
+}
 
 Vec3 Shapes::lids(Motion motion, const Vertex& v) const {
   if (v.lid == 0) return {};
@@ -330,6 +195,56 @@ Vec3 Shapes::one_side(Motion motion, Vec3 look, const Vertex& v) const {
       add(w.at(3.2, -5.6, 1.3, 1.3), {0.10, 0.16, 0.06});
       add(w.at(0, -3.0, 1.2, 0.9), {0.16, 0, 0});
       break;
+    case Motion::kLidPress:
+      add(w.at(3.3, -1.4, 1.7, 0.9), {0, 0.18, 0.10});
+      add(w.at(5.1, 0.3, 0.8, 0.9), {-0.16, 0, 0.03});
+      add(w.at(3.0, 2.8, 2.0, 0.8), {-0.02, -0.14, 0.05});
+      break;
+    case Motion::kLipsPress:
+      // The red goes inwards, the skin around it comes forward.
+      add(bump(look.x, line, 1.3, 0, 1.4, 0.9), {0.02, -0.34 * line, -0.16});
+      add(bump(look.x, line, 1.3, 0, 1.2, 0.4), {0, 0, -0.24});
+      add(bump(look.x, line, 1.3, 1.15, 1.3, 0.4), {0, 0.04, 0.16});
+      add(bump(look.x, line, 1.3, -1.35, 1.3, 0.5), {0, -0.04, 0.20});
+      break;
+    case Motion::kTogetherUpper:
+    case Motion::kTogetherLower: {
+      // One lip of one half; at the line between them both, which stay together.
+      const bool own = above == (motion == Motion::kTogetherUpper);
+      const double half = smooth_step(-0.9, 0.9, look.x);
+      add(half * bump(look.x, line, 0, 0, 2.4, own ? 0.7 : 0.3), {0, -0.22 * line, -0.16});
+      break;
+    }
+    case Motion::kSealUpper: add(smooth_step(-0.9, 0.9, look.x), seal(v, true)); break;
+    case Motion::kSealLower: add(smooth_step(-0.9, 0.9, look.x), seal(v, false)); break;
+    case Motion::kDilate:
+      add(w.at(1.35, -3.55, 0.45, 0.55), {0.30, 0.03, 0.05});
+      add(w.at(1.75, -3.3, 0.5, 0.7), {0.10, 0.04, 0.04});
+      break;
+    case Motion::kDeepenFold:
+      add(fold.at(0), {0, 0.03, -0.28});
+      add(fold.at(0.62), {0.04, 0.14, 0.26});
+      add(w.at(3.4, -3.2, 1.1, 1.0), {0.02, 0.20, 0.14});
+      break;
+    case Motion::kClench:  // masseter and temple
+      add(w.at(5.5, -6.5, 0.8, 1.4), {0.36, 0, 0.26});
+      add(w.at(6.0, 2.4, 0.8, 1.1), {0.16, 0, 0.06});
+      break;
+    case Motion::kNeckStretch:
+      // Bands of the platysma below the jaw; it pulls the corners of the mouth down and out.
+      add(w.at(2.7, -12.6, 0.40, 2.4), {0.14, 0, 0.34});
+      add(w.at(1.2, -12.8, 0.32, 2.2), {0.02, 0, 0.26});
+      add(w.at(2.7, -6.8, 1.2, 1.2), {0.24, -0.24, -0.10});
+      add(w.at(3.4, -9.8, 1.2, 1.2), {0.16, -0.14, 0.04});
+      break;
+    case Motion::kMastoid: {
+      // From behind the ear to the notch between the clavicles.
+      const double down = (-5.0 - look.y) / 11.2;
+      add(bump(look.x, 0, mix(5.1, 0.8, down), 0, 0.65, 1) * smooth_step(0.45, 0.70, down) *
+              smooth_step(1.08, 0.92, down),
+          {0.16, 0, 0.36});
+      break;
+    }
     case Motion::kBrowsApart:  // wide eyes leave less room for a lowered brow
       add(w.at(3.0, 3.0, 1.8, 1.0), {0.04, 0.26, 0});
       break;
@@ -357,18 +272,19 @@ Vec3 Shapes::both_sides(Motion motion, const Vertex& v) const {
     case Motion::kMouthClose:
       add(bump(look.x, line, 0, 0, 2.4, 0.7), {0, -0.24 * line, -0.10});
       break;
-    case Motion::kSeal: {
-      // Both lips move to a line between where the jaw has put them.
-      JointTurns jaw;
-      jaw.jaw_open = kJawOpenAngle;
-      const Vec3 gap = (move_with_jaw(jaw, look) - look) *
-                       (apart * smooth_step(-15.6, -10.4, look.y) * smooth_step(-2.5, 3.5, look.z));
-      const double near = above ? bump(0, line, 0, 0, 1, 1.5) : bump(0, line, 0, 0, 1, 2.3);
-      add(near * (above ? 0.36 : -0.64), gap);
+    case Motion::kSeal:
+      add(1, seal(v, above));
       // Cheeks and corners are drawn in.
       add(w.at(3.0, -6.2, 1.0, 1.2), {-0.15, 0, -0.15});
       break;
-    }
+    case Motion::kThroatUp:  // the larynx, as in swallowing
+      add(w.at(0, -13.0, 1.0, 1.3), {0, 0.60, 0.08});
+      add(w.at(0, -11.3, 1.8, 0.8), {0, -0.05, 0.24});
+      break;
+    case Motion::kThroatDown:
+      add(w.at(0, -13.0, 1.0, 1.3), {0, -0.60, 0.04});
+      add(w.at(0, -11.3, 1.8, 0.8), {0, 0.06, -0.18});
+      break;
     case Motion::kFunnel:
       add(narrow, {-0.34 * look.x, 0, 0});
       add(bump(look.x, line, 2.5, 0, 0.9, 1.0), {0, 0, 0.30});
@@ -387,10 +303,6 @@ Vec3 Shapes::both_sides(Motion motion, const Vertex& v) const {
       add(bump(look.x, line, 0, 0, 1.9, 1.1), {0, 0.36 * line * apart, 0.55});
       add(bump(look.x, line, 0, 0, 1.1, 0.8), {0, 0.16 * line, 0.32});
       add(w.at(4.2, -5.2, 1.3, 1.6), {-0.25, 0, -0.12});
-      break;
-    case Motion::kLessPout:
-      add(narrow, {0.36 * look.x, 0, 0});
-      add(lips, {0, 0, -0.65});
       break;
     case Motion::kLessRaise: add(lips * apart, {0, above ? -0.10 : 0.85, 0.10}); break;
     case Motion::kLessRound:  // the jaw has opened the lips already
@@ -434,14 +346,14 @@ Vec3 Shapes::both_sides(Motion motion, const Vertex& v) const {
     default: break;
   }
   // The middle does not move sideways; motions that scale x keep it there anyway.
-  const bool by_share =
-      motion == Motion::kPucker || motion == Motion::kFunnel || motion == Motion::kLessPout;
+  const bool by_share = motion == Motion::kPucker || motion == Motion::kFunnel;
   if (!by_share) d.x *= clamp01(look.x / 0.8);
   return d * off_lids(look);
 }
 
-Vec3 Shapes::displacement(uint32_t index, const Vertex& v) const {
+Vec3 Shapes::skin_displacement(uint32_t index, const Vertex& v) const {
   const Shape s = shape(index);
+  if (s.motion == Motion::kNotTwice) return not_twice(list_[index - kExpressionCount], v);
   Vec3 d;
   // Windows are those of the front view: nothing moves at the back. Inside the mouth the skin follows the
   // lips less with depth.
@@ -456,9 +368,6 @@ Vec3 Shapes::displacement(uint32_t index, const Vertex& v) const {
     }
     d = d * share;
   }
-  if (moves_jaw(s.motion)) {
-    d = d + (move_with_jaw(turns(index, 1), v.position) - v.position) * jaw_weight(v);
-  }
   if (s.side >= 0) {
     const bool undo = s.motion == Motion::kKeepLidsShut;
     const Motion lid_motion =
@@ -466,6 +375,16 @@ Vec3 Shapes::displacement(uint32_t index, const Vertex& v) const {
     d = d + lids(lid_motion, v) * (undo ? -1.0 : 1.0);
   }
   return d;
+}
+
+Vec3 Shapes::displacement(uint32_t index, const Vertex& v) const {
+  const Vec3 d = skin_displacement(index, v);
+  const Motion motion = shape(index).motion;
+  const bool undoes = undoes_jaw(motion);
+  if (!undoes && !moves_jaw(motion)) return d;
+  const uint32_t turned = undoes ? list_[index - kExpressionCount].undone : index;
+  const Vec3 carried = (move_with_jaw(turns(turned, 1), v.position) - v.position) * jaw_weight(v);
+  return undoes ? d - carried : d + carried;
 }
 
 }  // namespace mien::head

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The effects of the controls of the procedural head: 52 expressions under the names of ARKit, and
-// correctives for pairs of them. Each is a motion of the skin, written as windows (where) times vectors (in
+// The effects of the controls of the procedural head: 52 expressions under the names of ARKit, 20 that ARKit lacks
+// under those of MetaHuman rigs, and correctives for pairs of them. Each is a motion of the skin, written as windows (where) times vectors (in
 // which direction), plus rotations of a few joints: jaw, lids, eyes, tongue.
 #pragma once
 
@@ -8,7 +8,8 @@
 
 namespace mien::head {
 
-constexpr uint32_t kExpressionCount = 52;
+constexpr uint32_t kArkitCount = 52;  // the first of the expressions
+constexpr uint32_t kExpressionCount = 72;
 
 /// Motions, as the left half of the face makes them.
 enum class Motion : uint8_t {
@@ -44,14 +45,28 @@ enum class Motion : uint8_t {
   kCheekSquint,
   kSneer,
   kTongueOut,
+  kLidPress,
+  kDilate,
+  kDeepenFold,
+  kLipsPress,
+  kTogetherUpper,
+  kTogetherLower,
+  kClench,
+  kNeckStretch,
+  kMastoid,
+  kThroatUp,
+  kThroatDown,
   // Correctives only.
   kSeal,
   kKeepLidsShut,
   kLessWide,
-  kLessPout,
   kLessRaise,
   kLessRound,
-  kBrowsApart
+  kBrowsApart,
+  kSealUpper,
+  kSealLower,
+  kLessOpen,
+  kNotTwice
 };
 
 /// A shape: a motion of one side (1 left, -1 right) or of both (0).
@@ -68,9 +83,9 @@ struct Corrective {
   uint8_t first, second;  // expressions
   Motion motion;
   int8_t side;
-  uint8_t undone = 0;  // kKeepLidsShut: the expression whose lids it undoes
+  uint8_t undone = 0;  // the expression whose lids (kKeepLidsShut) or opening of the jaw it undoes
 };
-constexpr uint32_t kMaxCorrectives = 32;
+constexpr uint32_t kMaxCorrectives = 96;
 /// Returns the number of correctives.
 uint32_t list_correctives(Corrective (&out)[kMaxCorrectives]);
 
@@ -84,6 +99,14 @@ struct JointTurns {
   double eye_up = 0, eye_out = 0;
   double tongue = 0;  // out
 };
+
+/// The joints of the left half that a motion turns at full value.
+JointTurns turns_of(Motion motion);
+
+/// Whether a motion turns the jaw, which both halves share; or undoes the turn of another: an open jaw needs not open
+/// further.
+bool moves_jaw(Motion motion);
+bool undoes_jaw(Motion motion);
 
 /// The weight of the jaw at a vertex.
 double jaw_weight(const Vertex& v);
@@ -100,12 +123,17 @@ class Shapes {
   uint32_t count() const { return kExpressionCount + corrective_count_; }
   const Corrective& corrective(uint32_t i) const { return list_[i]; }
 
+  /// Whether it is a corrective that keeps a pair from moving the same skin twice.
+  bool is_moderation(uint32_t index) const { return shape(index).motion == Motion::kNotTwice; }
+
   /// The turns on the left (side 1) or right half (side -1) of the face.
   JointTurns turns(uint32_t shape, int side) const;
 
   /// Displacement of a vertex of the skin with x >= 0. Mirrored shapes give mirrored results: that of the
   /// right half is the mirrored displacement of `twin(shape)` here.
   Vec3 displacement(uint32_t shape, const Vertex& v) const;
+  /// The same but for what the jaw carries along.
+  Vec3 skin_displacement(uint32_t shape, const Vertex& v) const;
 
   /// The same with left and right exchanged.
   uint32_t twin(uint32_t shape) const;
@@ -115,6 +143,7 @@ class Shapes {
   Vec3 one_side(Motion motion, Vec3 look, const Vertex& v) const;
   Vec3 both_sides(Motion motion, const Vertex& v) const;
   Vec3 lids(Motion motion, const Vertex& v) const;
+  Vec3 not_twice(const Corrective& pair, const Vertex& v) const;
 
   Corrective list_[kMaxCorrectives];
   uint32_t corrective_count_ = 0;

@@ -90,7 +90,7 @@ Command add_demo_head_command(CLI::App& app, const Session& session) {
   head->footer(
       "A stylized person: skin, eyes, teeth, tongue, hair, with vertex colors, correctives,\n"
       "wrinkle maps and 8 LODs. Raw controls have the names of the ARKit coefficients;\n"
-      "mouthClose closes the lips over an open jaw.\n\n"
+      "mouthClose closes the lips over an open jaw. 20 more have names of MetaHuman rigs.\n\n"
       "Examples:\n"
       "  mien demo-head -o head.dna\n"
       "  mien demo-head -o head.dna --textures textures\n"

@@ -253,37 +253,36 @@ uint64_t hash_of(const std::vector<uint8_t>& bytes) {
 }
 
 TEST(ProceduralHead, HasTheSameBytesOnEveryPlatform) {
-  const uint64_t expected[] = {3767190303499261063u, 3486307485833726421u};
+  const uint64_t expected[] = {15344204878243278745u, 9353075199608926757u};
   for (uint64_t seed = 0; seed < 2; ++seed) {
     EXPECT_EQ(hash_of(write_dna(generate_dna(MIEN_PRESET_HEAD, seed).get())), expected[seed])
         << "seed " << seed << ": if the head was meant to change, record the new number";
   }
 }
 
-TEST(ProceduralHead, HasTheControlsOfArkit) {
+TEST(ProceduralHead, HasTheControlsOfArkitAndMore) {
   static const char* const kNames[] = {
-      "eyeBlinkLeft",      "eyeLookDownLeft",    "eyeLookInLeft",
-      "eyeLookOutLeft",    "eyeLookUpLeft",      "eyeSquintLeft",
-      "eyeWideLeft",       "eyeBlinkRight",      "eyeLookDownRight",
-      "eyeLookInRight",    "eyeLookOutRight",    "eyeLookUpRight",
-      "eyeSquintRight",    "eyeWideRight",       "jawForward",
-      "jawLeft",           "jawRight",           "jawOpen",
-      "mouthClose",        "mouthFunnel",        "mouthPucker",
-      "mouthLeft",         "mouthRight",         "mouthSmileLeft",
-      "mouthSmileRight",   "mouthFrownLeft",     "mouthFrownRight",
-      "mouthDimpleLeft",   "mouthDimpleRight",   "mouthStretchLeft",
-      "mouthStretchRight", "mouthRollLower",     "mouthRollUpper",
-      "mouthShrugLower",   "mouthShrugUpper",    "mouthPressLeft",
-      "mouthPressRight",   "mouthLowerDownLeft", "mouthLowerDownRight",
-      "mouthUpperUpLeft",  "mouthUpperUpRight",  "browDownLeft",
-      "browDownRight",     "browInnerUp",        "browOuterUpLeft",
-      "browOuterUpRight",  "cheekPuff",          "cheekSquintLeft",
-      "cheekSquintRight",  "noseSneerLeft",      "noseSneerRight",
-      "tongueOut"};
+      "eyeBlinkLeft", "eyeLookDownLeft", "eyeLookInLeft", "eyeLookOutLeft", "eyeLookUpLeft",
+      "eyeSquintLeft", "eyeWideLeft", "eyeBlinkRight", "eyeLookDownRight", "eyeLookInRight",
+      "eyeLookOutRight", "eyeLookUpRight", "eyeSquintRight", "eyeWideRight", "jawForward",
+      "jawLeft", "jawRight", "jawOpen", "mouthClose", "mouthFunnel", "mouthPucker", "mouthLeft",
+      "mouthRight", "mouthSmileLeft", "mouthSmileRight", "mouthFrownLeft", "mouthFrownRight",
+      "mouthDimpleLeft", "mouthDimpleRight", "mouthStretchLeft", "mouthStretchRight",
+      "mouthRollLower", "mouthRollUpper", "mouthShrugLower", "mouthShrugUpper", "mouthPressLeft",
+      "mouthPressRight", "mouthLowerDownLeft", "mouthLowerDownRight", "mouthUpperUpLeft",
+      "mouthUpperUpRight", "browDownLeft", "browDownRight", "browInnerUp", "browOuterUpLeft",
+      "browOuterUpRight", "cheekPuff", "cheekSquintLeft", "cheekSquintRight", "noseSneerLeft",
+      "noseSneerRight", "tongueOut",
+      // Of MetaHuman rigs, which ARKit lacks.
+      "eyeLidPressL", "eyeLidPressR", "noseNostrilDilateL", "noseNostrilDilateR",
+      "noseNasolabialDeepenL", "noseNasolabialDeepenR", "mouthLipsPressL", "mouthLipsPressR",
+      "mouthLipsTogetherUL", "mouthLipsTogetherUR", "mouthLipsTogetherDL", "mouthLipsTogetherDR",
+      "jawClenchL", "jawClenchR", "neckStretchL", "neckStretchR", "neckMastoidContractL",
+      "neckMastoidContractR", "neckThroatUp", "neckThroatDown"};
   const Head& head = the_head();
   const std::vector<std::string> names = names_of(head.rig, MIEN_KIND_RAW_CONTROL);
-  ASSERT_EQ(names.size(), 52u);
-  for (size_t i = 0; i < 52; ++i) EXPECT_EQ(names[i], kNames[i]);
+  ASSERT_EQ(names.size(), 72u);
+  for (size_t i = 0; i < 72; ++i) EXPECT_EQ(names[i], kNames[i]);
 }
 
 TEST(ProceduralHead, GuiControlsReachEveryExpressionAlone) {
@@ -304,7 +303,7 @@ TEST(ProceduralHead, GuiControlsReachEveryExpressionAlone) {
       EXPECT_LE(driven, 1u);
     }
   }
-  EXPECT_EQ(reached.size(), 52u);
+  EXPECT_EQ(reached.size(), 72u);
 }
 
 TEST(ProceduralHead, ColorsAreInTheMetadata) {
@@ -441,6 +440,13 @@ std::vector<uint32_t> twins_of(const dna::Mesh& mesh) {
   return twins;
 }
 
+/// L or R after a small letter or an U or D, at the end of a name.
+bool is_side_at(const std::string& name, size_t i) {
+  const bool is_end = i + 1 == name.size() || name[i + 1] == '_';
+  return is_end && i > 0 && name[i - 1] != '_' && (name[i] == 'L' || name[i] == 'R');
+}
+
+/// In names of ARKit, Left and Right; in those of MetaHuman rigs, L or R at the end.
 std::string other_side(const std::string& name) {
   std::string out;
   for (size_t i = 0; i < name.size();) {
@@ -448,6 +454,8 @@ std::string other_side(const std::string& name) {
       out += "Right", i += 4;
     } else if (name.compare(i, 5, "Right") == 0) {
       out += "Left", i += 5;
+    } else if (is_side_at(name, i)) {
+      out += name[i++] == 'L' ? 'R' : 'L';
     } else {
       out += name[i++];
     }
@@ -645,9 +653,18 @@ TEST(ProceduralHead, LipsMeet) {
     const double sealed =
         widest(head.pose(Part::kHead, lod, {{"jawOpen", 1}, {"mouthClose", 1}}), edges);
     EXPECT_LT(sealed, 2e-3) << lod;
+    const double together = widest(head.pose(Part::kHead, lod,
+                                             {{"jawOpen", 1},
+                                              {"mouthLipsTogetherUL", 1},
+                                              {"mouthLipsTogetherUR", 1},
+                                              {"mouthLipsTogetherDL", 1},
+                                              {"mouthLipsTogetherDR", 1}}),
+                                   edges);
+    EXPECT_LT(together, 5e-3) << lod;
     RecordProperty("sealed_lod" + std::to_string(lod), std::to_string(sealed));
     for (const char* name : {"mouthPucker", "mouthLeft", "mouthSmileLeft", "mouthFrownRight",
-                             "mouthDimpleLeft", "mouthPressLeft", "mouthShrugLower", "cheekPuff"}) {
+                             "mouthDimpleLeft", "mouthPressLeft", "mouthShrugLower", "cheekPuff",
+                             "mouthLipsPressL", "mouthLipsTogetherUL", "neckStretchR"}) {
       EXPECT_LT(widest(head.pose(Part::kHead, lod, {{name, 1}}), edges), 6e-3)
           << name << " LOD " << lod;
     }
