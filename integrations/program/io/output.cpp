@@ -19,6 +19,7 @@
 
 #include "integrations/program/io/failure.h"
 #include "integrations/program/io/fingerprint.h"
+#include "integrations/program/math/finite.h"
 
 namespace mien::cli {
 
@@ -217,6 +218,15 @@ void Output::write(const void* bytes, size_t size) {
   if (size != 0 && !write_all(stream_, bytes, size)) fail_write(errno);
   if (content_) content_->add(bytes, size);
   size_ += size;
+}
+
+size_t Output::write_floats(const float* numbers, size_t count) {
+  const size_t finite =
+      content_ ? content_->add_floats(numbers, count) : math::finite_count(numbers, count);
+  if (finite != count) return finite;
+  if (count != 0 && !write_all(stream_, numbers, 4 * count)) fail_write(errno);
+  size_ += 4 * count;
+  return count;
 }
 
 void Output::commit() {

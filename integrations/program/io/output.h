@@ -29,6 +29,9 @@ class Output {
 
   void write(const void* bytes, size_t size);
   void write(const std::string& text) { write(text.data(), text.size()); }
+  /// The bytes of the floats, as they are in memory. Returns the index of the first that is not finite, or `count`; then
+  /// all are written, else none.
+  size_t write_floats(const float* numbers, size_t count);
 
   /// Everything is on disk (or handed to standard output) when this returns.
   void commit();

@@ -196,6 +196,33 @@ class FarmTest(ProgramTest):
         self.assertEqual(sorted(tree("full")), ["bob/line_0.npy"])  # the small one fits
         self.assertFalse(any(os.scandir(path("full/ada"))))
 
+    def test_a_disk_that_is_really_full(self):
+        """A file system of a few pages, which only the commands below see."""
+        rigs, takes = ["ada.dna", "bob.dna"], ["line_0.clip"]
+        self.ok("farm", job("large_disk", [JOINTS], rigs=rigs, takes=takes))
+        pages = os.path.getsize(path("large_disk/bob/line_0.npy")) // 4096 + 1
+        self.assertGreater(os.path.getsize(path("large_disk/ada/line_0.npy")), 4096 * pages)
+        os.makedirs(path("small_disk"))
+
+        def mounted(script):
+            words = ["unshare", "--map-root-user", "--mount", "sh", "-ec",
+                     f"mount -t tmpfs -o size={4096 * pages} none {path('small_disk')}\n{script}"]
+            return subprocess.run(words, capture_output=True, check=False, text=True, timeout=60)
+
+        if not shutil.which("unshare") or mounted("true").returncode != 0:
+            self.skipTest("NOT TESTED: a farm on a full file system; unshare and mount are not permitted")
+        farm = f"'{program.mien}' farm '{job('small_disk', [JOINTS], rigs=rigs, takes=takes)}'"
+        done = mounted(f"cd {path('small_disk')}\n{farm} || echo \"code $?\"\nfind . -name '*line_0*' -o -name '.mien*'\n"
+                       f"mount -o remount,size=1m .\n{farm} --resume\nsha256sum */line_0.npy")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("No space left on device", done.stderr)
+        lines_there = done.stdout.splitlines()
+        self.assertIn(f"code {FILE}", lines_there)
+        self.assertIn("./bob/line_0.npy", lines_there)  # it fits once the part of the other one is gone
+        self.assertFalse([line for line in lines_there if ".mien" in line or line == "./ada/line_0.npy"])
+        self.assertIn("1 done, 1 already there, 0 failed", done.stdout)
+        self.assertEqual({line.split()[1]: line.split()[0] for line in lines_there[-2:]}, tree("large_disk"))
+
     def test_captured_takes_are_solved(self):
         self.ok("farm", job("captured", [JOINTS], rigs=["bob.dna"], takes=["line_0.clip"]))
         solved = {"kind": "clip", "solve": "joints", "path": "{rig}/{take}.clip"}
