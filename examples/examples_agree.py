@@ -116,7 +116,9 @@ def main():
         mixing["Go"] = golang(args.go, "mix", Path(compiled.name))
     node = shutil.which("node")
     if not args.web or not node:
-        print("NOT TESTED: the example in JavaScript; there is no " + ("node" if args.web else "npm package"))
+        print("NOT TESTED: the example in JavaScript; " +
+              ("there is no node" if args.web else
+               "here there is no npm package: './dev test --all' makes it and runs this again with --web"))
     else:
         folder = javascript(Path(args.web), Path(compiled.name))
         programs["JavaScript"] = [node, folder / "evaluate.mjs"]
