@@ -67,7 +67,6 @@ WITHOUT = {
 # Families of names that languages have not yet: what they begin with. Users call these by the C interface, which Rust has
 # in mien-sys, Lua by its FFI, C# as Mien.Native.Functions, and Go as cgo.
 _DERIVATIVES = ("MienDerivatives", "MienJacobian", "mien_derivatives_")
-_SOLVING_MORE = ("MienFitFrame.constraint", "MienFitFrame.stages", "mien_deformer_create_subset", "mien_fit_solve_frames")
 _SOLVING = (*_DERIVATIVES, "mien_deformer_create_subset", "MienFitDesc", "MienFitFrame", "MienFitSurface", "mien_fit_")
 LATER_IN_ALL = (
     "MienAuthorDesc", "MienAuthorMesh", "MienDocument", "MienPlacement",
@@ -81,7 +80,7 @@ LATER_IN_ALL = (
     "mien_rig_evaluate_twist_", "mien_rig_initial_", "mien_rig_psd_", "mien_rig_statistics", "mien_rig_variable_",
     "mien_solver_", *_SOLVING)
 LATER = {
-    "Rust": _DERIVATIVES + _SOLVING_MORE, "JavaScript": _DERIVATIVES + _SOLVING_MORE,
+    "Rust": _DERIVATIVES, "JavaScript": _DERIVATIVES,
     "Lua": LATER_IN_ALL + ("mien_deformer_bind_", "mien_deformer_influences", "mien_deformer_instance_local_",
                            "mien_deformer_inverse_", "mien_deformer_target"),
     "Go": LATER_IN_ALL + ("MienCoordinateSystem.", "MienMixDesc.custom_", "MienVertexOutput.tangents",

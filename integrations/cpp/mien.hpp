@@ -650,7 +650,6 @@ class Deformer : public Owner<MienDeformer, mien_deformer_destroy> {
     });
   }
 
-  /// A pose in neutral. May outlive the deformer.
   /// Of some positions of one mesh, ascending. This one may go.
   Result<Deformer> subset(uint32_t mesh, Span<const uint32_t> positions) const {
     return make<Deformer>([&](MienDeformer** out, MienError* error) {
@@ -658,6 +657,7 @@ class Deformer : public Owner<MienDeformer, mien_deformer_destroy> {
                                          out, error);
     });
   }
+  /// A pose in neutral. May outlive the deformer.
   Result<DeformerInstance> instance(const DeformerInstanceDesc& desc = {}) const {
     return make<DeformerInstance>([&](MienDeformerInstance** out, MienError* error) {
       return mien_deformer_instance_create(get(), &desc, out, error);

@@ -81,6 +81,65 @@ void test_fit(const mien::Rig& rig, mien::Instance& face) {
   CHECK(!refused && refused.status() == MIEN_ERROR_LOD);
 }
 
+void test_frames(const mien::Rig& rig, mien::Instance& face) {
+  mien::Fit fit = mien::Fit::create(rig).value();
+  const size_t raw = face.raw_controls().size();
+  Row joints;
+  for (const float share : {0.5f, 1.0f}) {
+    for (size_t i = 0; i < raw; i += 4) face.raw_controls()[i] = 0.4f * share;
+    CHECK(rig.evaluate(face, 0));
+    for (const float value : face.joints()) joints.push_back(value);
+  }
+  mien::FitFrame frame;
+  frame.joints = joints.data();
+  frame.max_iterations = 200;
+  std::vector<mien::FitResult> results(2);
+  Row found(2 * raw), observed(raw);
+  CHECK(fit.solve_frames(frame, raw, found, results));
+  CHECK(fit.observability(observed));
+  for (size_t i = 0; i < raw; ++i) {
+    CHECK(observed[i] < 0.05f || std::fabs(found[raw + i] - face.raw_controls()[i]) < 0.01f);
+  }
+  CHECK(results[0].joint_residual < 0.01 && results[1].joint_residual < 0.01);
+  results.pop_back();
+  CHECK(fit.solve_frames(frame, raw, found, results).status() == MIEN_ERROR_INVALID_ARGUMENT);
+}
+
+void test_constraints(const mien::Dna& dna, const mien::Rig& rig) {
+  const mien::Deformer deformer = mien::Deformer::create(dna, rig).value();
+  const std::vector<uint32_t> chosen = {1, 3};
+  const mien::Deformer part = deformer.subset(0, chosen).value();
+  CHECK(part.mesh(0).value().position_count == 2);
+  CHECK(deformer.subset(0, std::vector<uint32_t>{3, 1}).status() == MIEN_ERROR_INVALID_ARGUMENT);
+  const MienSolvePoint points[2] = {{0, {0, 0, 0}, {1, 0, 0}}, {0, {1, 1, 1}, {1, 0, 0}}};
+  mien::FitDesc desc;
+  desc.deformer = part.get();
+  desc.points = points;
+  desc.point_count = 2;
+  mien::Fit fit = mien::Fit::create(rig, desc).value();
+  // Two points that are as far from each other as they are.
+  MienFitConstraint apart = {};
+  apart.kind = MIEN_CONSTRAINT_POINT_DISTANCE;
+  apart.points[1] = 1;
+  apart.distances[1] = 1e6f;
+  apart.weight = 1;
+  mien::FitFrame frame;
+  frame.constraints = &apart;
+  frame.constraint_count = 1;
+  const size_t raw = rig.instance().value().raw_controls().size();
+  std::vector<uint32_t> stages(raw);
+  frame.stages = stages.data();
+  mien::FitResult result;
+  Row found(raw);
+  CHECK(fit.solve(frame, found, &result));
+  CHECK(result.constraint_worst == 0 && !result.jumped);
+  stages[0] = 16;
+  CHECK(fit.solve(frame, found).status() == MIEN_ERROR_INVALID_ARGUMENT);
+  frame.stages = nullptr;
+  apart.points[1] = 2;
+  CHECK(fit.solve(frame, found).status() == MIEN_ERROR_INDEX);
+}
+
 void test_surface() {
   const Row positions = {0, 0, 0, 1, 0, 0, 0, 1, 0};
   const std::vector<uint32_t> triangles = {0, 1, 2, 0, 1, 3};
@@ -117,6 +176,8 @@ int main() {
   CHECK(rig.evaluate(face, 0));
   test_derivatives(rig, face);
   test_fit(rig, face);
+  test_frames(rig, face);
+  test_constraints(dna, rig);
   test_surface();
   test_keys();
   return 0;

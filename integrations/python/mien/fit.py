@@ -5,7 +5,7 @@ from __future__ import annotations
 import ctypes
 from _thread import allocate_lock
 from contextlib import contextmanager
-from typing import Any, Iterator, List, NamedTuple, Optional, Sequence
+from typing import Any, Callable, Iterator, List, NamedTuple, Optional, Sequence
 
 from . import _api
 from ._api import FitStatus, Kind, MienError, Status
@@ -223,21 +223,46 @@ class Fit(Closable):
         constraints: up to 64 `FitConstraint`, added to the other targets
         stages:   0 to 15 for each raw control: those of 0 move first, alone, then those of 1 too, and so on
         """
+        terms = dict(locals())
+        del terms["self"]
+        return self._run(1, lambda handle, frame, out, results: solver().mien_fit_solve(
+            handle, frame, out.ctypes.data, results), **terms)[0]
+
+    @raises("mien_fit_solve_frames")
+    def solve_frames(self, count: int, **terms: Any) -> List[FitResult]:
+        """The controls of `count` frames of a motion, each from the result of the one before.
+
+        terms: as `solve()` has them; joints, points, images and point_weights have a row for each frame. start and
+               stages are for the first frame, and so is the camera, if it may move. Where joints are the only
+               targets, this is faster than calls of `solve()`, and differs from them by rounding.
+        """
+        rows = uint32(count, "count")
+        return self._run(rows, lambda handle, frame, out, results: solver().mien_fit_solve_frames(
+            handle, frame, rows, out.ctypes.data, results), **terms)
+
+    def _run(self, count: int, call: Callable[[Any, Any, Any, Any], int], joints: Any = None,
+             points: Any = None, images: Any = None, camera: Optional[FitCamera] = None,
+             point_weights: Any = None, start: Any = None, prior: Any = None,
+             prior_weight: float = 0, smooth_weight: float = 0, sparse_weight: float = 0,
+             symmetric_weight: float = 0, robust_scale: float = 0, joint_weight: float = 0, rigid: bool = False,
+             max_iterations: int = 0, max_seconds: float = 0, canceled: Any = None,
+             surface: Optional[FitSurface] = None, surface_reach: float = 0, focal: bool = False,
+             constraints: Sequence[FitConstraint] = (), stages: Any = None) -> List[FitResult]:
         kept: List[Any] = []
 
-        def rows(values: Any, count: int, what: str) -> Any:
+        def rows(values: Any, size: int, what: str) -> Any:
             if values is None:
                 return None
             found = numpy.ascontiguousarray(values, "f")
-            if found.size != count:
-                raise ArgumentError(f"{what} has the shape {found.shape}: {count} numbers are needed")
+            if found.size != size:
+                raise ArgumentError(f"{what} has the shape {found.shape}: {size} numbers are needed")
             kept.append(found)
             return found.ctypes.data
         frame = _api.MienFitFrame(
-            joints=rows(joints, self._joint_count, "joints"),
-            points=rows(points, 3 * self._point_count, "points"),
-            images=rows(images, 2 * self._point_count, "images"),
-            point_weights=rows(point_weights, self._point_count, "point_weights"),
+            joints=rows(joints, count * self._joint_count, "joints"),
+            points=rows(points, count * 3 * self._point_count, "points"),
+            images=rows(images, count * 2 * self._point_count, "images"),
+            point_weights=rows(point_weights, count * self._point_count, "point_weights"),
             start=rows(start, self._raw_count, "start"), prior=rows(prior, self._raw_count, "prior"),
             prior_weight=prior_weight, smooth_weight=smooth_weight, sparse_weight=sparse_weight,
             symmetric_weight=symmetric_weight, robust_scale=robust_scale, joint_weight=joint_weight,
@@ -269,52 +294,30 @@ class Fit(Closable):
         raised: List[BaseException] = []
         if canceled is not None:
             def ask(_user: Any) -> int:
+                if raised:
+                    return 1
                 try:
                     return bool(canceled())
                 except BaseException as error:  # comes out of solve()
                     raised.append(error)
                     return 1
             frame.canceled = _canceled_type(ask)
-        out, result = numpy.empty(self._raw_count, "f"), _api.MienFitResult()
+        out, results = numpy.empty((count, self._raw_count), "f"), (_api.MienFitResult * count)()
+        for result in results:
+            result.struct_size = ctypes.sizeof(result)
         with self._alone() as handle:
-            status = solver().mien_fit_solve(handle, _byref(frame), out.ctypes.data, _byref(result))
+            status = call(handle, _byref(frame), out, results)
         if raised:
             raise raised[0]
         if status:
-            fail(status, "cannot solve: points need a fit with points, images a camera, weights are finite "
-                 "and not negative")
-        return FitResult(
-            out, _api._enum(FitStatus, result.status), result.iterations, result.cost, result.joint_residual,
+            fail(status, "cannot solve: points need a fit with points, images a camera, weights are finite and "
+                 "not negative")
+        return [FitResult(
+            row, _api._enum(FitStatus, result.status), result.iterations, result.cost, result.joint_residual,
             result.point_residual, result.joint_worst, result.point_worst, result.missing_points,
             numpy.array(result.rotation, "f").reshape(3, 3), numpy.array(result.translation, "f"),
             numpy.array(result.focal, "f"), result.constraint_residual, result.constraint_worst,
-            bool(result.jumped))
-
-    @raises("mien_fit_solve_frames", but=(Status.NULL_ARGUMENT, Status.HANDLE, Status.INDEX))
-    def solve_joints(self, joints: Any, start: Any = None, prior_weight: float = 0,
-                     smooth_weight: float = 0) -> Any:
-        """The raw controls of a take, float32 (frames, raw controls), from joint values alone: faster than
-        `solve()` for each frame.
-
-        joints: (frames, joints, 9) as `Instance.joints`
-        start:  raw controls to start the first frame from; None: the initial ones
-        """
-        values = numpy.ascontiguousarray(joints, "f")
-        if values.size != len(values) * self._joint_count:
-            raise ArgumentError(f"joints have the shape {values.shape}: {self._joint_count} numbers a frame")
-        frame = _api.MienFitFrame(joints=values.ctypes.data, prior_weight=prior_weight,
-                                  smooth_weight=smooth_weight, canceled=_canceled_type())
-        if start is not None:
-            first = numpy.ascontiguousarray(start, "f").reshape(-1)
-            if first.size != self._raw_count:
-                raise ArgumentError(f"start has {first.size} of {self._raw_count} raw controls")
-            frame.start = first.ctypes.data
-        out = numpy.empty((len(values), self._raw_count), "f")
-        with self._alone() as handle:
-            status = solver().mien_fit_solve_frames(handle, _byref(frame), len(values), out.ctypes.data, None)
-        if status:
-            fail(status, "cannot solve: weights are finite and not negative")
-        return out
+            bool(result.jumped)) for row, result in zip(out, results)]
 
     @property
     @raises("mien_fit_observability", but=(Status.INVALID_ARGUMENT,))

@@ -181,21 +181,46 @@ class Fits(unittest.TestCase):
         with self.assertRaises(mien.Error):
             fit.solve(stages=[0])
 
-    def test_takes_of_joints(self):
+    def test_frames_of_a_motion(self):
         faces = [posed(phase) for phase in (0, 0.1, 0.2)]
         joints = numpy.stack([numpy.array(face.joints, "f").reshape(-1) for face in faces])
         fit = mien.Fit(rig_of())
-        found = fit.solve_joints(joints)
+        found = fit.solve_frames(3, joints=joints)
         start = None
-        for f in range(len(joints)):
+        for f, result in enumerate(found):
             one = fit.solve(joints=joints[f], start=start)
             start = one.controls
-            self.assertLess(abs(found[f] - one.controls).max(), 0.05)
-        self.assertEqual(found.shape, (3, len(start)))
-        with self.assertRaises(mien.Error):
-            fit.solve_joints(joints[:, 1:])
-        with self.assertRaises(mien.Error):
-            fit.solve_joints(joints, start=[0])
+            self.assertLess(abs(result.controls - one.controls).max(), 0.05)
+            self.assertLess(result.joint_residual, one.joint_residual + 0.01)
+        self.assertEqual(fit.solve_frames(0), [])
+        raised = []
+
+        def stop():
+            raised.append(1)
+            raise ZeroDivisionError("zero")
+        with self.assertRaisesRegex(ZeroDivisionError, "zero"):
+            fit.solve_frames(3, joints=joints, canceled=stop)
+        self.assertEqual(len(raised), 1)
+        for count, wrong in ((3, dict(joints=joints[:, 1:])), (2, dict(joints=joints)), (3, dict(joints=joints, start=[0])),
+                             (-1, {}), (3, dict(joints=joints, smooth_weight=-1))):
+            with self.assertRaises(mien.Error, msg=wrong):
+                fit.solve_frames(count, **wrong)
+        with self.assertRaises(TypeError):
+            fit.solve_frames(3, joint=joints)
+
+    def test_frames_of_points(self):
+        deformer = deformer_of()
+        rows = []
+        for phase in (0, 0.2):
+            pose = deformer.instance()
+            pose.update(posed(phase))
+            pose.deform(0)
+            rows.append(numpy.array(pose.positions(0)).reshape(-1, 3))
+        fit = mien.Fit(rig_of(), deformer)
+        first, second = fit.solve_frames(2, points=numpy.stack(rows))
+        one = fit.solve(points=rows[0])
+        self.assertTrue((first.controls == one.controls).all())
+        self.assertTrue((second.controls == fit.solve(points=rows[1], start=one.controls).controls).all())
 
     def test_deformers_of_some_positions(self):
         whole, face = deformer_of(), posed()

@@ -61,6 +61,14 @@ export class Deformer extends Handle {
     });
   }
 
+  /** A deformer of some positions of one mesh, ascending, which keeps the memory of this one. */
+  subset(mesh, positions) {
+    if (!ArrayBuffer.isView(positions) && !Array.isArray(positions)) throw new TypeError("positions is no array of numbers");
+    const { memory } = this;
+    return new Deformer(memory, makeHandle(memory, (out, error, scratch) => memory.exports.mien_deformer_create_subset(
+      this.handle, mesh, scratch.array("u32", positions), positions.length, 0, out, error)));
+  }
+
   get bindMatrices() {
     return this.view("f32", "mien_deformer_bind_matrices");
   }

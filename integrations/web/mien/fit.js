@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Fits: the controls of a rig for captured joints, points, images or surfaces.
 import { Kind, Status } from "./api.js";
+import { checkNumber } from "./checks.js";
 import { errorOf } from "./errors.js";
 import { Handle, makeHandle } from "./handle.js";
 
@@ -43,6 +44,11 @@ function pointOf(point, mesh) {
   const { positions, weights } = point;
   if (!positions || !weights) throw new TypeError("a point is a position, or three of them with their weights");
   return { mesh, positions, weights };
+}
+
+function constraintOf(constraint) {
+  if (typeof constraint !== "object" || constraint === null) throw new TypeError("a constraint is an object");
+  return { weight: 1, ...constraint };
 }
 
 /** A scan, or a mesh of another topology. */
@@ -88,27 +94,43 @@ export class Fit extends Handle {
     this.#pointCount = pointCount;
   }
 
-  solve({ joints, points, images, pointWeights, start, prior, canceled, ...rest }) {
+  solve(frame) {
+    return this.#run(frame, 1, "mien_fit_solve")[0];
+  }
+
+  /** Frames of a motion: targets have a row for each. */
+  solveFrames(frame, count) {
+    checkNumber(count, "u32", "count");
+    return this.#run(frame, count, "mien_fit_solve_frames", count);
+  }
+
+  /** Calls a function with a frame, `numbers`, and room for `count` rows of controls and results. */
+  #run({ joints, points, images, pointWeights, start, prior, stages, constraints, canceled, ...rest }, count, name, ...numbers) {
     const { memory } = this;
     if (canceled !== undefined && typeof canceled !== "function") throw new TypeError("canceled is no function");
     const given = {
       ...rest,
-      joints: counted(joints, this.#jointCount, "joints"), points: counted(points, 3 * this.#pointCount, "points"),
-      images: counted(images, 2 * this.#pointCount, "images"),
-      pointWeights: counted(pointWeights, this.#pointCount, "pointWeights"),
+      joints: counted(joints, count * this.#jointCount, "joints"),
+      points: counted(points, count * 3 * this.#pointCount, "points"),
+      images: counted(images, count * 2 * this.#pointCount, "images"),
+      pointWeights: counted(pointWeights, count * this.#pointCount, "pointWeights"),
       start: counted(start, this.#rawCount, "start"), prior: counted(prior, this.#rawCount, "prior"),
+      stages: counted(stages, this.#rawCount, "stages"),
+      constraints: constraints && Array.from(constraints, constraintOf),
     };
     const user = canceled ? memory.addFunction(canceled) : 0;
     try {
       return memory.withScratch((scratch) => {
         const call = canceled ? { user, canceled: memory.exports.mien_web_canceled_function() } : {};
         const frame = scratch.struct("FitFrame", { ...given, ...call });
-        const controls = scratch.take(4 * this.#rawCount);
-        const result = scratch.out("FitResult");
+        const controls = scratch.take(Math.max(1, count * this.#rawCount) * 4);
+        const results = scratch.outs("FitResult", count);
         const { handle } = this;
         memory.withFunctions(rest.surface ? [this, rest.surface] : [this], () =>
-          memory.check(memory.exports.mien_fit_solve(handle, frame, controls, result), 0, "mien_fit_solve"));
-        return { ...memory.read("FitResult", result), controls: memory.array("f32", controls, this.#rawCount).slice() };
+          memory.check(memory.exports[name](handle, frame, ...numbers, controls, results[0] ?? 0), 0, name));
+        const rows = memory.array("f32", controls, count * this.#rawCount).slice();
+        return results.map((result, i) => (
+          { ...memory.read("FitResult", result), controls: rows.subarray(i * this.#rawCount, (i + 1) * this.#rawCount) }));
       });
     } finally {
       if (user) memory.removeFunction(user);

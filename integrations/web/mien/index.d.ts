@@ -20,7 +20,7 @@ import type {
   TwistSolver, WriteDesc, BakedCheck, AimSolver as AimSolverDesc, BlendMode, CopySolver as CopySolverDesc,
   Generator as GeneratorKind, LayerGroup, LayerSource, MixLayer as MixLayerDesc,
   AuthorBone as AuthorBoneDesc, AuthorDesc, Conformed, ControlError, Placement, ProjectDesc, PruneJointsDesc, PrunedJoints,
-  PrunedTargets, TransplantDesc, FitCamera, FitFrame as FitFrameDesc, FitResult as FitResultDesc,
+  PrunedTargets, TransplantDesc, FitCamera, FitConstraint, FitFrame as FitFrameDesc, FitResult as FitResultDesc,
 } from "./api.js";
 
 export * from "./api.js";
@@ -443,6 +443,10 @@ export interface Deformer extends Handle {
   influences(mesh: number, position: number): { joints: Uint16Array; weights: Float32Array };
   /** A copy of a blend shape target: three floats per position. */
   target(mesh: number, target: number): Float32Array;
+  /** A deformer of some positions of one mesh, ascending: position i of that mesh is `positions[i]` of this one's. It
+   * has no vertices or triangles, all its other meshes are empty, and deforming takes time for the chosen positions
+   * only. Keeps the memory of this deformer, which may be disposed. */
+  subset(mesh: number, positions: Integers): Deformer;
   /** 16 floats per joint, column by column. */
   readonly bindMatrices: Float32Array;
   readonly inverseBindMatrices: Float32Array;
@@ -759,11 +763,13 @@ export interface FitOptions {
 
 /** The targets of a frame, NaN where they are missing, and the weights of the terms, which are left out if 0. At most
  * one of `points`, `images` and `surface` is given. */
-export interface FitFrame extends Omit<FitFrameDesc, "user" | "canceled" | "surface" | "camera"> {
+export interface FitFrame extends Omit<FitFrameDesc, "user" | "canceled" | "surface" | "camera" | "constraintCount" | "constraints"> {
   /** As images were taken. */
   camera?: FitCamera;
   /** In place of `points` and `images`: each point is drawn to the nearest place of the surface. */
   surface?: FitSurface;
+  /** Up to 64, added to all other targets. Their weight is 1 by default. */
+  constraints?: readonly FitConstraint[];
   /** Is called before each iteration; the solve stops if it returns true. What it throws comes out as it is. */
   canceled?: () => boolean | void;
 }
@@ -783,6 +789,12 @@ export const FitSurface: { readonly prototype: FitSurface };
 export interface Fit extends Handle {
   /** Deterministic unless there is a limit of time. */
   solve(frame: FitFrame): FitResult;
+  /** Solves frames of a motion, each from the result of the one before. `joints`, `points`, `images` and
+   * `pointWeights` have a row for each frame, one after the other; all else is for all frames. `start` and `stages` are
+   * for the first frame, and so is `camera`, if it may move. Where joints are the only targets, this is faster than
+   * calls of solve(), and differs from them by rounding. `canceled` is asked in each frame; frames after the one that
+   * it stopped are solved unless it goes on returning true. */
+  solveFrames(frame: FitFrame, count: number): FitResult[];
   /** How well the data determines each raw control at the initial pose, 0 to 1; a copy. */
   readonly observability: Float32Array;
 }

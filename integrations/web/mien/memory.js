@@ -331,6 +331,15 @@ class Scratch {
     return address;
   }
 
+  /** The addresses of several of them, one after the other. */
+  outs(name, count) {
+    const { size, sized } = layouts[name];
+    const first = this.take(Math.max(1, count) * size);
+    const addresses = Array.from({ length: count }, (_, i) => first + i * size);
+    if (sized) for (const address of addresses) this.#memory.data.setUint32(address, size, true);
+    return addresses;
+  }
+
   /** A struct from an object; fields that it does not have are zero. */
   struct(name, values = {}) {
     const address = this.out(name);

@@ -5,7 +5,7 @@ import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { api, Mien } from "./support.mjs";
 
-const { ArgumentError, FitStatus, Kind, Normals, Preset, Status } = api;
+const { ArgumentError, FitConstraintKind, FitStatus, Kind, Normals, Preset, Status } = api;
 let mien, rig, face, target, extent;
 
 before(async () => {
@@ -74,6 +74,137 @@ test("points, images and surfaces", () => {
   const drawn = fit.solve({ surface, surfaceReach: extent, start: face.rawControls.slice() });
   assert.ok(drawn.pointResidual < 1e-3 * extent, `${drawn.pointResidual}`);
   for (const object of [surface, fit]) object.dispose();
+});
+
+test("constraints", () => {
+  const fit = rig.fit({ points: [0, 1] });
+  const pose = rig.deformer.instance();
+  pose.update(face);
+  const placeOf = (matrices, joint) => [...matrices.subarray(16 * joint + 12, 16 * joint + 15)];
+  const rest = rig.deformer.bindMatrices.slice();
+  const there = pose.jointMatrices.slice();
+  const moved = (joint) => Math.hypot(...placeOf(rest, joint).map((value, k) => value - placeOf(there, joint)[k]));
+  const joint = [...Array(rest.length / 16).keys()].reduce((a, b) => (moved(a) > moved(b) ? a : b));
+  const { JOINT_POSITION, JOINT_DIRECTION, JOINT_AIM, POINT_POSITION, POINT_DISTANCE } = FitConstraintKind;
+  const placed = fit.solve({ constraints: [{ kind: JOINT_POSITION, joint, target: placeOf(there, joint) }], maxIterations: 200 });
+  assert.ok(placed.constraintWorst < 0.05 * moved(joint), `${placed.constraintWorst} of ${moved(joint)}`);
+  // What the neutral pose has already.
+  const direction = [...rest.subarray(16 * joint + 8, 16 * joint + 11)];
+  const axis = [0, 0, 1];
+  const kept = fit.solve({ constraints: [
+    { kind: JOINT_DIRECTION, joint, axis, target: direction },
+    { kind: JOINT_AIM, joint, axis, target: placeOf(rest, joint).map((value, k) => value + direction[k]) },
+    { kind: POINT_POSITION, points: [0, 0], target: [...rig.deformer.mesh(0).positions.subarray(0, 3)] },
+    { kind: POINT_DISTANCE, points: [0, 1], distances: [0, 1e6], weight: 2 },
+  ] });
+  assert.ok(kept.constraintWorst < 1e-3 && kept.controls.every((value) => Math.abs(value) < 0.01));
+  const missing = [{ kind: JOINT_POSITION, joint, target: [NaN, 0, 0] }];
+  assert.equal(fit.solve({ constraints: missing }).status, FitStatus.NO_DATA);
+
+  const good = { kind: JOINT_POSITION, joint, target: [0, 0, 0] };
+  for (const [status, constraint] of [
+    [Status.INDEX, { ...good, joint: 1e6 }], [Status.INDEX, { kind: POINT_POSITION, points: [2, 0] }],
+    [Status.INDEX, { kind: POINT_DISTANCE, points: [0, 2] }], [Status.INVALID_ARGUMENT, { ...good, kind: 77 }],
+    [Status.INVALID_ARGUMENT, { ...good, weight: -1 }], [Status.INVALID_ARGUMENT, { ...good, weight: NaN }],
+    [Status.INVALID_ARGUMENT, { kind: JOINT_AIM, joint, axis: [0, 0, 0] }],
+    [Status.INVALID_ARGUMENT, { kind: POINT_DISTANCE, points: [0, 1], distances: [2, 1] }],
+  ]) fails(status, () => fit.solve({ constraints: [constraint] }));
+  fails(Status.INVALID_ARGUMENT, () => fit.solve({ constraints: Array(65).fill(good) }));
+  for (const wrong of [null, 5, { joints: 1 }, { target: [1] }, { joint: -1 }, { joint: "jaw" }, { points: [0, 0.5] }]) {
+    assert.throws(() => fit.solve({ constraints: [wrong] }), (error) => error instanceof TypeError || error instanceof RangeError);
+  }
+  assert.throws(() => fit.solve({ constraints: [good], constraintCount: 2 }), RangeError);
+  const bare = rig.fit();
+  fails(Status.NULL_ARGUMENT, () => bare.solve({ constraints: [good] }));
+  for (const object of [pose, fit, bare]) object.dispose();
+});
+
+test("stages", () => {
+  const fit = rig.fit();
+  const joints = face.joints.slice();
+  const stages = Array.from(face.rawControls, (_, i) => i % 4);
+  // The limit is that of each stage.
+  assert.equal(fit.solve({ joints, maxIterations: 1 }).iterations, 1);
+  assert.ok(fit.solve({ joints, maxIterations: 1, stages }).iterations > 1);
+  // All that moved is in the first one, so the others have nothing to explain.
+  const { controls } = fit.solve({ joints, stages: new Uint32Array(stages) });
+  assert.ok(controls[0] > 0.3 && controls.every((value, i) => i % 4 === 0 || value < 0.01));
+  for (const wrong of [[], [0], stages.map(() => 16)]) fails(Status.INVALID_ARGUMENT, () => fit.solve({ joints, stages: wrong }));
+  assert.throws(() => fit.solve({ joints, stages: stages.map(() => 0.5) }), RangeError);
+  assert.throws(() => fit.solve({ joints, stages: 1 }), TypeError);
+  fit.dispose();
+});
+
+test("frames of a motion", () => {
+  const count = 6;
+  const own = rig.instance();
+  const rows = Array.from({ length: count }, (_, f) => {
+    own.rawControls.forEach((_, i, controls) => { controls[i] = i % 4 ? 0 : 0.4 * f / count; });
+    own.evaluate();
+    return { joints: own.joints.slice(), controls: own.rawControls.slice() };
+  });
+  const joints = new Float32Array(rows.flatMap((row) => [...row.joints]));
+  const fit = rig.fit();
+  const { observability } = fit;
+  const results = fit.solveFrames({ joints, maxIterations: 200 }, count);
+  assert.equal(results.length, count);
+  results.forEach(({ controls, jointResidual }, f) => {
+    assert.ok(jointResidual < 0.01 && controls.length === observability.length);
+    controls.forEach((value, i) => assert.ok(observability[i] < 0.05 || Math.abs(value - rows[f].controls[i]) < 0.01, `${f} ${i}`));
+  });
+  assert.deepEqual(fit.solveFrames({}, 0), []);
+  let asked = 0;
+  const stopped = fit.solveFrames({ joints, canceled: () => ++asked > 2 }, count);
+  assert.equal(stopped.at(-1).status, FitStatus.CANCELED);
+  assert.deepEqual(stopped.at(-1).controls, stopped.at(-2).controls);
+  asked = 0;
+  assert.throws(() => fit.solveFrames({ joints, canceled() { ++asked; throw new Error("stop"); } }, count), /stop/);
+  assert.equal(asked, 1);
+
+  fails(Status.INVALID_ARGUMENT, () => fit.solveFrames({ joints }, count - 1));
+  fails(Status.INVALID_ARGUMENT, () => fit.solveFrames({ joints: rows[0].joints }, 2));
+  fails(Status.INVALID_ARGUMENT, () => fit.solveFrames({ joints, start: joints }, count));
+  for (const wrong of [undefined, "2", -1, 0.5, NaN, 2 ** 40, 4e9]) {
+    assert.throws(() => fit.solveFrames({}, wrong), (error) => error instanceof TypeError || error instanceof RangeError, String(wrong));
+  }
+  fit.dispose();
+  fails(Status.HANDLE, () => fit.solveFrames({ joints }, count));
+  own.dispose();
+});
+
+test("a part of a mesh", async () => {
+  const chosen = everyPoint().filter((i) => i % 7 === 0);
+  const part = rig.deformer.subset(0, chosen);
+  assert.equal(part.mesh(0).positionCount, chosen.length);
+  assert.equal(part.mesh(0).triangles.length, 0);
+  const nested = part.subset(0, [1]);
+  part.dispose();
+  const pose = nested.instance();
+  nested.dispose();
+  pose.update(face);
+  pose.deform(0, Normals.NONE);
+  assert.deepEqual([...pose.positions(0)], [...target.subarray(21, 24)]);
+  pose.dispose();
+
+  const { deformer } = rig;
+  fails(Status.INDEX, () => deformer.subset(99, [0]));
+  fails(Status.INDEX, () => deformer.subset(0, [target.length]));
+  for (const wrong of [[3, 1], [3, 3]]) fails(Status.INVALID_ARGUMENT, () => deformer.subset(0, wrong));
+  for (const wrong of [null, 5, ["1"], [0.5], [-1]]) {
+    assert.throws(() => deformer.subset(0, wrong), (error) => error instanceof TypeError || error instanceof RangeError);
+  }
+  assert.throws(() => deformer.subset("0", [0]), TypeError);
+  fails(Status.HANDLE, () => part.subset(0, [0]));
+  // An object of another module.
+  const other = await Mien.load();
+  const dna = other.generate(Preset.TINY);
+  const foreign = other.createRig(dna);
+  assert.throws(() => foreign.fit({ deformer, points: [0] }), /of another module/);
+  const surface = other.createFitSurface([0, 0, 0, 1, 0, 0, 0, 1, 0], [0, 1, 2]);
+  const fit = rig.fit({ points: [0] });
+  assert.throws(() => fit.solve({ surface }), /of another module/);
+  assert.throws(() => fit.solveFrames({ surface }, 2), /of another module/);
+  for (const object of [fit, surface, foreign, dna]) object.dispose();
 });
 
 test("controls are given by name in any order, each with its bounds", () => {

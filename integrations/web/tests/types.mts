@@ -2,10 +2,10 @@
 // What users write, compiled with every check of TypeScript and never run. Lines below @ts-expect-error must not
 // compile.
 import {
-  AuthorFlags, BlendMode, BoneKind, DnaError, FitStatus, Generator, Guard, Isa, Kind, LayerGroup, MeshAxis, Mien, MienError, Mixer, MixLayer,
+  AuthorFlags, BlendMode, BoneKind, DnaError, FitConstraintKind, FitStatus, Generator, Guard, Isa, Kind, LayerGroup, MeshAxis, Mien, MienError, Mixer, MixLayer,
   Normals, Preset, Stage, Symmetry, TICKS_PER_SECOND, ticks,
 } from "mien";
-import type { Clip, Mesh, Mix, MixerEvent, Reaction, Rig, RigInfo } from "mien";
+import type { Clip, Deformer, FitConstraint, Mesh, Mix, MixerEvent, Reaction, Rig, RigInfo } from "mien";
 import { FaceObject, GltfFace } from "mien/three";
 import { MeshBasicMaterial, PerspectiveCamera, Scene } from "three";
 
@@ -90,6 +90,12 @@ export function solving(mien: Mien, rig: Rig): number {
   using surface = mien.createFitSurface(new Float32Array(9), [0, 1, 2]);
   const { controls, status, rotation } = fit.solve({ surface, rigid: true, canceled: () => false });
   fit.solve({ images: [1, 2, 3, 4], camera: { focal: [1, 1] }, start: controls });
+  const gaze: FitConstraint = { kind: FitConstraintKind.JOINT_AIM, joint: 2, axis: [0, 0, 1], target: [0, 0, 99] };
+  const take = fit.solveFrames({ joints: new Float32Array(90), constraints: [gaze], stages: new Uint32Array(9) }, 10);
+  using part: Deformer | undefined = rig.deformer?.subset(0, [1, 2, 3]);
+  console.log(take[0]?.jumped, part?.info.meshCount);
+  // @ts-expect-error: how many frames
+  fit.solveFrames({ joints: [] });
   if (status === FitStatus.CONVERGED) rig.instance().rawControls.set(controls);
   // @ts-expect-error: a misspelled option
   rig.fit({ point: [1] });

@@ -142,7 +142,7 @@ impl Baked {
                 )
             })
         })?;
-        DeformerOptions::adopt(self.allocator.as_ref(), handle, rig)
+        DeformerOptions::adopt(self.allocator.as_ref(), handle, rig, None)
     }
 }
 

@@ -43,6 +43,8 @@ struct Shared {
     info: DeformerInfo,
     // Released after the handle. The deformer uses the memory of the rig, hence its allocator.
     rig: Rig,
+    // A subset uses the memory of the deformer that it was made of.
+    _whole: Option<Deformer>,
     _allocator: Option<Allocator>,
 }
 
@@ -99,6 +101,47 @@ impl Deformer {
     #[doc = errors!(mien_deformer_instance_create)]
     pub fn instance(&self) -> Result<DeformerInstance> {
         DeformerInstance::new(self)
+    }
+
+    /// A deformer of some positions of one mesh, ascending: position i of that mesh is `positions[i]` of this one's.
+    ///
+    /// It has no vertices or triangles, and all other meshes are empty. Deformed positions have the bits of the whole
+    /// mesh (with 16-bit storage they may be rounded otherwise), and take time for the chosen ones only. It keeps the
+    /// memory of this deformer.
+    ///
+    /// # Errors
+    ///
+    #[doc = errors!(mien_deformer_create_subset)]
+    pub fn subset(&self, mesh: usize, positions: &[u32]) -> Result<Self> {
+        self.create_subset(mesh, positions, None)
+    }
+
+    /// The same in memory of your own.
+    ///
+    /// # Errors
+    ///
+    #[doc = errors!(mien_deformer_create_subset)]
+    pub fn subset_in(&self, mesh: usize, positions: &[u32], allocator: &Allocator) -> Result<Self> {
+        self.create_subset(mesh, positions, Some(allocator))
+    }
+
+    fn create_subset(
+        &self,
+        mesh: usize,
+        positions: &[u32],
+        allocator: Option<&Allocator>,
+    ) -> Result<Self> {
+        let mut handle = null_mut();
+        let (data, count) = (positions.as_ptr(), positions.len());
+        Allocator::with(allocator, |allocator| {
+            let (whole, mesh) = (self.raw(), index(mesh));
+            // SAFETY: a live handle, and positions with their count.
+            checked(|error| unsafe {
+                let out = &mut handle;
+                sys::mien_deformer_create_subset(whole, mesh, data, count, allocator, out, error)
+            })
+        })?;
+        DeformerOptions::adopt(allocator, handle, self.rig(), Some(self))
     }
 
     pub(crate) fn raw(&self) -> *const sys::MienDeformer {
@@ -314,7 +357,7 @@ impl DeformerOptions {
                 sys::mien_deformer_create(dna.raw(), rig.raw(), &desc, &mut handle, error)
             })
         })?;
-        Self::adopt(self.allocator.as_ref(), handle, rig)
+        Self::adopt(self.allocator.as_ref(), handle, rig, None)
     }
 
     /// Makes a deformer of what `create` gave.
@@ -322,13 +365,15 @@ impl DeformerOptions {
         allocator: Option<&Allocator>,
         handle: *mut sys::MienDeformer,
         rig: &Rig,
+        whole: Option<&Deformer>,
     ) -> Result<Deformer> {
         let handle = NonNull::new(handle).expect("a handle after success");
         let mut info = sys::MienDeformerInfo::default();
         // SAFETY: a live handle and a sized struct.
         let status = unsafe { sys::mien_deformer_info(handle.as_ptr(), &mut info) };
         let (info, rig) = (info.into(), rig.clone());
-        let shared = Shared { handle, info, rig, _allocator: allocator.cloned() };
+        let (_whole, _allocator) = (whole.cloned(), allocator.cloned());
+        let shared = Shared { handle, info, rig, _whole, _allocator };
         let deformer = Deformer { shared: Arc::new(shared) };
         check(status).map(|()| deformer)
     }

@@ -3,7 +3,7 @@
 
 use crate::convert::index;
 use crate::error::{check, checked};
-use crate::{Allocator, Deformer, Error, FitStatus, Kind, Result, Rig, Status};
+use crate::{Allocator, Deformer, Error, FitConstraintKind, FitStatus, Kind, Result, Rig, Status};
 use mien_sys as sys;
 use std::any::Any;
 use std::os::raw::c_void;
@@ -77,6 +77,95 @@ impl FitCamera {
     }
 }
 
+/// What a joint or a point of a frame is drawn to besides the other targets. Places and directions are in model
+/// space, before the motion of [`FitFrame::rigid`]; one of NaN is missing.
+///
+/// The functions below make one of each kind, of weight 1. Kinds with joints need [`FitOptions::deformer`].
+///
+/// ```
+/// use mien::FitConstraint;
+/// let gaze = FitConstraint::joint_aim(3, [0.0, 0.0, 1.0], [10.0, 160.0, 100.0]);
+/// let closed_lips = FitConstraint { weight: 50.0, ..FitConstraint::point_distance([0, 1], [0.0, 0.0]) };
+/// # let _ = (gaze, closed_lips);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FitConstraint {
+    /// What the other fields mean.
+    pub kind: FitConstraintKind,
+    /// Of the rig.
+    pub joint: usize,
+    /// Places in [`FitOptions::points`].
+    pub points: [usize; 2],
+    /// In the axes of the joint, of any length but 0.
+    pub axis: [f32; 3],
+    /// A place, or a direction of any length but 0.
+    pub target: [f32; 3],
+    /// The smallest and the largest distance that cost nothing.
+    pub distances: [f32; 2],
+    /// Times the squared residual: of a length in the unit of the rig, or of the difference of directions of
+    /// length 1. 0 or more.
+    pub weight: f32,
+}
+
+impl FitConstraint {
+    /// A frame has at most so many.
+    pub const MOST: usize = 64;
+
+    const fn of(kind: FitConstraintKind) -> Self {
+        Self {
+            kind,
+            joint: 0,
+            points: [0; 2],
+            axis: [0.0; 3],
+            target: [0.0; 3],
+            distances: [0.0; 2],
+            weight: 1.0,
+        }
+    }
+
+    /// A joint is at a place: where the jaw is.
+    #[must_use]
+    pub const fn joint_position(joint: usize, place: [f32; 3]) -> Self {
+        Self { joint, target: place, ..Self::of(FitConstraintKind::JOINT_POSITION) }
+    }
+
+    /// An axis of a joint has a direction: an eye's gaze.
+    #[must_use]
+    pub const fn joint_direction(joint: usize, axis: [f32; 3], direction: [f32; 3]) -> Self {
+        Self { joint, axis, target: direction, ..Self::of(FitConstraintKind::JOINT_DIRECTION) }
+    }
+
+    /// An axis of a joint points at a place.
+    #[must_use]
+    pub const fn joint_aim(joint: usize, axis: [f32; 3], place: [f32; 3]) -> Self {
+        Self { joint, axis, target: place, ..Self::of(FitConstraintKind::JOINT_AIM) }
+    }
+
+    /// A point is at a place.
+    #[must_use]
+    pub const fn point_position(point: usize, place: [f32; 3]) -> Self {
+        Self { points: [point, 0], target: place, ..Self::of(FitConstraintKind::POINT_POSITION) }
+    }
+
+    /// Two points are from `distances[0]` to `distances[1]` apart: 0 and 0 where lips touch.
+    #[must_use]
+    pub const fn point_distance(points: [usize; 2], distances: [f32; 2]) -> Self {
+        Self { points, distances, ..Self::of(FitConstraintKind::POINT_DISTANCE) }
+    }
+
+    fn raw(&self) -> sys::MienFitConstraint {
+        sys::MienFitConstraint {
+            kind: self.kind.0,
+            joint: index(self.joint),
+            points: self.points.map(index),
+            axis: self.axis,
+            target: self.target,
+            distances: self.distances,
+            weight: self.weight,
+        }
+    }
+}
+
 /// The targets of a frame, and the weights of the terms; terms of weight 0 are left out. A target of NaN is
 /// missing.
 ///
@@ -122,6 +211,12 @@ pub struct FitFrame<'a> {
     pub surface: Option<&'a FitSurface>,
     /// Points farther from the surface have no target; 0: no limit.
     pub surface_reach: f32,
+    /// Up to [`FitConstraint::MOST`], added to all other targets.
+    pub constraints: &'a [FitConstraint],
+    /// For each raw control 0 to 15: the solve begins with the controls of stage 0 alone, then those of stage 1 move
+    /// too, and so on, as jaw and eyes before the rest. Each stage may take `max_iterations`. `None`: all move from
+    /// the start.
+    pub stages: Option<&'a [u32]>,
 }
 
 /// The result of a solve.
@@ -150,6 +245,33 @@ pub struct FitResult {
     pub translation: [f32; 3],
     /// Of the camera, with images; else 0.
     pub focal: [f32; 2],
+    /// Weighted root mean square of the residuals of constraints.
+    pub constraint_residual: f64,
+    /// Largest residual of a constraint that counts.
+    pub constraint_worst: f64,
+    /// Joint values or points moved farther from where they are at `start` than their targets ask for.
+    pub jumped: bool,
+}
+
+impl From<sys::MienFitResult> for FitResult {
+    fn from(result: sys::MienFitResult) -> Self {
+        Self {
+            status: FitStatus(result.status),
+            iterations: result.iterations,
+            cost: result.cost,
+            joint_residual: result.joint_residual,
+            point_residual: result.point_residual,
+            joint_worst: result.joint_worst,
+            point_worst: result.point_worst,
+            missing_points: result.missing_points as usize,
+            rotation: result.rotation,
+            translation: result.translation,
+            focal: result.focal,
+            constraint_residual: result.constraint_residual,
+            constraint_worst: result.constraint_worst,
+            jumped: result.jumped != 0,
+        }
+    }
 }
 
 /// A surface without correspondences: a scan, or a mesh of another topology. Immutable.
@@ -264,14 +386,31 @@ struct Canceled<C> {
 ///
 /// `user` is a `Canceled<C>` that nothing else uses.
 unsafe extern "C" fn canceled<C: FnMut() -> bool>(user: *mut c_void) -> u32 {
-    // SAFETY: as above; the library hands back what solve_until() gave it.
+    // SAFETY: as above; the library hands back what until() gave it.
     let canceled = unsafe { &mut *user.cast::<Canceled<C>>() };
+    if canceled.panic.is_some() {
+        return 1; // of a frame before
+    }
     match catch_unwind(AssertUnwindSafe(|| (canceled.ask)())) {
         Ok(stop) => stop.into(),
         Err(panic) => {
             canceled.panic = Some(panic);
             1
         }
+    }
+}
+
+/// A function that asks whether to stop, with what it is given.
+type Stop = (*mut c_void, Option<unsafe extern "C" fn(*mut c_void) -> u32>);
+
+/// Calls `run` with a function that asks `stop`, whose panic comes out afterwards.
+fn until<C: FnMut() -> bool, T>(stop: C, run: impl FnOnce(Stop) -> Result<T>) -> Result<T> {
+    let mut asked = Canceled { ask: stop, panic: None };
+    let user = (&mut asked as *mut Canceled<C>).cast();
+    let result = run((user, Some(canceled::<C>)));
+    match asked.panic {
+        Some(panic) => resume_unwind(panic),
+        None => result,
     }
 }
 
@@ -315,7 +454,7 @@ impl Fit {
     ///
     #[doc = errors!(mien_fit_solve)]
     pub fn solve(&mut self, frame: &FitFrame<'_>, out: &mut [f32]) -> Result<FitResult> {
-        self.run(frame, out, null_mut(), None)
+        self.solve_one(frame, out, (null_mut(), None))
     }
 
     /// The same, until `stop` returns true: it is asked before each iteration.
@@ -329,74 +468,115 @@ impl Fit {
         out: &mut [f32],
         stop: C,
     ) -> Result<FitResult> {
-        let mut asked = Canceled { ask: stop, panic: None };
-        let user = (&mut asked as *mut Canceled<C>).cast();
-        let result = self.run(frame, out, user, Some(canceled::<C>));
-        match asked.panic {
-            Some(panic) => resume_unwind(panic),
-            None => result,
-        }
+        until(stop, |stop| self.solve_one(frame, out, stop))
     }
 
-    fn run(
+    /// Solves `count` frames of a motion, each from the result of the one before.
+    ///
+    /// `joints`, `points`, `images` and `point_weights` of `frame` have a row for each frame, one after the other; all
+    /// else is for all frames. `start` and `stages` are for the first frame, and so is `camera`, if it may move. `out`
+    /// gets a row of all raw controls for each frame. Where joints are the only targets, this is faster than calls of
+    /// [`solve`](Self::solve), and differs from them by rounding.
+    ///
+    /// ```
+    /// use mien::{Dna, Fit, FitFrame, Preset, Rig};
+    /// let rig = Rig::new(&Dna::generate(Preset::SMALL)?)?;
+    /// let mut face = rig.instance()?;
+    /// let count = face.raw_controls().len();
+    /// let mut joints = Vec::new();
+    /// for f in 0..10 {
+    ///     face.raw_controls_mut()[3] = 0.05 * f as f32;
+    ///     face.evaluate(0)?;
+    ///     joints.extend_from_slice(face.joints());
+    /// }
+    /// let mut raw = vec![0.0; 10 * count];
+    /// let frames = FitFrame { joints: Some(&joints), ..Default::default() };
+    /// Fit::new(&rig)?.solve_frames(&frames, 10, &mut raw)?;
+    /// assert!((raw[9 * count + 3] - 0.45).abs() < 0.01);
+    /// # Ok::<(), mien::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    #[doc = errors!(mien_fit_solve_frames)]
+    pub fn solve_frames(
+        &mut self,
+        frame: &FitFrame<'_>,
+        count: usize,
+        out: &mut [f32],
+    ) -> Result<Vec<FitResult>> {
+        self.solve_all(frame, count, out, (null_mut(), None))
+    }
+
+    /// The same, until `stop` returns true: it is asked before each iteration of each frame, so once it returns true
+    /// it has to go on doing so. Frames after that keep the controls of the one before.
+    ///
+    /// # Errors
+    ///
+    #[doc = errors!(mien_fit_solve_frames)]
+    pub fn solve_frames_until<C: FnMut() -> bool>(
+        &mut self,
+        frame: &FitFrame<'_>,
+        count: usize,
+        out: &mut [f32],
+        stop: C,
+    ) -> Result<Vec<FitResult>> {
+        until(stop, |stop| self.solve_all(frame, count, out, stop))
+    }
+
+    fn solve_one(
         &mut self,
         frame: &FitFrame<'_>,
         out: &mut [f32],
-        user: *mut c_void,
-        canceled: Option<unsafe extern "C" fn(*mut c_void) -> u32>,
+        stop: Stop,
     ) -> Result<FitResult> {
-        let raw = self.raw_count;
-        check_length(frame.joints, self.rig.info().joint_value_count, "joints: not all values")?;
-        check_length(frame.points, self.point_count, "points: not one for each point")?;
-        check_length(frame.images, self.point_count, "images: not one for each point")?;
-        check_length(frame.point_weights, self.point_count, "point_weights: not one per point")?;
+        self.check_lengths(frame, 1, out)?;
+        let mut result = sys::MienFitResult::default();
+        frame.with_raw(stop, |given| {
+            // SAFETY: a live handle that nobody else uses, sized structs, and arrays of the lengths of the rig and of
+            // the points, as checked above.
+            check(unsafe {
+                sys::mien_fit_solve(self.handle.as_ptr(), given, out.as_mut_ptr(), &mut result)
+            })
+        })?;
+        Ok(result.into())
+    }
+
+    fn solve_all(
+        &mut self,
+        frame: &FitFrame<'_>,
+        count: usize,
+        out: &mut [f32],
+        stop: Stop,
+    ) -> Result<Vec<FitResult>> {
+        self.check_lengths(frame, count, out)?;
+        let mut results = vec![sys::MienFitResult::default(); count];
+        frame.with_raw(stop, |given| {
+            let handle = self.handle.as_ptr();
+            let (out, results) = (out.as_mut_ptr(), results.as_mut_ptr());
+            // SAFETY: the same, with a row of each array and a result for each frame.
+            check(unsafe { sys::mien_fit_solve_frames(handle, given, count, out, results) })
+        })?;
+        Ok(results.into_iter().map(FitResult::from).collect())
+    }
+
+    /// Whether all arrays have the lengths that the library reads and writes, for `count` frames.
+    fn check_lengths(&self, frame: &FitFrame<'_>, count: usize, out: &[f32]) -> Result<()> {
+        let (raw, points) = (self.raw_count, self.point_count);
+        let rows = |width: usize| {
+            count.checked_mul(width).ok_or_else(|| {
+                Error::new(Status::INVALID_ARGUMENT, "count: more numbers than there can be")
+            })
+        };
+        let values = rows(self.rig.info().joint_value_count)?;
+        check_length(frame.joints, values, "joints: not all values")?;
+        check_length(frame.points, rows(points)?, "points: not one for each point")?;
+        check_length(frame.images, rows(points)?, "images: not one for each point")?;
+        check_length(frame.point_weights, rows(points)?, "point_weights: not one per point")?;
         check_length(frame.start, raw, "start: not all raw controls")?;
         check_length(frame.prior, raw, "prior: not all raw controls")?;
-        check_length(Some(&*out), raw, "out: not room for all raw controls")?;
-        let camera = frame.camera.map(FitCamera::raw);
-        let given = sys::MienFitFrame {
-            joints: pointer(frame.joints),
-            points: pointer(frame.points),
-            images: pointer(frame.images),
-            camera: camera.as_ref().map_or(null(), |camera| camera),
-            point_weights: pointer(frame.point_weights),
-            start: pointer(frame.start),
-            prior: pointer(frame.prior),
-            prior_weight: frame.prior_weight,
-            smooth_weight: frame.smooth_weight,
-            sparse_weight: frame.sparse_weight,
-            symmetric_weight: frame.symmetric_weight,
-            robust_scale: frame.robust_scale,
-            joint_weight: frame.joint_weight,
-            rigid: frame.rigid.into(),
-            max_iterations: frame.max_iterations,
-            max_seconds: frame.max_seconds,
-            user,
-            canceled,
-            surface: frame.surface.map_or(null(), |surface| surface.handle.as_ptr()),
-            surface_reach: frame.surface_reach,
-            focal: frame.focal.into(),
-            ..Default::default()
-        };
-        let mut result = sys::MienFitResult::default();
-        // SAFETY: a live handle that nobody else uses, sized structs, and arrays of the lengths of the rig
-        // and of the points, as checked above.
-        check(unsafe {
-            sys::mien_fit_solve(self.handle.as_ptr(), &given, out.as_mut_ptr(), &mut result)
-        })?;
-        Ok(FitResult {
-            status: FitStatus(result.status),
-            iterations: result.iterations,
-            cost: result.cost,
-            joint_residual: result.joint_residual,
-            point_residual: result.point_residual,
-            joint_worst: result.joint_worst,
-            point_worst: result.point_worst,
-            missing_points: result.missing_points as usize,
-            rotation: result.rotation,
-            translation: result.translation,
-            focal: result.focal,
-        })
+        check_length(frame.stages, raw, "stages: not one for each raw control")?;
+        check_length(Some(out), rows(raw)?, "out: not room for all raw controls")
     }
 
     /// How well the data determines each raw control at the initial pose: 0 if it moves nothing that has a
@@ -412,6 +592,51 @@ impl Fit {
             sys::mien_fit_observability(self.handle.as_ptr(), out.as_mut_ptr(), out.len())
         })?;
         Ok(out)
+    }
+}
+
+impl FitFrame<'_> {
+    /// Calls `run` with the struct of the library, which does not allocate.
+    fn with_raw(
+        &self,
+        (user, canceled): Stop,
+        run: impl FnOnce(&sys::MienFitFrame) -> Result<()>,
+    ) -> Result<()> {
+        let mut constraints = [sys::MienFitConstraint::default(); FitConstraint::MOST];
+        if self.constraints.len() > constraints.len() {
+            return Err(Error::new(Status::INVALID_ARGUMENT, "constraints: more than 64"));
+        }
+        for (to, constraint) in constraints.iter_mut().zip(self.constraints) {
+            *to = constraint.raw();
+        }
+        let camera = self.camera.map(FitCamera::raw);
+        run(&sys::MienFitFrame {
+            joints: pointer(self.joints),
+            points: pointer(self.points),
+            images: pointer(self.images),
+            camera: camera.as_ref().map_or(null(), |camera| camera),
+            point_weights: pointer(self.point_weights),
+            start: pointer(self.start),
+            prior: pointer(self.prior),
+            prior_weight: self.prior_weight,
+            smooth_weight: self.smooth_weight,
+            sparse_weight: self.sparse_weight,
+            symmetric_weight: self.symmetric_weight,
+            robust_scale: self.robust_scale,
+            joint_weight: self.joint_weight,
+            rigid: self.rigid.into(),
+            max_iterations: self.max_iterations,
+            max_seconds: self.max_seconds,
+            user,
+            canceled,
+            surface: self.surface.map_or(null(), |surface| surface.handle.as_ptr()),
+            surface_reach: self.surface_reach,
+            focal: self.focal.into(),
+            constraint_count: self.constraints.len(),
+            constraints: constraints.as_ptr(),
+            stages: pointer(self.stages),
+            ..Default::default()
+        })
     }
 }
 

@@ -87,7 +87,10 @@ pub use deformer_instance::{DeformerInstance, DeformerInstanceOptions};
 pub use dna::{Dna, GenerateOptions, OpenOptions, WriteOptions};
 pub use document::{ControlError, Document, Placement, ProjectOptions};
 pub use error::{Error, Result};
-pub use fit::{reduce_keys, Fit, FitCamera, FitFrame, FitOptions, FitPoint, FitResult, FitSurface};
+pub use fit::{
+    reduce_keys, Fit, FitCamera, FitConstraint, FitFrame, FitOptions, FitPoint, FitResult,
+    FitSurface,
+};
 pub use generated::*;
 pub use instance::Instance;
 pub use mix::{

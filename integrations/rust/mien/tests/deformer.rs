@@ -28,6 +28,10 @@ fn bits(rows: &[[f32; 3]]) -> Vec<u32> {
     rows.iter().flatten().map(|value| value.to_bits()).collect()
 }
 
+fn fails<T>(status: Status, result: mien::Result<T>) {
+    assert_eq!(result.err().map(|error| error.status()), Some(status));
+}
+
 /// Positions and normals of a mesh.
 fn bytes_of(words: &mut [u32]) -> &mut [u8] {
     let count = std::mem::size_of_val(words);
@@ -187,6 +191,34 @@ fn poses_follow_their_instance() {
     drop(deformer);
     drop(instance);
     pose.deform(0, Normals::SKINNED).unwrap();
+}
+
+#[test]
+fn a_subset_has_the_bits_of_the_whole_mesh() {
+    let Face { deformer, instance } = face(Preset::SMALL);
+    let count = deformer.mesh(0).unwrap().positions.len() as u32;
+    let chosen: Vec<u32> = (0..count).step_by(7).collect();
+    let deformed = |deformer: &Deformer| {
+        let mut pose = deformer.instance().unwrap();
+        pose.update(&instance).unwrap();
+        pose.deform(0, Normals::NONE).unwrap();
+        pose.positions(0).unwrap().to_vec()
+    };
+    let whole = deformed(&deformer);
+    let memory = mien::Allocator::new(std::alloc::System);
+    let subset = deformer.subset_in(0, &chosen, &memory).unwrap();
+    let nested = deformer.subset(0, &[0, 7, 14]).unwrap().subset(0, &[1]).unwrap();
+    fails(Status::INDEX, deformer.subset(99, &[0]));
+    fails(Status::INDEX, deformer.subset(usize::MAX, &[0]));
+    fails(Status::INDEX, deformer.subset(0, &[count]));
+    fails(Status::INVALID_ARGUMENT, deformer.subset(0, &[3, 1]));
+    fails(Status::INVALID_ARGUMENT, deformer.subset(0, &[3, 3]));
+    drop((deformer, memory)); // the subsets keep what they need
+    let wanted: Vec<[f32; 3]> = chosen.iter().map(|p| whole[*p as usize]).collect();
+    assert_eq!(bits(&deformed(&subset)), bits(&wanted));
+    assert_eq!(bits(&deformed(&nested)), bits(&whole[7..8]));
+    let mesh = subset.mesh(0).unwrap();
+    assert!(mesh.triangles.is_empty() && mesh.positions.len() == chosen.len());
 }
 
 #[test]

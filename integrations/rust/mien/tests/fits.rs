@@ -2,8 +2,9 @@
 //! Fits: known controls come back; wrong arguments are errors; any order of drops, threads, panics.
 
 use mien::{
-    reduce_keys, Allocator, Deformer, Dna, Fit, FitCamera, FitFrame, FitOptions, FitPoint,
-    FitStatus, FitSurface, Instance, Kind, Normals, Preset, Rig, Status,
+    reduce_keys, Allocator, Deformer, Dna, Fit, FitCamera, FitConstraint, FitConstraintKind,
+    FitFrame, FitOptions, FitPoint, FitStatus, FitSurface, Instance, Kind, Normals, Preset, Rig,
+    Status,
 };
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::panic::{catch_unwind, AssertUnwindSafe};
@@ -116,6 +117,169 @@ fn points_and_images_and_surfaces() {
     };
     let result = fit.solve(&frame, &mut found).unwrap();
     assert!(result.point_residual < 1e-3 * size, "{}", result.point_residual);
+}
+
+/// Joint values of frames, one after the other, with the controls that gave them.
+fn motion(rig: &Rig, frames: usize) -> (Vec<f32>, Vec<f32>) {
+    let mut face = rig.instance().unwrap();
+    let (mut joints, mut controls) = (Vec::new(), Vec::new());
+    for f in 0..frames {
+        for (i, value) in face.raw_controls_mut().iter_mut().enumerate() {
+            *value = if i % 4 == 0 { 0.4 * f as f32 / frames as f32 } else { 0.0 };
+        }
+        face.evaluate(0).unwrap();
+        joints.extend_from_slice(face.joints());
+        controls.extend_from_slice(face.raw_controls());
+    }
+    (joints, controls)
+}
+
+#[test]
+fn constraints_move_joints_and_points() {
+    let (rig, deformer) = made();
+    let face = posed(&rig);
+    let mut pose = deformer.instance().unwrap();
+    pose.update(&face).unwrap();
+    // The joint that moved farthest, and where it is.
+    let place = |m: &[f32; 16]| [m[12], m[13], m[14]];
+    let far = |a: [f32; 3], b: [f32; 3]| (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f32>().sqrt();
+    let rest: Vec<[f32; 3]> = deformer.bind_matrices().iter().map(place).collect();
+    let there: Vec<[f32; 3]> = pose.joint_matrices().iter().map(place).collect();
+    let moved = |joint: &usize| far(rest[*joint], there[*joint]);
+    let joint = (0..rest.len()).max_by(|a, b| moved(a).total_cmp(&moved(b))).unwrap();
+    let points = [FitPoint::from(0), FitPoint::from(1)];
+    let options = FitOptions { deformer: Some(&deformer), points: &points, ..Default::default() };
+    let mut fit = options.create(&rig).unwrap();
+    let mut out = vec![0.0; rig.count(Kind::RAW_CONTROL)];
+
+    let to_place = [FitConstraint::joint_position(joint, there[joint])];
+    let frame = FitFrame { constraints: &to_place, max_iterations: 200, ..Default::default() };
+    let result = fit.solve(&frame, &mut out).unwrap();
+    assert!(result.constraint_worst < 0.05 * f64::from(moved(&joint)), "{result:?}");
+    assert!(result.constraint_residual <= result.constraint_worst);
+    // What the rig is like already costs nothing; a target that is missing is no data.
+    let axes = [0.0, 0.0, 1.0];
+    let at_rest = deformer.mesh(0).unwrap().positions[0];
+    let direction = {
+        let m = &deformer.bind_matrices()[joint];
+        [m[8], m[9], m[10]]
+    };
+    let ahead = [0, 1, 2].map(|k| rest[joint][k] + direction[k]);
+    let kept = [
+        FitConstraint::joint_direction(joint, axes, direction),
+        FitConstraint::joint_aim(joint, axes, ahead),
+        FitConstraint::point_position(0, at_rest),
+        FitConstraint::point_distance([0, 1], [0.0, 1e6]),
+    ];
+    let frame = FitFrame { constraints: &kept, ..Default::default() };
+    let result = fit.solve(&frame, &mut out).unwrap();
+    assert!(result.constraint_worst < 1e-3, "{result:?}");
+    let missing = [FitConstraint::joint_position(joint, [f32::NAN; 3])];
+    let frame = FitFrame { constraints: &missing, ..Default::default() };
+    assert_eq!(fit.solve(&frame, &mut out).unwrap().status, FitStatus::NO_DATA);
+}
+
+#[test]
+fn stages_move_controls_one_after_the_other() {
+    let (rig, _) = made();
+    let face = posed(&rig);
+    let mut fit = Fit::new(&rig).unwrap();
+    let raw = face.raw_controls().len();
+    // The last stage may take no more steps than the first, so with one step each, stages take more of them.
+    let stages: Vec<u32> = (0..raw as u32).map(|i| i % 4).collect();
+    let joints = Some(face.joints());
+    let mut out = vec![0.0; raw];
+    let one = FitFrame { joints, max_iterations: 1, ..Default::default() };
+    assert_eq!(fit.solve(&one, &mut out).unwrap().iterations, 1);
+    let staged = FitFrame { stages: Some(&stages), ..one };
+    assert!(fit.solve(&staged, &mut out).unwrap().iterations > 1);
+    // All that moved is in the first stage, so the others have nothing to explain.
+    let staged = FitFrame { stages: Some(&stages), joints, ..Default::default() };
+    fit.solve(&staged, &mut out).unwrap();
+    let moved = (0..raw).filter(|i| out[*i] > 0.01).all(|i| i % 4 == 0);
+    assert!(moved && out[0] > 0.3, "{out:?}");
+}
+
+#[test]
+fn frames_of_a_motion() {
+    const FRAMES: usize = 8;
+    let (rig, _) = made();
+    let (joints, controls) = motion(&rig, FRAMES);
+    let mut fit = Fit::new(&rig).unwrap();
+    let observed = fit.observability().unwrap();
+    let raw = observed.len();
+    let mut out = vec![0.0; FRAMES * raw];
+    let frames = FitFrame { joints: Some(&joints), max_iterations: 200, ..Default::default() };
+    let results = fit.solve_frames(&frames, FRAMES, &mut out).unwrap();
+    assert_eq!(results.len(), FRAMES);
+    assert!(results.iter().all(|result| result.joint_residual < 0.01));
+    for (i, value) in out.iter().enumerate() {
+        assert!(observed[i % raw] < 0.05 || (value - controls[i]).abs() < 0.01, "{i}");
+    }
+    assert!(fit.solve_frames(&FitFrame::default(), 0, &mut []).unwrap().is_empty());
+    // Stopped at the third question: all later frames stay where that one was.
+    let mut left = 2;
+    let stop = || {
+        left -= 1;
+        left < 0
+    };
+    let results = fit.solve_frames_until(&frames, FRAMES, &mut out, stop).unwrap();
+    let canceled = |result: &&mien::FitResult| result.status == FitStatus::CANCELED;
+    assert!(results.iter().filter(canceled).count() >= FRAMES - 2);
+    assert_eq!(out[(FRAMES - 1) * raw..], out[(FRAMES - 2) * raw..(FRAMES - 1) * raw]);
+    // A panic in one frame comes out; no other frame asks.
+    let mut asked = 0;
+    let panic = catch_unwind(AssertUnwindSafe(|| {
+        let _ = fit.solve_frames_until(&frames, FRAMES, &mut out, || {
+            asked += 1;
+            panic!("stop")
+        });
+    }));
+    assert!(panic.is_err() && asked == 1);
+}
+
+#[test]
+fn wrong_constraints_stages_and_frames_are_errors() {
+    let (rig, deformer) = made();
+    let raw = rig.count(Kind::RAW_CONTROL);
+    let mut out = vec![0.0; 2 * raw];
+    let point = [FitPoint::from(0)];
+    let options = FitOptions { deformer: Some(&deformer), points: &point, ..Default::default() };
+    let mut fit = options.create(&rig).unwrap();
+    let mut solve = |constraints: &[FitConstraint]| {
+        let frame = FitFrame { constraints, ..Default::default() };
+        fit.solve(&frame, &mut out[..raw])
+    };
+    let wrong = Status::INVALID_ARGUMENT;
+    let place = [0.0; 3];
+    let good = FitConstraint::joint_position(0, place);
+    fails(Status::INDEX, solve(&[FitConstraint::joint_position(usize::MAX, place)]));
+    fails(Status::INDEX, solve(&[FitConstraint::point_position(1, place)]));
+    fails(Status::INDEX, solve(&[FitConstraint::point_distance([0, 1], [0.0, 1.0])]));
+    fails(wrong, solve(&[FitConstraint::joint_aim(0, [0.0; 3], place)]));
+    fails(wrong, solve(&[FitConstraint::joint_direction(0, [1.0, 0.0, 0.0], place)]));
+    fails(wrong, solve(&[FitConstraint::point_distance([0, 0], [2.0, 1.0])]));
+    fails(wrong, solve(&[FitConstraint { kind: FitConstraintKind(77), ..good }]));
+    fails(wrong, solve(&[FitConstraint { weight: -1.0, ..good }]));
+    fails(wrong, solve(&[FitConstraint { weight: f32::NAN, ..good }]));
+    fails(wrong, solve(&[good; FitConstraint::MOST + 1]));
+    assert!(solve(&[good; FitConstraint::MOST]).is_ok());
+    let bare = FitFrame { constraints: &[good], ..Default::default() };
+    fails(Status::NULL_ARGUMENT, Fit::new(&rig).unwrap().solve(&bare, &mut out[..raw]));
+
+    let mut fit = Fit::new(&rig).unwrap();
+    let empty = FitFrame::default();
+    fails(wrong, fit.solve(&FitFrame { stages: Some(&[0]), ..empty }, &mut out[..raw]));
+    let late = vec![16; raw];
+    fails(wrong, fit.solve(&FitFrame { stages: Some(&late), ..empty }, &mut out[..raw]));
+    let (joints, _) = motion(&rig, 2);
+    let frames = FitFrame { joints: Some(&joints), ..empty };
+    fails(wrong, fit.solve_frames(&frames, 1, &mut out[..raw]));
+    fails(wrong, fit.solve_frames(&frames, 3, &mut out));
+    fails(wrong, fit.solve_frames(&frames, 2, &mut out[1..]));
+    fails(wrong, fit.solve_frames(&empty, usize::MAX, &mut out));
+    fails(wrong, fit.solve_frames(&FitFrame { start: Some(&joints[..1]), ..frames }, 2, &mut out));
+    assert!(fit.solve_frames(&frames, 2, &mut out).is_ok());
 }
 
 #[test]
