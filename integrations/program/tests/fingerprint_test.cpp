@@ -7,10 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 #include <set>
 #include <vector>
-
-#include "integrations/program/math/random.h"
 
 namespace mien::cli {
 namespace {
@@ -20,9 +19,9 @@ using Data = std::vector<unsigned char>;
 constexpr size_t kBlockBytes = Fingerprint::kStripeBytes * Fingerprint::kBlockStripes;
 
 Data random_data(size_t size) {
-  math::Random random;
+  std::mt19937 random;
   Data data(size);
-  for (unsigned char& byte : data) byte = static_cast<unsigned char>(random.unit() * 256);
+  for (unsigned char& byte : data) byte = static_cast<unsigned char>(random() >> 8);
   return data;
 }
 
@@ -155,9 +154,9 @@ TEST(Fingerprint, FindsTheFirstFloatThatIsNotFinite) {
 }
 
 TEST(Fingerprint, OfFloatsIsThatOfTheirBytes) {
-  math::Random random;
+  std::mt19937 random;
   std::vector<float> numbers(3000);
-  for (float& number : numbers) number = static_cast<float>(random.unit());
+  for (float& number : numbers) number = static_cast<float>(random()) * 0x1p-32f;
   Fingerprint floats, bytes;
   for (size_t at = 0; at < numbers.size(); at += 250) {
     EXPECT_EQ(floats.add_floats(&numbers[at], 250), 250u);
