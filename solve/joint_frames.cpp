@@ -276,8 +276,8 @@ double JointFrames::minimize(Frame& f, double first, double rounding) {
     }
     const double before = value, gain_before = gain;
     if (!step(f, free_count, terms, value)) {
-      return round != 0 ? first + value - held_back(fit)
-                        : kNoSolution;  // as low as rounding lets it be
+      // As low as rounding lets it be, or a model that takes damping.
+      return left.all <= enough ? first + value - held_back(fit) : kNoSolution;
     }
     gain = before - value;
     if (gain > kSlowGain * gain_before) matrix_count = 0;

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "tests/fit/fit_head.h"
+#include "tests/support/golden.h"
 
 namespace mien {
 namespace {
@@ -63,6 +64,47 @@ TEST(Frames, OfJointsAreThoseOfSingleSolves) {
       before = one;
     }
   }
+}
+
+/// A motion of joints in two ranges: on one thread with one fit, and on two threads with one each.
+void expect_same_ranges(Head&& head) {
+  constexpr size_t kRange = 24;
+  const size_t raw_count = head.character.raw.count, joint_count = head.character.joints.count;
+  std::vector<float> targets;
+  double range = 0;
+  for (size_t i = 0; i < 2 * kRange; ++i) {
+    const std::vector<float> joints = head.joints(swing(raw_count, static_cast<double>(i) / 60));
+    targets.insert(targets.end(), joints.begin(), joints.end());
+    for (const float v : joints) range = std::fmax(range, std::fabs(v));
+  }
+  const FitHandle fits[2] = {create_fit(head.rig, sized<MienFitDesc>()),
+                             create_fit(head.rig, sized<MienFitDesc>())};
+  std::vector<float> alone(2 * kRange * raw_count), together(alone.size());
+  std::vector<MienFitResult> results = results_of(2 * kRange);
+  const auto solve = [&](const FitHandle& fit, size_t part, std::vector<float>& found,
+                         MienFitResult* told) {
+    MienFitFrame frame = mien_fit_frame_default();
+    frame.joints = targets.data() + part * kRange * joint_count;
+    EXPECT_EQ(mien_fit_solve_frames(fit.get(), &frame, kRange,
+                                    found.data() + part * kRange * raw_count, told),
+              MIEN_OK);
+  };
+  for (const size_t part : {size_t{0}, size_t{1}}) {
+    solve(fits[0], part, alone, results.data() + part * kRange);
+  }
+  std::thread other([&] { solve(fits[1], 1, together, nullptr); });
+  solve(fits[0], 0, together, nullptr);
+  other.join();
+  EXPECT_EQ(alone, together);
+  for (const MienFitResult& result : results) {
+    EXPECT_EQ(result.status, MIEN_FIT_CONVERGED);
+    EXPECT_LE(result.joint_worst, 1e-3 * range);
+  }
+}
+
+TEST(Frames, OfJointsHaveTheSameBitsInRangesOnAnyThread) {
+  expect_same_ranges(Head(MIEN_PRESET_MEDIUM));
+  expect_same_ranges(Head(open_dna(golden::read_rig("ml"))));  // networks between controls
 }
 
 TEST(Frames, RefuseWrongArguments) {
