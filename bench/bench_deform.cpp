@@ -135,8 +135,10 @@ double bytes_of(uint32_t normals, bool targets) {
   if (normals != MIEN_NORMALS_NONE) bytes += size(mesh.first_vertex, mesh.vertices, mesh.normals);
   if (normals == MIEN_NORMALS_SKINNED) bytes += size(mesh.sorted_normals);
   if (normals == MIEN_NORMALS_RECOMPUTED) {
-    bytes += size(mesh.positions, mesh.first_adjacent_face, mesh.adjacent_faces.narrow);
-    bytes += size(mesh.adjacent_faces.wide, mesh.faces.narrow, mesh.faces.wide);
+    bytes += size(mesh.positions, mesh.first_adjacent_face);
+    for (const IndexList* list : {&mesh.faces, &mesh.adjacent_faces}) {
+      bytes += static_cast<double>(list->count) * (list->wide ? 4 : 2);
+    }
     bytes += 2.0 * 4 * sizeof(float) * mesh.face_count();  // areas, written and read
   }
   return bytes;

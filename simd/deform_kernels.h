@@ -8,10 +8,10 @@
 namespace mien {
 
 /// positions[4 * indices[i] + k] += weight * deltas[3 * i + k] for k = 0, 1, 2. Reads one number past
-/// the last delta; the fourth float of a position becomes meaningless. add_target takes floats,
-/// add_target_fixed 16-bit integers.
+/// the last delta; the fourth float of a position becomes meaningless. add_target takes floats, add_target_fixed 16-bit
+/// integers, add_target_packed three numbers in 32 bits: 512 + x in the lowest 10, then 512 + y, 512 + z.
 struct TargetArgs {
-  const void* deltas;  // float, or int16_t
+  const void* deltas;  // float, int16_t, or 32 bits at any even address
   const uint16_t* indices;
   float* positions;
   float weight;
@@ -31,7 +31,8 @@ constexpr uint32_t kHardEdge = 0x8000'0000;
 
 /// Linear blend skinning of `count` positions with the same number of influences, at least one:
 ///
-///     positions   x y z * of each
+///     positions   x y z * of each, or null
+///     neutral     without positions: x y z of position i at 3 * position_indices[i]
 ///     weights     `influences` for each position; joints likewise
 ///     matrices    skin matrices by joint, 64-byte aligned
 ///     normals     x y z of each vertex; sorted_normals: x y z * of vertices[k] at 4 * k, or null
@@ -44,10 +45,11 @@ constexpr uint32_t kHardEdge = 0x8000'0000;
 /// out_tangents[4 * vertex], not normalized, with their w.
 struct SkinArgs {
   const float* positions;
+  const float* neutral;
   const float* weights;
   const uint16_t* joints;
   const float* matrices;
-  const uint32_t* position_indices;
+  const uint16_t* position_indices;
   float* out_positions;
   const uint32_t* first_vertex;
   const uint32_t* vertices;

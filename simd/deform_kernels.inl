@@ -11,14 +11,14 @@
 namespace mien::MIEN_KERNEL_ISA {
 namespace {
 
-template <class Number>
-inline void add_deltas(const TargetArgs& given) {
+/// `delta_at(i)` loads delta i.
+template <class DeltaAt>
+inline void add_deltas(const TargetArgs& given, const DeltaAt& delta_at) {
   const TargetArgs args = given;  // a local copy: no store can alias it
-  const Number* const deltas = static_cast<const Number*>(args.deltas);
   const Quad weight = broadcast4(args.weight);
   const auto add = [&](size_t i) {
     float* at = args.positions + size_t{args.indices[i]} * 4;
-    store4(at, mul_add4(weight, load4(deltas + i * 3), load4(at)));
+    store4(at, mul_add4(weight, delta_at(i), load4(at)));
   };
   size_t i = 0;
   for (; i + 4 <= args.count; i += 4) {
@@ -29,12 +29,25 @@ inline void add_deltas(const TargetArgs& given) {
   }
   for (; i < args.count; ++i) add(i);
 }
-void add_target(const TargetArgs& args) { add_deltas<float>(args); }
-void add_target_fixed(const TargetArgs& args) { add_deltas<int16_t>(args); }
+void add_target(const TargetArgs& args) {
+  const float* const deltas = static_cast<const float*>(args.deltas);
+  add_deltas(args, [=](size_t i) { return load4(deltas + i * 3); });
+}
+void add_target_fixed(const TargetArgs& args) {
+  const int16_t* const deltas = static_cast<const int16_t*>(args.deltas);
+  add_deltas(args, [=](size_t i) { return load4(deltas + i * 3); });
+}
+void add_target_packed(const TargetArgs& args) {
+  const uint16_t* const deltas = static_cast<const uint16_t*>(args.deltas);
+  // A field among zeros converts exactly; all of this is exact.
+  alignas(16) static constexpr float kUnits[4] = {1, 0x1p-10f, 0x1p-20f, 0};
+  const Quad units = load4(kUnits), bias = broadcast4(512);
+  add_deltas(args, [=](size_t i) { return mul_sub4(load_fields4(deltas + i * 2), units, bias); });
+}
 
 void floats_from_fixed(const int16_t* from, float scale, size_t count, float* to) {
   size_t i = 0;
-  for (; i + 4 <= count; i += 4) store4(to + i, load4(from + i) * broadcast4(scale));
+  for (; i + kWidth <= count; i += kWidth) store(to + i, load_fixed(from + i) * broadcast(scale));
   for (; i < count; ++i) to[i] = static_cast<float>(from[i]) * scale;
 }
 
@@ -155,14 +168,20 @@ void skin_chunk(const SkinArgs& given, float* vectors) {
   alignas(16) static constexpr float kUnitW[4] = {0, 0, 0, 1};
   const Quad unit_w = load4(kUnitW);
   size_t vertex = 0;
+  Quad c[4] = {unit_w, unit_w, unit_w, unit_w};
   for (size_t i = 0; i < args.count; ++i) {
-    Quad c[4];
-    blend<kInfluences>(args.weights + i * influences, args.joints + i * influences, args.matrices,
-                       influences, c, std::make_index_sequence<kVecsPerMatrix>());
-    const Quad p = load4(args.positions + i * 4);
+    const float* weights = args.weights + i * influences;
+    const uint16_t* joints = args.joints + i * influences;
+    // Rigid parts, such as hair, have many positions with the same matrix.
+    if (kInfluences != 1 || i == 0 || joints[0] != joints[-1] || weights[0] != weights[-1]) {
+      blend<kInfluences>(weights, joints, args.matrices, influences, c,
+                         std::make_index_sequence<kVecsPerMatrix>());
+    }
+    const size_t index = args.position_indices[i];
+    const Quad p = load4(args.positions ? args.positions + i * 4 : args.neutral + index * 3);
     const Quad skinned =
         mul_add4(c[0], lane4<0>(p), mul_add4(c[1], lane4<1>(p), mul_add4(c[2], lane4<2>(p), c[3])));
-    store3(args.out_positions + size_t{args.position_indices[i]} * 3, skinned);
+    store3(args.out_positions + index * 3, skinned);
     if constexpr (kOut == Skinned::kNothing) continue;
 
     const size_t end = args.first_vertex[i + 1] - first_vertex;
@@ -173,18 +192,18 @@ void skin_chunk(const SkinArgs& given, float* vectors) {
         store4(args.out_tangents + at, mul_add4(unit_w, lane4<3>(t), turned4(c, t)));
       }
     }
+    Quad turn[3] = {c[0], c[1], c[2]};
     if (kOut == Skinned::kAny && args.mode == SkinNormals::kCofactors) {
-      const Quad x = c[0], y = c[1], z = c[2];
-      c[0] = cross4(y, z);
-      c[1] = cross4(z, x);
-      c[2] = cross4(x, y);
+      turn[0] = cross4(c[1], c[2]);
+      turn[1] = cross4(c[2], c[0]);
+      turn[2] = cross4(c[0], c[1]);
     }
     if (kOut == Skinned::kAny && args.mode == SkinNormals::kNone) {
       vertex = end;
       continue;
     }
     for (; vertex != end; ++vertex) {
-      store4(vectors + vertex * 4, turned4(c, load_lanes4(args.sorted_normals + vertex * 4)));
+      store4(vectors + vertex * 4, turned4(turn, load_lanes4(args.sorted_normals + vertex * 4)));
     }
   }
 }
@@ -214,11 +233,11 @@ void skin_positions(const SkinArgs& args) {
   const SkinChunk skin = args.mode == SkinNormals::kMatrix && !args.out_tangents
                              ? skin_chunk_for<Skinned::kNormals>(args)
                              : skin_chunk_for<Skinned::kAny>(args);
-  alignas(64) float vectors[kChunkVertices * 4], gathered[kChunkVertices * 4];
+  alignas(64) float vectors[kChunkVertices * 4];
   for_each_chunk(args.first_vertex, args.count,
                  [&](uint32_t first, uint32_t count, const uint32_t* first_vertex) {
                    SkinArgs chunk = args;
-                   chunk.positions += size_t{first} * 4;
+                   if (args.positions) chunk.positions += size_t{first} * 4;
                    chunk.weights += size_t{first} * args.influences;
                    chunk.joints += size_t{first} * args.influences;
                    chunk.position_indices += first;
@@ -229,10 +248,10 @@ void skin_positions(const SkinArgs& args) {
                    if (args.sorted_normals) {
                      chunk.sorted_normals += size_t{first_vertex[0]} * 4;
                    } else if (args.mode != SkinNormals::kNone) {
-                     chunk.sorted_normals = gathered;
+                     chunk.sorted_normals = vectors;  // each is read before it is written
                      for (size_t k = 0; k < vertices; ++k) {
                        const size_t vertex = chunk.vertices[k] & ~kHardEdge;
-                       store4(gathered + k * 4, load4(args.normals + vertex * 3));
+                       store4(vectors + k * 4, load4(args.normals + vertex * 3));
                      }
                    }
                    skin(chunk, vectors);

@@ -40,7 +40,7 @@ struct SkinTransposedArgs {
   const float* positions;  // x y z * of each
   const float* weights;    // `influences` for each position; joints likewise
   const uint16_t* joints;
-  const uint32_t* position_indices;
+  const uint16_t* position_indices;
   const float* gradients;
   const float* skins;  // skin matrices by joint, 64-byte aligned
   float* matrices;     // rows of x y z 1

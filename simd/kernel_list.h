@@ -51,6 +51,7 @@
   KERNEL(joint_tree, JointTreeKernel)                   \
   KERNEL(add_target, AddTargetKernel)                   \
   KERNEL(add_target_fixed, AddTargetKernel)             \
+  KERNEL(add_target_packed, AddTargetKernel)            \
   KERNEL(floats_from_fixed, FloatsFromFixedKernel)      \
   KERNEL(skin_positions, SkinPositionsKernel)           \
   KERNEL(skin_transposed, SkinTransposedKernel)         \

@@ -6,6 +6,8 @@
 // |------------------------|----------------------------------------------------------------------|
 // | load4, store4, store3  | from and to any address; store3 writes the first three; load4 also   |
 // |                        | converts 16-bit integers                                             |
+// | load_fields4           | 32 bits from any even address: in lane k bits 10 * k to 10 * k + 9,  |
+// |                        | the others 0, as a float; the last lane is 0                         |
 // | load_lanes4            | load4 for lane4: one load, not one for each lane                     |
 // | broadcast4             | the same float in each lane                                          |
 // | + - *                  | rounded once each, never fused                                       |
@@ -57,6 +59,12 @@ inline Quad load_big_endian4(const uint8_t* from) {
 }
 [[gnu::always_inline]] inline Quad load4(const int16_t* from) {
   return lanes4([&](int i) { return static_cast<float>(from[i]); });
+}
+[[gnu::always_inline]] inline Quad load_fields4(const uint16_t* from) {
+  uint32_t bits;
+  __builtin_memcpy(&bits, from, sizeof(bits));
+  return {{static_cast<float>(bits & 0x3FFu), static_cast<float>(bits & 0xFFC00u),
+           static_cast<float>(bits & 0x3FF00000u), 0}};
 }
 [[gnu::always_inline]] inline Quad load_lanes4(const float* from) { return load4(from); }
 [[gnu::always_inline]] inline void store4(float* to, const Quad& q) {
@@ -155,6 +163,12 @@ inline Quad join_bits4(Quad low, Quad high, int n) {
 #if defined(MIEN_KERNEL_NEON)
 
 inline Quad load4(const int16_t* from) { return vcvtq_f32_s32(vmovl_s16(vld1_s16(from))); }
+inline Quad load_fields4(const uint16_t* from) {
+  uint32_t bits;
+  __builtin_memcpy(&bits, from, sizeof(bits));
+  const uint32_t masks[4] = {0x3FF, 0xFFC00, 0x3FF00000, 0};
+  return vcvtq_f32_u32(vandq_u32(vdupq_n_u32(bits), vld1q_u32(masks)));
+}
 inline void store3(float* to, Quad q) {
   vst1_f32(to, vget_low_f32(q));
   vst1q_lane_f32(to + 2, q, 2);
@@ -202,6 +216,12 @@ inline Quad load4(const int16_t* from) {
 #else
   return _mm_cvtepi32_ps(_mm_cvtepi16_epi32(narrow));
 #endif
+}
+inline Quad load_fields4(const uint16_t* from) {
+  int32_t bits;
+  __builtin_memcpy(&bits, from, sizeof(bits));
+  return _mm_cvtepi32_ps(
+      _mm_and_si128(_mm_set1_epi32(bits), _mm_setr_epi32(0x3FF, 0xFFC00, 0x3FF00000, 0)));
 }
 inline void store3(float* to, Quad q) {
   _mm_storel_pi(reinterpret_cast<__m64*>(to), q);

@@ -10,6 +10,7 @@
 // | load_big_endian        | from any address, bytes of each float in the order of files          |
 // | load_half              | kWidth halves (IEEE binary16) as floats, exact for finite ones; from |
 // |                        | memory aligned to half a vector                                      |
+// | load_fixed             | kWidth 16-bit integers as floats, from any address                   |
 // | store                  | to any address                                                       |
 // | store_fixed            | whole numbers up to 32767 in magnitude, as 16-bit integers, to       |
 // |                        | memory aligned to half a vector                                      |
@@ -181,6 +182,7 @@ constexpr size_t kBlockWidth = 1;
 inline BlockVec load_block(const float* from) { return *from; }
 inline BlockVec load_block(const int16_t* from) { return *from; }
 inline BlockVec broadcast_block(float value) { return value; }
+inline Vec load_fixed(const int16_t* from) { return *from; }
 inline void store_block(float* to, BlockVec value) { *to = value; }
 
 #else
@@ -453,6 +455,18 @@ inline BlockVec load_block(const int16_t* from) {
 #else
   const __m128i narrow = _mm_load_si128(reinterpret_cast<const __m128i*>(from));
   return _mm256_cvtepi32_ps(_mm256_cvtepi16_epi32(narrow));
+#endif
+}
+
+inline Vec load_fixed(const int16_t* from) {
+#if defined(MIEN_KERNEL_AVX512)
+  const __m256i narrow = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from));
+  return _mm512_cvtepi32_ps(_mm512_cvtepi16_epi32(narrow));
+#elif defined(MIEN_KERNEL_AVX2)
+  const __m128i narrow = _mm_loadu_si128(reinterpret_cast<const __m128i*>(from));
+  return _mm256_cvtepi32_ps(_mm256_cvtepi16_epi32(narrow));
+#else
+  return load_block(from);  // here from any address, too
 #endif
 }
 

@@ -9,9 +9,10 @@ namespace mien {
 namespace {
 
 /// To be raised whenever the list of numbers or arrays, or the meaning of one, changes.
-constexpr uint32_t kDeformerPartVersion = 3;
+constexpr uint32_t kDeformerPartVersion = 4;
 
-static_assert(sizeof(SkinRun) == 24 && sizeof(TargetRun) == 16, "no padding");
+static_assert(sizeof(SkinRun) == 24 && sizeof(TargetRun) == 16 && sizeof(FixedRun) == 8,
+              "no padding");
 
 /// Indices and counts first, which are checked when the deformer is opened; then values, of which
 /// any are safe.
@@ -27,16 +28,16 @@ void visit_deformer(AnyDeformer& deformer, Visitor& visitor) {
     numbers(mesh.position_count, mesh.vertex_count, mesh.triangle_count, mesh.max_influences,
             mesh.target_count, mesh.delta_count, mesh.weight_scale);
     arrays(mesh.vertex_position_indices, mesh.triangles, mesh.target_channels,
-           mesh.position_indices, mesh.sorted_indices.narrow, mesh.sorted_indices.wide,
-           mesh.skin_runs, mesh.joints, mesh.first_target_run, mesh.target_runs, mesh.delta_indices,
-           mesh.faces.narrow, mesh.faces.wide, mesh.first_adjacent_face, mesh.adjacent_faces.narrow,
-           mesh.adjacent_faces.wide, mesh.first_vertex, mesh.vertices, mesh.hard_positions);
+           mesh.position_indices, mesh.skin_runs, mesh.joints, mesh.first_target_run,
+           mesh.target_runs, mesh.fixed_runs, mesh.delta_indices, mesh.faces,
+           mesh.first_adjacent_face, mesh.adjacent_faces, mesh.first_vertex, mesh.vertices,
+           mesh.hard_positions);
   }
   arrays(skeleton.neutral, skeleton.neutral_angles, skeleton.bind, skeleton.inverse_bind);
   for (auto& mesh : deformer.meshes) {
     arrays(mesh.positions, mesh.normals, mesh.tangents, mesh.texture_coordinates,
            mesh.sorted_positions, mesh.weights, mesh.fixed_weights, mesh.deltas, mesh.fixed_deltas,
-           mesh.delta_scales, mesh.sorted_normals, mesh.neutral_directions);
+           mesh.sorted_normals, mesh.neutral_directions);
   }
 }
 

@@ -17,10 +17,23 @@ struct DeformerChecker : Checker {
   const Rig& rig;
 };
 
-/// Indices below `limit`, in one of the two arrays.
 bool all_below(const IndexList& list, uint64_t limit) {
-  return (list.narrow.empty() || list.wide.empty()) && below(list.narrow, limit) &&
-         below(list.wide, limit);
+  return list.wide ? below(list.wide_span(), limit) : below(list.narrow_span(), limit);
+}
+
+/// Each window lists its own positions, once each.
+bool lists_all_positions(const DeformMesh& mesh) {
+  for (uint64_t first = 0; first < mesh.position_count; first += kWindowPositions) {
+    const size_t count = std::min<uint64_t>(kWindowPositions, mesh.position_count - first);
+    uint64_t seen[kWindowPositions / 64] = {};
+    for (const uint16_t place : mesh.position_indices.slice(first, count)) {
+      if (place >= count) return false;
+      const uint64_t bit = uint64_t{1} << place % 64;
+      if (seen[place / 64] & bit) return false;
+      seen[place / 64] |= bit;
+    }
+  }
+  return true;
 }
 
 /// Every joint once, after its parent.
@@ -74,8 +87,7 @@ bool check_skin(const DeformerChecker& c, const DeformMesh& mesh) {
   const uint64_t positions = mesh.position_count;
   const bool half = c.deformer.half_storage;
   const bool fixed = half && mesh.max_influences <= kMaxFixedInfluences;
-  if (!c.ok(mesh.position_indices.count == positions && mesh.sorted_indices.count() == positions &&
-                all_below(mesh.sorted_indices, positions) &&
+  if (!c.ok(mesh.position_indices.count == positions &&
                 mesh.sorted_positions.count == (half ? 0 : positions * 4) &&
                 mesh.weights.count == (fixed ? 0 : mesh.joints.count) &&
                 mesh.fixed_weights.count == (fixed ? mesh.joints.count : 0) &&
@@ -100,31 +112,24 @@ bool check_skin(const DeformerChecker& c, const DeformMesh& mesh) {
           "runs of skin weights")) {
     return false;
   }
-  // The two are inverse to each other, so each position has one sorted index.
-  bool good = true;
-  for (uint32_t p = 0; good && p < mesh.position_count; ++p) {
-    const uint32_t position = mesh.position_indices[p];
-    good = position < positions && mesh.sorted_indices[position] == p;
-  }
-  return c.ok(good, "order of positions");
+  return c.ok(lists_all_positions(mesh), "order of positions");
 }
 
 /// In each block, runs of ascending targets, whose deltas follow each other.
 bool check_targets(const DeformerChecker& c, const DeformMesh& mesh) {
   const uint32_t blocks = mesh.block_count();
-  const bool half = c.deformer.half_storage;
-  const uint64_t numbers = mesh.delta_count * 3 + 1;
+  const bool fixed = c.deformer.half_storage && mesh.delta_count <= kMaxFixedDeltas;
   if (!c.ok(is_runs(mesh.first_target_run, blocks, mesh.target_runs.count) &&
                 mesh.first_target_run.count == size_t{blocks} + 1 &&
                 mesh.first_target_run[blocks] == mesh.target_runs.count &&
                 mesh.delta_indices.count == mesh.delta_count &&
-                mesh.deltas.count == (half ? 0 : numbers) &&
-                mesh.fixed_deltas.count == (half ? numbers : 0) &&
-                mesh.delta_scales.count == (half ? mesh.target_runs.count : 0),
+                mesh.deltas.count == (fixed ? 0 : mesh.delta_count * 3 + 1) &&
+                mesh.fixed_deltas.empty() != fixed &&
+                mesh.fixed_runs.count == (fixed ? mesh.target_runs.count : 0),
             "blend shape targets")) {
     return false;
   }
-  uint64_t delta = 0;
+  uint64_t delta = 0, word = 0;
   for (uint32_t b = 0; b < blocks; ++b) {
     const uint64_t first_delta = delta;
     uint64_t next_target = 0;
@@ -135,6 +140,13 @@ bool check_targets(const DeformerChecker& c, const DeformMesh& mesh) {
       next_target = uint64_t{run.target} + 1;
       delta += run.count;
       if (!c.ok(good && delta <= mesh.delta_count, "runs of blend shape targets")) return false;
+      if (!fixed) continue;
+      const FixedRun& numbers = mesh.fixed_run_of(run);
+      const bool follows = numbers.first_word() == word;
+      word += run.count * uint64_t{numbers.words_per_delta()};
+      if (!c.ok(follows && word < mesh.fixed_deltas.count, "numbers of blend shape targets")) {
+        return false;
+      }
     }
     const uint32_t count = std::min(kBlockPositions, mesh.position_count - b * kBlockPositions);
     if (!c.ok(below(mesh.delta_indices.slice(first_delta, delta - first_delta), count),
@@ -142,7 +154,8 @@ bool check_targets(const DeformerChecker& c, const DeformMesh& mesh) {
       return false;
     }
   }
-  return c.ok(delta == mesh.delta_count, "blend shape targets");
+  return c.ok(delta == mesh.delta_count && (!fixed || word + 1 == mesh.fixed_deltas.count),
+              "blend shape targets");
 }
 
 /// Each position lists its own vertices in ascending order, so each vertex is listed once.
@@ -152,7 +165,7 @@ bool check_vertex_lists(const DeformMesh& mesh) {
     for (uint32_t i = mesh.first_vertex[p]; i < mesh.first_vertex[p + 1]; ++i) {
       const uint32_t vertex = mesh.vertices[i] & ~kHardEdge;
       if (vertex < next_vertex || vertex >= mesh.vertex_count ||
-          mesh.vertex_position_indices[vertex] != mesh.position_indices[p]) {
+          mesh.vertex_position_indices[vertex] != mesh.position_of(p)) {
         return false;
       }
       next_vertex = uint64_t{vertex} + 1;
@@ -177,10 +190,10 @@ bool lists_hard_positions(const DeformMesh& mesh) {
 
 bool check_surface(const DeformerChecker& c, const DeformMesh& mesh) {
   const size_t positions = mesh.position_count;
-  return c.ok(mesh.faces.count() % 4 == 0 && mesh.faces.count() / 4 <= ~uint32_t{0} &&
+  return c.ok(mesh.faces.count % 4 == 0 && mesh.faces.count / 4 <= ~uint32_t{0} &&
                   all_below(mesh.faces, positions) &&
                   mesh.first_adjacent_face.count == positions + 1 &&
-                  is_runs(mesh.first_adjacent_face, positions, mesh.adjacent_faces.count()) &&
+                  is_runs(mesh.first_adjacent_face, positions, mesh.adjacent_faces.count) &&
                   all_below(mesh.adjacent_faces, mesh.face_count()),
               "faces") &&
          c.ok(mesh.vertices.count == mesh.vertex_count &&

@@ -47,6 +47,13 @@ void PartReader::number(bool& field) {
   field = *from != 0;
 }
 
+bool PartReader::next_has_elements_of(uint32_t size) const {
+  if (status_ != Status::kOk) return false;
+  BakedArray entry;
+  memcpy(&entry, entry_, sizeof(entry));
+  return entry.element_size == size;
+}
+
 const uint8_t* PartReader::take_array(uint32_t element_size, size_t& count) {
   if (status_ != Status::kOk) return nullptr;
   BakedArray entry;

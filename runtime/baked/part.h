@@ -9,6 +9,7 @@
 #pragma once
 
 #include "runtime/baked/baked_file.h"
+#include "runtime/base/index_list.h"
 #include "runtime/base/span.h"
 
 namespace mien {
@@ -24,6 +25,9 @@ class PartMeasure {
   void array(const Span<T>& span) {
     ++array_count_;
     array_bytes_ = align_up(array_bytes_, kBlockAlignment) + span.count * sizeof(T);
+  }
+  void array(const IndexList& list) {
+    list.wide ? array(list.wide_span()) : array(list.narrow_span());
   }
 
   uint32_t number_count() const { return number_count_; }
@@ -60,6 +64,9 @@ class PartWriter {
   void array(const Span<T>& span) {
     put_array(span.data, span.count, sizeof(T));
   }
+  void array(const IndexList& list) {
+    list.wide ? array(list.wide_span()) : array(list.narrow_span());
+  }
 
  private:
   void put_array(const void* data, size_t count, uint32_t element_size);
@@ -90,10 +97,22 @@ class PartReader {
     void* data = const_cast<uint8_t*>(take_array(sizeof(T), count));
     span = {static_cast<T*>(data), count};
   }
+  void array(IndexList& list) {
+    Span<uint16_t> narrow;
+    Span<uint32_t> wide;
+    if (next_has_elements_of(sizeof(uint16_t))) {
+      array(narrow);
+      list = IndexList(narrow);
+    } else {
+      array(wide);
+      list = IndexList(wide);
+    }
+  }
 
   Status finish();
 
  private:
+  bool next_has_elements_of(uint32_t size) const;
   const uint8_t* take_number();
   const uint8_t* take_array(uint32_t element_size, size_t& count);
   void damaged(uint64_t offset, const char* what);

@@ -39,21 +39,22 @@ void run_all(Job& job, uint32_t count, void (*task)(void*, uint32_t)) {
 
 // Targets and skin --------------------------------------------------------------------------------
 
-/// The neutral positions of a block plus its active targets. If the mesh stores the positions in order,
-/// only blocks with active targets are copied to `scratch`.
+/// The neutral positions of a block plus its active targets, in `scratch`. Without active targets those of the mesh, or
+/// null if it does not store them in order.
 const float* add_targets(const Job& job, const DeformerInstance& instance, uint32_t block,
                          float* scratch) {
   const DeformMesh& mesh = job.mesh;
   const uint32_t first = block * kBlockPositions;
-  const float* neutral = neutral_positions(mesh, block, scratch);
-  const float* positions = neutral;
+  const float* positions = nullptr;
+  if (!mesh.sorted_positions.empty()) positions = mesh.sorted_positions.data + size_t{first} * 4;
   for (uint32_t i = mesh.first_target_run[block]; i < mesh.first_target_run[block + 1]; ++i) {
     const TargetRun& run = mesh.target_runs[i];
     const float weight = instance.channels[run.channel];
     if (std::fabs(weight) < kMinChannelWeight) continue;
     if (positions != scratch) {
       const size_t count = std::min(kBlockPositions, mesh.position_count - first);
-      memcpy(scratch, neutral, count * 4 * sizeof(float));
+      const float* neutral = neutral_positions(mesh, block, scratch);
+      if (neutral != scratch) std::copy(neutral, neutral + count * 4, scratch);
       positions = scratch;
     }
     add_target_run(job.kernels(), mesh, run, weight, scratch);
@@ -61,14 +62,16 @@ const float* add_targets(const Job& job, const DeformerInstance& instance, uint3
   return positions;
 }
 
-/// Positions without influences.
+/// Positions without influences. `positions` are those of the block, as add_targets() returns them.
 void copy_unskinned(const Job& job, const float* positions, uint32_t first, uint32_t count,
                     DeformerInstance& instance) {
   const DeformMesh& mesh = job.mesh;
   DeformedMesh& out = instance.meshes[job.mesh_index];
   for (uint32_t i = 0; i < count; ++i) {
-    float* position = out.positions.data + size_t{mesh.position_indices[first + i]} * 3;
-    memcpy(position, positions + size_t{i} * 4, 3 * sizeof(float));
+    const size_t at = size_t{mesh.position_of(first + i)} * 3;
+    const float* from = positions ? positions + size_t{(first + i) % kBlockPositions} * 4
+                                  : mesh.positions.data + at;
+    memcpy(out.positions.data + at, from, 3 * sizeof(float));
   }
   for (uint32_t i = mesh.first_vertex[first]; i < mesh.first_vertex[first + count]; ++i) {
     const size_t vertex = mesh.vertices[i] & ~kHardEdge;
@@ -95,12 +98,13 @@ void skin_block(const Job& job, DeformerInstance& instance, uint32_t block) {
     const uint32_t from = std::max(run->first, first);
     const uint32_t to = std::min(run->first + run->count, end);
     if (run->influences == 0) {
-      copy_unskinned(job, positions + size_t{from - first} * 4, from, to - from, instance);
+      copy_unskinned(job, positions, from, to - from, instance);
       continue;
     }
     SkinArgs args;
     args.matrices = instance.joints.skin.data;
-    args.out_positions = out.positions.data;
+    args.neutral = mesh.positions.data + size_t{window_of(first)} * 3;
+    args.out_positions = out.positions.data + size_t{window_of(first)} * 3;
     args.vertices = mesh.vertices.data;
     args.normals = mesh.normals.data;
     args.sorted_normals = mesh.sorted_normals.empty() ? nullptr : mesh.sorted_normals.data;
@@ -115,7 +119,7 @@ void skin_block(const Job& job, DeformerInstance& instance, uint32_t block) {
                      [&](uint32_t at, uint32_t count, const float* weights) {
                        const size_t row =
                            run->first_weight + size_t{at - run->first} * run->influences;
-                       args.positions = positions + size_t{at - first} * 4;
+                       args.positions = positions ? positions + size_t{at - first} * 4 : nullptr;
                        args.weights = weights;
                        args.joints = mesh.joints.data + row;
                        args.position_indices = mesh.position_indices.data + at;
@@ -150,7 +154,7 @@ void area_task(void* context, uint32_t index) {
   AreaArgs args;
   args.positions = instance.meshes[job.mesh_index].positions.data;
   args.faces = job.mesh.faces.from(size_t{first} * 4);
-  args.narrow = job.mesh.faces.wide.empty();
+  args.narrow = !job.mesh.faces.wide;
   args.areas = instance.face_areas.data + size_t{first} * 4;
   args.count = std::min(kTaskPositions, job.mesh.face_count() - first);
   job.kernels().face_areas(args);
@@ -166,7 +170,7 @@ void normal_task(void* context, uint32_t index) {
   args.areas = instance.face_areas.data;
   args.first_adjacent_face = mesh.first_adjacent_face.data + first;
   args.adjacent_faces = mesh.adjacent_faces.from(0);
-  args.narrow = mesh.adjacent_faces.wide.empty();
+  args.narrow = !mesh.adjacent_faces.wide;
   args.first_vertex = mesh.first_vertex.data + first;
   args.vertices = mesh.vertices.data;
   args.normals = mesh.normals.data;

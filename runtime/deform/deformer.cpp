@@ -30,11 +30,11 @@ const SkinRun* skin_run_of(const DeformMesh& mesh, uint32_t sorted_index) {
 const float* neutral_positions(const DeformMesh& mesh, uint32_t block, float* scratch) {
   const uint32_t first = block * kBlockPositions;
   if (!mesh.sorted_positions.empty()) return mesh.sorted_positions.data + size_t{first} * 4;
-  const uint32_t* indices = mesh.position_indices.data + first;
+  const uint16_t* places = mesh.position_indices.data + first;
+  const float* window = mesh.positions.data + size_t{window_of(first)} * 3;
   const uint32_t count = std::min(kBlockPositions, mesh.position_count - first);
   for (uint32_t i = 0; i < count; ++i) {
-    memcpy(scratch + size_t{i} * 4, mesh.positions.data + size_t{indices[i]} * 3,
-           4 * sizeof(float));
+    memcpy(scratch + size_t{i} * 4, window + size_t{places[i]} * 3, 4 * sizeof(float));
   }
   return scratch;
 }
@@ -51,9 +51,27 @@ void add_target_run(const KernelTable& kernels, const DeformMesh& mesh, const Ta
     args.weight = weight;
     kernels.add_target(args);
   } else {
-    args.deltas = mesh.fixed_deltas.data + first;
-    args.weight = weight * mesh.scale_of(run);
-    kernels.add_target_fixed(args);
+    const FixedRun& fixed = mesh.fixed_run_of(run);
+    args.deltas = mesh.fixed_deltas.data + fixed.first_word();
+    args.weight = weight * fixed.scale;
+    fixed.is_packed() ? kernels.add_target_packed(args) : kernels.add_target_fixed(args);
+  }
+}
+
+void read_delta(const DeformMesh& mesh, const TargetRun& run, uint32_t i, float* xyz) {
+  if (mesh.fixed_deltas.empty()) {
+    const float* delta = mesh.deltas.data + (size_t{run.first_delta} + i) * 3;
+    std::copy(delta, delta + 3, xyz);
+    return;
+  }
+  const FixedRun& fixed = mesh.fixed_run_of(run);
+  const int16_t* words = mesh.fixed_deltas.data + fixed.first_word() + i * fixed.words_per_delta();
+  uint32_t packed;
+  memcpy(&packed, words, sizeof(packed));
+  for (int k = 0; k < 3; ++k) {
+    const int number =
+        fixed.is_packed() ? static_cast<int>(packed >> 10 * k & 1023) - 512 : words[k];
+    xyz[k] = static_cast<float>(number) * fixed.scale;
   }
 }
 
@@ -64,7 +82,8 @@ void expand_fixed(const KernelTable& kernels, const int16_t* from, float scale, 
 
 void find_influences(const DeformMesh& mesh, uint32_t position, Span<const uint16_t>& joints,
                      Span<const float>& weights) {
-  const uint32_t sorted_index = mesh.sorted_indices[position];
+  uint32_t sorted_index = window_of(position);
+  while (mesh.position_of(sorted_index) != position) ++sorted_index;
   const SkinRun& run = *skin_run_of(mesh, sorted_index);
   const size_t row = run.first_weight + size_t{sorted_index - run.first} * run.influences;
   joints = mesh.joints.slice(row, run.influences);
@@ -79,13 +98,13 @@ void write_target(const DeformMesh& mesh, uint32_t target, float* out) {
     const TargetRun* const end = mesh.target_runs.data + mesh.first_target_run[block + 1];
     for (const TargetRun* run = std::lower_bound(begin, end, target, is_before);
          run != end && run->target == target; ++run) {
-      for (size_t d = run->first_delta; d < size_t{run->first_delta} + run->count; ++d) {
-        const uint32_t sorted_index = block * kBlockPositions + mesh.delta_indices[d];
-        float* at = out + size_t{mesh.position_indices[sorted_index]} * 3;
-        for (size_t k = d * 3; k < d * 3 + 3; ++k) {
-          *at++ += mesh.fixed_deltas.empty() ? mesh.deltas[k]
-                                             : float(mesh.fixed_deltas[k]) * mesh.scale_of(*run);
-        }
+      for (uint32_t i = 0; i < run->count; ++i) {
+        const uint32_t sorted_index =
+            block * kBlockPositions + mesh.delta_indices[size_t{run->first_delta} + i];
+        float* at = out + size_t{mesh.position_of(sorted_index)} * 3;
+        float delta[3];
+        read_delta(mesh, *run, i, delta);
+        for (int k = 0; k < 3; ++k) at[k] += delta[k];
       }
     }
   }

@@ -4,11 +4,12 @@
 //
 //     | Deformer | skeleton | DeformMesh 0 ... n-1 | arrays of mesh 0 | arrays of mesh 1 | ...
 //
-// The positions of a mesh are deformed in a sorted order: by number of influences, then by the joint with
-// the largest weight. So neighbors run the same code and read the same matrices. A *sorted index* is an
-// index into this order; all other position indices are those of the file.
+// The positions of each window of the file are deformed in a sorted order: by number of influences, then by the
+// joint with the largest weight. So neighbors run the same code and read the same matrices, and a place in a window
+// has 16 bits. A *sorted index* is an index into this order; all other position indices are those of the file.
 #pragma once
 
+#include "runtime/base/index_list.h"
 #include "runtime/pose/skeleton.h"
 #include "simd/isa.h"
 
@@ -19,6 +20,12 @@ enum class Normals : uint32_t { kDefault = 0, kNone = 1, kSkinned = 2, kRecomput
 
 /// Sorted positions per block. The scratch of a block stays in the first-level cache.
 constexpr uint32_t kBlockPositions = 512;
+
+/// Positions that are sorted together.
+constexpr uint32_t kWindowPositions = 8 * kBlockPositions;
+
+/// The first position of the window of a position, or of a sorted index.
+constexpr uint32_t window_of(uint32_t index) { return index / kWindowPositions * kWindowPositions; }
 
 /// A run of sorted positions with the same number of influences. The weights and joints of its
 /// position r start at first_weight + r * influences.
@@ -36,29 +43,20 @@ struct TargetRun {
   uint32_t first_delta, count;
 };
 
-/// Weights of meshes with more influences per position keep 32 bits in 16-bit storage, too.
-constexpr uint32_t kMaxFixedInfluences = 64;
+/// Beside a target run in 16-bit storage: numbers in units of a scale, three 16-bit ones for each delta, or, if it is
+/// packed, three of 10 bits in 32: 512 + x in the lowest bits, then 512 + y, 512 + z.
+struct FixedRun {
+  float scale;
+  uint32_t place;  // 2 * the first 16-bit word, + 1 if packed
 
-/// Indices of 16 bits, or of 32 where 16 are too few.
-struct IndexList {
-  Span<uint16_t> narrow;
-  Span<uint32_t> wide;  // empty, or `narrow` is
-
-  size_t count() const { return narrow.count + wide.count; }
-  uint32_t operator[](size_t i) const { return wide.empty() ? narrow[i] : wide[i]; }
-  void set(size_t i, uint32_t index) {
-    if (wide.empty()) {
-      narrow[i] = static_cast<uint16_t>(index);
-    } else {
-      wide[i] = index;
-    }
-  }
-  /// As kernels take them.
-  const void* from(size_t i) const {
-    if (wide.empty()) return narrow.data + i;
-    return wide.data + i;
-  }
+  size_t first_word() const { return place / 2; }
+  bool is_packed() const { return place % 2 != 0; }
+  size_t words_per_delta() const { return is_packed() ? 2 : 3; }
 };
+
+/// Weights of meshes with more influences per position, and deltas of meshes with more of them, keep 32 bits in 16-bit
+/// storage, too.
+constexpr uint32_t kMaxFixedInfluences = 64, kMaxFixedDeltas = 1 << 29;
 
 /// One mesh. Kernels load four floats to get x y z, so arrays of x y z end with one more float ("+ 1").
 struct DeformMesh {
@@ -78,8 +76,7 @@ struct DeformMesh {
   Span<uint16_t> target_channels;          // [target]
 
   // Skin weights.
-  Span<uint32_t> position_indices;  // [sorted index] position
-  IndexList sorted_indices;         // [position] sorted index
+  Span<uint16_t> position_indices;  // [sorted index] position, minus the first of its window
   Span<float> sorted_positions;     // [sorted index] x y z 0; empty in 16-bit storage
   Span<SkinRun> skin_runs;
   Span<float> weights;          // or
@@ -90,8 +87,8 @@ struct DeformMesh {
   Span<uint32_t> first_target_run;  // [block], + 1
   Span<TargetRun> target_runs;
   Span<float> deltas;            // [delta] x y z, + 1; or
-  Span<int16_t> fixed_deltas;    // the same in units of their run's scale
-  Span<float> delta_scales;      // [target run], beside fixed_deltas
+  Span<int16_t> fixed_deltas;    // as fixed_runs say, + 1
+  Span<FixedRun> fixed_runs;     // [target run], beside fixed_deltas
   Span<uint16_t> delta_indices;  // [delta] sorted index, minus that of the block
 
   // Normals. A face has four positions; a triangle repeats the last. Its area vector
@@ -106,12 +103,15 @@ struct DeformMesh {
   Span<uint32_t> hard_positions;       // sorted indices of those with vertices on hard edges
   Span<float> neutral_directions;      // [hard position] x y z 0: recomputed neutral normal
 
-  /// Of a run of fixed_deltas.
-  float scale_of(const TargetRun& run) const {
-    return delta_scales[static_cast<size_t>(&run - target_runs.data)];
+  /// With fixed_deltas.
+  const FixedRun& fixed_run_of(const TargetRun& run) const {
+    return fixed_runs[static_cast<size_t>(&run - target_runs.data)];
   }
   uint32_t block_count() const { return (position_count + kBlockPositions - 1) / kBlockPositions; }
-  uint32_t face_count() const { return static_cast<uint32_t>(faces.count() / 4); }
+  uint32_t face_count() const { return static_cast<uint32_t>(faces.count / 4); }
+  uint32_t position_of(uint32_t sorted_index) const {
+    return window_of(sorted_index) + position_indices[sorted_index];
+  }
 
   /// A file can list a mesh with six bytes, so a mesh without geometry must take almost no memory.
   bool is_empty() const { return position_count == 0 && vertex_count == 0; }
@@ -156,6 +156,9 @@ const float* neutral_positions(const DeformMesh& mesh, uint32_t block, float* sc
 void add_target_run(const KernelTable& kernels, const DeformMesh& mesh, const TargetRun& run,
                     float weight, float* positions);
 
+/// Delta i of a run: x y z.
+void read_delta(const DeformMesh& mesh, const TargetRun& run, uint32_t i, float* xyz);
+
 /// to[i] = from[i] * scale.
 void expand_fixed(const KernelTable& kernels, const int16_t* from, float scale, size_t count,
                   float* to);
@@ -167,7 +170,7 @@ void for_each_weights(const KernelTable& kernels, const DeformMesh& mesh, const 
                       uint32_t first, uint32_t count, F&& f) {
   const size_t row = run.first_weight + size_t{first - run.first} * run.influences;
   if (mesh.fixed_weights.empty()) return f(first, count, mesh.weights.data + row);
-  constexpr uint32_t kAtOnce = 1024;
+  constexpr uint32_t kAtOnce = 256;
   static_assert(kMaxFixedInfluences <= kAtOnce, "at least one position");
   float weights[kAtOnce];
   const uint32_t step = kAtOnce / run.influences;

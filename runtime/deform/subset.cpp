@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A deformer of some positions of a mesh. Positions keep their order, and each position its influences and the order
-// of its targets, so results have the same bits. Numbers of 16-bit storage become floats.
+// A deformer of some positions of a mesh. Each position keeps its influences and the order of its targets, so results
+// have the same bits. Numbers of 16-bit storage become floats.
 #include <algorithm>
 #include <new>
 
@@ -13,9 +13,9 @@ constexpr uint32_t kNotChosen = ~uint32_t{0};
 
 /// A delta of the whole mesh, and where it goes.
 struct ChosenDelta {
-  uint32_t block, target, channel, delta;
-  float scale;     // of 16-bit storage
-  uint16_t index;  // in the block
+  uint32_t block, target, channel;
+  uint32_t run, place;  // run of targets, place in it
+  uint16_t index;       // in the block
 };
 
 struct SubsetPlan {
@@ -31,11 +31,11 @@ void for_each_delta(const DeformMesh& mesh, const SubsetPlan& plan, F&& f) {
   for (uint32_t block = 0; block < mesh.block_count(); ++block) {
     for (uint32_t r = mesh.first_target_run[block]; r < mesh.first_target_run[block + 1]; ++r) {
       const TargetRun& run = mesh.target_runs[r];
-      const float scale = mesh.fixed_deltas.empty() ? 0.0f : mesh.scale_of(run);
-      for (uint32_t d = run.first_delta; d < run.first_delta + run.count; ++d) {
-        const uint32_t at = plan.places[size_t{block} * kBlockPositions + mesh.delta_indices[d]];
+      for (uint32_t i = 0; i < run.count; ++i) {
+        const uint32_t at = plan.places[size_t{block} * kBlockPositions +
+                                        mesh.delta_indices[size_t{run.first_delta} + i]];
         if (at == kNotChosen) continue;
-        f(ChosenDelta{at / kBlockPositions, run.target, run.channel, d, scale,
+        f(ChosenDelta{at / kBlockPositions, run.target, run.channel, r, i,
                       static_cast<uint16_t>(at % kBlockPositions)});
       }
     }
@@ -56,16 +56,24 @@ bool plan_subset(const DeformMesh& mesh, Span<const uint32_t> positions, Arena& 
   plan.order = scratch.array<uint32_t>(count + 1);
   plan.numbers = scratch.array<uint32_t>(count + 1);
   plan.places = scratch.array<uint32_t>(size_t{mesh.position_count} + 1);
-  if (!keys.data || !plan.order.data || !plan.numbers.data || !plan.places.data) return false;
-  for (size_t i = 0; i < count; ++i) {
-    keys[i] = uint64_t{mesh.sorted_indices[positions[i]]} << 32 | i;
+  const Span<uint32_t> number_of = scratch.array<uint32_t>(size_t{mesh.position_count} + 1);
+  if (!keys.data || !plan.order.data || !plan.numbers.data || !plan.places.data ||
+      !number_of.data) {
+    return false;
+  }
+  std::fill(number_of.begin(), number_of.end(), kNotChosen);
+  for (size_t i = 0; i < count; ++i) number_of[positions[i]] = static_cast<uint32_t>(i);
+  size_t chosen = 0;
+  for (uint32_t old = 0; old < mesh.position_count; ++old) {
+    const uint32_t number = number_of[mesh.position_of(old)];
+    if (number != kNotChosen) keys[chosen++] = uint64_t{window_of(number)} << 32 | old;
   }
   std::sort(keys.data, keys.data + count);
   std::fill(plan.places.begin(), plan.places.end(), kNotChosen);
   uint32_t influences = kNotChosen;
   for (size_t i = 0; i < count; ++i) {
-    plan.order[i] = static_cast<uint32_t>(keys[i] >> 32);
-    plan.numbers[i] = static_cast<uint32_t>(keys[i]);
+    plan.order[i] = static_cast<uint32_t>(keys[i]);
+    plan.numbers[i] = number_of[mesh.position_of(plan.order[i])];
     plan.places[plan.order[i]] = static_cast<uint32_t>(i);
     const SkinRun& run = *skin_run_of(mesh, plan.order[i]);
     plan.weight_count += run.influences;
@@ -84,7 +92,8 @@ bool plan_subset(const DeformMesh& mesh, Span<const uint32_t> positions, Arena& 
   std::sort(plan.deltas.begin(), plan.deltas.end(), [](const ChosenDelta& a, const ChosenDelta& b) {
     return a.block != b.block     ? a.block < b.block
            : a.target != b.target ? a.target < b.target
-                                  : a.delta < b.delta;
+           : a.run != b.run       ? a.run < b.run
+                                  : a.place < b.place;
   });
   for (size_t i = 0; i < deltas; ++i) plan.target_run_count += begins_run(plan.deltas, i);
   return true;
@@ -101,8 +110,7 @@ void place_subset(const DeformMesh& from, const SubsetPlan& plan, size_t count, 
   mesh.sorted_positions = placer.array<float>(count * 4, kBlockAlignment);
   mesh.weights = placer.array<float>(plan.weight_count, kBlockAlignment);
   mesh.joints = placer.array<uint16_t>(plan.weight_count, kBlockAlignment);
-  mesh.position_indices = placer.array<uint32_t>(count, kBlockAlignment);
-  mesh.sorted_indices.wide = placer.array<uint32_t>(count);
+  mesh.position_indices = placer.array<uint16_t>(count, kBlockAlignment);
   mesh.skin_runs = placer.array<SkinRun>(plan.skin_run_count);
   mesh.first_target_run = placer.array<uint32_t>(size_t{mesh.block_count()} + 1);
   mesh.target_runs = placer.array<TargetRun>(plan.target_run_count);
@@ -116,9 +124,8 @@ void fill_subset_skin(const DeformMesh& from, const SubsetPlan& plan, DeformMesh
   size_t run = 0, weight = 0;
   for (uint32_t i = 0; i < mesh.position_count; ++i) {
     const uint32_t old = plan.order[i], number = plan.numbers[i];
-    mesh.position_indices[i] = number;
-    mesh.sorted_indices.set(number, i);
-    const float* position = from.positions.data + size_t{from.position_indices[old]} * 3;
+    mesh.position_indices[i] = static_cast<uint16_t>(number - window_of(i));
+    const float* position = from.positions.data + size_t{from.position_of(old)} * 3;
     std::copy(position, position + 3, mesh.positions.data + size_t{number} * 3);
     std::copy(position, position + 3, mesh.sorted_positions.data + size_t{i} * 4);
     const SkinRun& source = *skin_run_of(from, old);
@@ -147,11 +154,7 @@ void fill_subset_targets(const DeformMesh& from, const SubsetPlan& plan, DeformM
     }
     ++mesh.target_runs[runs - 1].count;
     mesh.delta_indices[d] = source.index;
-    for (size_t k = 0; k < 3; ++k) {
-      const size_t at = size_t{source.delta} * 3 + k;
-      mesh.deltas[size_t{d} * 3 + k] =
-          from.fixed_deltas.empty() ? from.deltas[at] : float(from.fixed_deltas[at]) * source.scale;
-    }
+    read_delta(from, from.target_runs[source.run], source.place, mesh.deltas.data + size_t{d} * 3);
   }
   for (; block < mesh.block_count(); ++block) mesh.first_target_run[block + 1] = runs;
 }

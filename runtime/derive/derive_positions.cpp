@@ -59,7 +59,7 @@ void skin(const Derivatives& d, const DeformMesh& mesh, const SkinRun& run, uint
           uint32_t count, const float* positions, const float* matrices, float* out) {
   SkinArgs args = {};
   args.matrices = matrices;
-  args.out_positions = out;
+  args.out_positions = out + size_t{window_of(first)} * 3;
   args.vertices = mesh.vertices.data;
   args.influences = run.influences;
   args.mode = SkinNormals::kNone;
@@ -115,12 +115,12 @@ void push_positions(Derivatives& d, uint32_t mesh_index, uint32_t lane, uint32_t
       });
     }
     for_each_run(mesh, block, [&](const SkinRun& run, uint32_t first, uint32_t n) {
-      const uint32_t* at = mesh.position_indices.data + first;
+      const auto at = [&](uint32_t i) { return out + size_t{mesh.position_of(first + i)} * 3; };
       const float* change = d.shaped_change.data + size_t{first % kBlockPositions} * 4;
       if (run.influences == 0) {
         for (uint32_t i = 0; i < n; ++i) {
           for (size_t r = 0; r < 3; ++r) {
-            out[size_t{at[i]} * 3 + r] = moved ? change[size_t{i} * 4 + r] : 0.0f;
+            at(i)[r] = moved ? change[size_t{i} * 4 + r] : 0.0f;
           }
         }
         return;
@@ -130,9 +130,8 @@ void push_positions(Derivatives& d, uint32_t mesh_index, uint32_t lane, uint32_t
       float* rest = d.skinned_change.data;
       skin(d, mesh, run, first, n, d.shaped_change.data, d.linear_matrices.data, rest);
       for (uint32_t i = 0; i < n; ++i) {
-        for (size_t r = 0; r < 3; ++r) {
-          out[size_t{at[i]} * 3 + r] += rest[size_t{at[i]} * 3 + r];
-        }
+        float* to = at(i);
+        for (size_t r = 0; r < 3; ++r) to[r] += rest[to - out + r];
       }
     });
   }
@@ -155,13 +154,13 @@ void pull_positions(Derivatives& d, uint32_t mesh_index, uint32_t lane, uint32_t
       float* change = d.shaped_change.data + size_t{first % kBlockPositions} * 4;
       if (run.influences == 0) {
         for (uint32_t i = 0; i < n; ++i) {
-          const float* g = d.skinned_change.data + size_t{mesh.position_indices[first + i]} * 3;
+          const float* g = d.skinned_change.data + size_t{mesh.position_of(first + i)} * 3;
           for (size_t r = 0; r < 3; ++r) change[size_t{i} * 4 + r] = g[r];
         }
         return;
       }
       SkinTransposedArgs args;
-      args.gradients = d.skinned_change.data;
+      args.gradients = d.skinned_change.data + size_t{window_of(first)} * 3;
       args.skins = d.pose.skin.data;
       args.matrices = d.matrices.data;
       args.influences = run.influences;
@@ -181,18 +180,13 @@ void pull_positions(Derivatives& d, uint32_t mesh_index, uint32_t lane, uint32_t
     if (!shapes) continue;
     for_each_target(mesh, block, [&](const TargetRun& run) {
       const uint16_t* indices = mesh.delta_indices.data + run.first_delta;
-      const auto sum_of = [&](const auto* delta) {
-        float sum = 0;
-        for (uint32_t i = 0; i < run.count; ++i, delta += 3) {
-          const float* g = d.shaped_change.data + size_t{indices[i]} * 4;
-          sum += float(delta[0]) * g[0] + float(delta[1]) * g[1] + float(delta[2]) * g[2];
-        }
-        return sum;
-      };
-      const size_t first = size_t{run.first_delta} * 3;
-      const float sum = mesh.fixed_deltas.empty()
-                            ? sum_of(mesh.deltas.data + first)
-                            : sum_of(mesh.fixed_deltas.data + first) * mesh.scale_of(run);
+      float sum = 0;
+      for (uint32_t i = 0; i < run.count; ++i) {
+        const float* g = d.shaped_change.data + size_t{indices[i]} * 4;
+        float delta[3];
+        read_delta(mesh, run, i, delta);
+        sum += delta[0] * g[0] + delta[1] * g[1] + delta[2] * g[2];
+      }
       d.weights[size_t{run.channel} * lanes + lane] += sum;
     });
   }

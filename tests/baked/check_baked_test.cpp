@@ -2,6 +2,8 @@
 // One count or index of a rig or deformer at a time that contradicts the others: each is found.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/support/baked_bytes.h"
 #include "tests/support/bytes.h"
 #include "tests/support/random_layer_rig.h"
@@ -350,20 +352,18 @@ TEST(CheckBakedDeformer, CountsAndIndices) {
        [](Deformer&, DeformMesh& m) { m.sorted_normals.count -= 4; }},
       {"a hard edge of no position", [](Deformer&, DeformMesh& m) { m.hard_positions.count += 1; }},
       {"a direction too many", [](Deformer&, DeformMesh& m) { m.neutral_directions.count += 4; }},
-      {"faces of both sizes", [](Deformer&, DeformMesh& m) { m.faces.wide = m.vertices; }},
-      {"sorted indices of both sizes",
+      {"faces read as indices of the other size",
        [](Deformer&, DeformMesh& m) {
-         m.sorted_indices.narrow.count -= 1;
-         m.sorted_indices.wide = m.vertices.slice(0, 1);
+         m.faces =
+             IndexList(Span<uint32_t>{static_cast<uint32_t*>(m.faces.data), m.faces.count / 8 * 4});
        }},
+      {"a position twice in the order",
+       [](Deformer&, DeformMesh& m) { m.position_indices[1] = m.position_indices[0]; }},
       {"16-bit storage with floats", [](Deformer& d, DeformMesh&) { d.half_storage = true; }},
       {"normals that are no choice",
        [](Deformer& d, DeformMesh&) { d.normals = Normals::kDefault; }},
       {"more faces than can be numbered",
-       [](Deformer&, DeformMesh& m) {
-         m.faces.narrow.count = 0;
-         m.faces.wide.count = SIZE_MAX / 4 * 4;
-       }},
+       [](Deformer&, DeformMesh& m) { m.faces.count = SIZE_MAX / 8 * 4; }},
   };
   // Where sizes have 32 bits, faces cannot be as many as the last says.
   size_t left = std::size(all) - (sizeof(size_t) == 4);
@@ -377,6 +377,32 @@ TEST(CheckBakedDeformer, CountsAndIndices) {
     contradiction.make(deformer, deformer.meshes[0]);
     EXPECT_EQ(check_deformer(deformer, true, error), Status::kBakedStructure);
   }
+}
+
+// In 16-bit storage each run of a target says where its numbers are, and how many bits they have.
+TEST(CheckBakedDeformer, NumbersOfTargets) {
+  Arena arena(default_allocator());
+  const Bytes bytes = write_view(dna::tiny_rig(arena));
+  const DnaHandle dna = open_dna(bytes);
+  const RigHandle rig = create_rig(dna.get());
+  MienDeformerDesc desc = {};
+  desc.storage = MIEN_STORAGE_16_BIT;
+  const Bytes file = bake(rig.get(), create_deformer(dna.get(), rig.get(), desc).get());
+  const auto expect = [&](Status expected, void (*make)(DeformMesh & mesh)) {
+    OpenBaked opened(file);
+    Deformer& deformer = const_cast<Deformer&>(opened.deformer_arrays());
+    ASSERT_FALSE(deformer.meshes[0].fixed_runs.empty());
+    make(deformer.meshes[0]);
+    Error error;
+    EXPECT_EQ(check_deformer(deformer, true, error), expected);
+  };
+  expect(Status::kOk, [](DeformMesh&) {});
+  expect(Status::kOk, [](DeformMesh& m) { m.fixed_runs[0].scale = NAN; });
+  expect(Status::kBakedStructure, [](DeformMesh& m) { m.fixed_runs[0].place += 2; });
+  expect(Status::kBakedStructure, [](DeformMesh& m) { m.fixed_runs[0].place ^= 1; });
+  expect(Status::kBakedStructure, [](DeformMesh& m) { m.fixed_runs[0].place = ~0u; });
+  expect(Status::kBakedStructure, [](DeformMesh& m) { --m.fixed_runs.count; });
+  expect(Status::kBakedStructure, [](DeformMesh& m) { --m.fixed_deltas.count; });
 }
 
 }  // namespace

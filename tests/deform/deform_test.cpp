@@ -339,6 +339,20 @@ TEST(Deform, SixteenBitsMovePositionsLittle) {
   }
 }
 
+/// By how much a number of a target may be off: half of a 16-bit step, or, if it is packed, 2^-18 of the size of the mesh.
+double largest_rounding(const MienMesh& mesh, double largest_delta) {
+  double size = 0;
+  for (size_t k = 0; k < 3; ++k) {
+    double least = INFINITY, most = -INFINITY;
+    for (size_t i = k; i < size_t{mesh.position_count} * 3; i += 3) {
+      least = std::min(least, double{mesh.positions.data[i]});
+      most = std::max(most, double{mesh.positions.data[i]});
+    }
+    size = std::max(size, most - least);
+  }
+  return std::max(0.5 * largest_delta / 32767, size * 0x1p-18) * 1.01;
+}
+
 TEST(Deform, SixteenBitsOfATargetAreWithinHalfAStep) {
   MienDeformerDesc half = {};
   half.storage = MIEN_STORAGE_16_BIT;
@@ -352,7 +366,7 @@ TEST(Deform, SixteenBitsOfATargetAreWithinHalfAStep) {
               MIEN_OK);
     ASSERT_EQ(mien_deformer_target(as_floats.deformer.get(), 0, t, exact.data(), exact.size()),
               MIEN_OK);
-    EXPECT_LE(largest_difference(span_of(rounded), span_of(exact)), 2 * 0.5 / 32767 * 1.01);
+    EXPECT_LE(largest_difference(span_of(rounded), span_of(exact)), largest_rounding(mesh, 2));
   }
   EXPECT_NE(rounded, exact);
   MienIndex16View joints = {};
@@ -360,6 +374,47 @@ TEST(Deform, SixteenBitsOfATargetAreWithinHalfAStep) {
   EXPECT_EQ(mien_deformer_influences(d.deformer.get(), 0, 0, &joints, &weights),
             MIEN_ERROR_UNSUPPORTED);
   EXPECT_EQ(joints.count + weights.count, 0u);
+}
+
+// Targets of small numbers take 10 bits for each, others 16; a mesh may have both.
+TEST(Deform, SmallDeltasArePacked) {
+  MienDeformerDesc half = {};
+  half.storage = MIEN_STORAGE_16_BIT;
+  const std::vector<uint8_t> file = changed_rig([](Arena& arena, DnaView& view) {
+    Mesh& mesh = view.geom.meshes[0];
+    mesh.blend_shape_targets[0].deltas.zs = be<float>(arena, {0.5f, -0.25f});
+    dna::BlendShapeTarget small = mesh.blend_shape_targets[0];
+    small.deltas.xs = be<float>(arena, {0, 1e-4f});
+    small.deltas.ys = be<float>(arena, {2e-4f, 0});
+    small.deltas.zs = be<float>(arena, {-3e-4f, 1e-5f});
+    mesh.blend_shape_targets = dna::list<dna::BlendShapeTarget>(
+        arena, {mesh.blend_shape_targets[0], small, mesh.blend_shape_targets[0], small});
+  });
+  Deformed d(file, half), as_floats(file);
+  const DeformMesh& arrays = capi::object(d.deformer.get())->meshes[0];
+  ASSERT_EQ(arrays.fixed_runs.count, 4u);
+  for (uint32_t r = 0; r < 4; ++r) EXPECT_EQ(arrays.fixed_runs[r].is_packed(), r % 2 == 1) << r;
+  EXPECT_EQ(arrays.fixed_deltas.count, (6u + 4u) * 2 + 1);
+  const MienMesh mesh = mesh_of(d.deformer.get(), 0);
+  std::vector<float> rounded(mesh.position_count * size_t{3}), exact = rounded;
+  for (uint32_t t = 0; t < 4; ++t) {
+    ASSERT_EQ(mien_deformer_target(d.deformer.get(), 0, t, rounded.data(), rounded.size()),
+              MIEN_OK);
+    ASSERT_EQ(mien_deformer_target(as_floats.deformer.get(), 0, t, exact.data(), exact.size()),
+              MIEN_OK);
+    const double largest = t % 2 == 1 ? 3e-4 : 1;
+    EXPECT_LE(largest_difference(span_of(rounded), span_of(exact)), 0.5 * largest / 511 * 1.01);
+    EXPECT_LE(largest_difference(span_of(rounded), span_of(exact)), largest_rounding(mesh, 1));
+  }
+  DeformValues values = random_values(d.rig.get(), 3);
+  std::fill(values.joints.begin(), values.joints.end(), 0.0f);
+  for (Deformed* each : {&d, &as_floats}) {
+    each->update(values);
+    each->deform(0);
+  }
+  const double off = largest_difference(d.positions(0), as_floats.positions(0));
+  EXPECT_GT(off, 0);
+  EXPECT_LE(off, 1e-4);
 }
 
 TEST(Deform, SixteenBitsTakeAnyWeightsAndDeltas) {

@@ -30,7 +30,7 @@ namespace {
 
 constexpr size_t kStack = size_t{512} << 10;
 constexpr uint8_t kFill = 0xA5;
-constexpr size_t kEvaluate = size_t{48} << 10, kDeform = size_t{24} << 10;  // what mien.h says
+constexpr size_t kEvaluate = size_t{48} << 10, kDeform = size_t{16} << 10;  // what mien.h says
 
 void* run(void* call) {
   (*static_cast<std::function<void()>*>(call))();
@@ -113,6 +113,7 @@ TEST_P(Stack, OfAFrameIsWhatTheHeaderSays) {
       MienDeformer* deformer = nullptr;
       MienDeformerDesc deformer_desc = sized<MienDeformerDesc>();
       deformer_desc.with_tangents = 1;
+      deformer_desc.storage = storage;
       ASSERT_EQ(mien_deformer_create(dna.get(), rig.get(), &deformer_desc, &deformer, nullptr),
                 MIEN_OK);
       const std::unique_ptr<MienDeformer, CloseMeshes> deformer_owner(deformer);

@@ -126,9 +126,9 @@ TEST(KernelsDeform, JointsHaveTheSameBitsEverywhere) {
 struct MeshPart {
   Numbers numbers;
   Aligned positions, weights, matrices, deltas, normals, directions;
-  std::vector<uint16_t> joints;
-  std::vector<uint32_t> position_indices, first_vertex = {0}, vertices, faces,
-                                          first_adjacent_face = {0}, adjacent_faces;
+  std::vector<uint16_t> joints, position_indices;
+  std::vector<uint32_t> first_vertex = {0}, vertices, faces, first_adjacent_face = {0},
+                        adjacent_faces;
 
   explicit MeshPart(uint32_t seed)
       : numbers(seed), positions(kPositions * 4, &numbers),
@@ -140,7 +140,7 @@ struct MeshPart {
       joints.push_back(static_cast<uint16_t>(numbers.below(kJoints)));
     }
     for (uint32_t i = 0; i < kPositions; ++i) {
-      position_indices.push_back((i * 17 + 5) % kPositions);
+      position_indices.push_back(static_cast<uint16_t>((i * 17 + 5) % kPositions));
       for (uint32_t n = numbers.below(3); n != 0; --n) {
         const uint32_t vertex = static_cast<uint32_t>(vertices.size());
         vertices.push_back(numbers.below(5) == 0 ? vertex | kHardEdge : vertex);
@@ -222,13 +222,15 @@ struct MeshPart {
     }
     return result;
   }
-  /// The deltas rounded to 16 bits, by either kernel.
-  std::vector<float> with_rounded_target(const KernelTable& kernels, uint32_t count, bool fixed) {
+  /// The deltas rounded to 16 bits, or to 10, by either kernel.
+  std::vector<float> with_rounded_target(const KernelTable& kernels, uint32_t count, bool packed,
+                                         bool fixed) {
     constexpr float kScale = 1.0f / 32768;
+    const float largest = packed ? 511 : 32767;
     std::vector<int16_t> numbers_of(deltas.count);
     Aligned rounded(deltas.count, nullptr);
     for (size_t i = 0; i < deltas.count; ++i) {
-      numbers_of[i] = static_cast<int16_t>(deltas.data[i] * 32767);
+      numbers_of[i] = static_cast<int16_t>(deltas.data[i] * largest);
     }
     kernels.floats_from_fixed(numbers_of.data(), kScale, rounded.count, rounded.data);
     for (size_t i = 0; i < rounded.count; ++i) {
@@ -238,7 +240,18 @@ struct MeshPart {
     for (uint32_t i = 0; i < count; ++i) at.push_back(static_cast<uint16_t>(i * 7 % kPositions));
     Aligned result(kPositions * 4, nullptr);
     std::copy(positions.data, positions.data + kPositions * 4, result.data);
-    if (fixed) {
+    if (fixed && packed) {
+      std::vector<uint16_t> words(1);  // the kernel takes any even address
+      for (size_t i = 0; i + 3 <= numbers_of.size(); i += 3) {
+        uint32_t bits = 0;
+        for (int k = 0; k < 3; ++k) {
+          bits |= static_cast<uint32_t>(numbers_of[i + size_t(k)] + 512) << 10 * k;
+        }
+        words.resize(words.size() + 2);
+        memcpy(words.data() + words.size() - 2, &bits, sizeof(bits));
+      }
+      kernels.add_target_packed({words.data() + 1, at.data(), result.data, 0.7f * kScale, count});
+    } else if (fixed) {
       kernels.add_target_fixed({numbers_of.data(), at.data(), result.data, 0.7f * kScale, count});
     } else {
       kernels.add_target({rounded.data, at.data(), result.data, 0.7f, count});
@@ -302,8 +315,10 @@ TEST(KernelsDeform, AnyCount) {
                   part.recomputed(scalar, count, false), 1e-4f);
       expect_near(part.with_target(*kernels, count), part.with_target(scalar, count), 1e-6f);
       // The scale is a power of two, so both round alike.
-      EXPECT_EQ(part.with_rounded_target(*kernels, count, true),
-                part.with_rounded_target(*kernels, count, false));
+      for (const bool packed : {false, true}) {
+        EXPECT_EQ(part.with_rounded_target(*kernels, count, packed, true),
+                  part.with_rounded_target(*kernels, count, packed, false));
+      }
     }
   }
 }

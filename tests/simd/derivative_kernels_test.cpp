@@ -143,7 +143,7 @@ TEST(SkinTransposedKernel, IsTheTransposedSkin) {
         gradients(kCount * 3 + 4);
     std::vector<float> skins(kMatrices * 16 + 16);
     std::vector<uint16_t> joints(kCount * influences);
-    std::vector<uint32_t> indices = {3, 0, 5, 1, 4, 2};
+    std::vector<uint16_t> indices = {3, 0, 5, 1, 4, 2};
     for (std::vector<float>* row : {&positions, &weights, &gradients, &skins}) {
       for (float& v : *row) v = static_cast<float>(random.between(-1, 1));
     }

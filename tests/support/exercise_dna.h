@@ -25,8 +25,8 @@ constexpr size_t open_memory_bound(size_t file_size) { return 20 * file_size + 2
 
 /// The same for packing the geometry and one pose. A position of 12 bytes becomes about 100, with
 /// places, neighbors and results; a mesh without geometry, which is listed with 6, becomes records of
-/// about 600.
-constexpr size_t deformer_memory_bound(size_t file_size) { return 100 * file_size + 1024 * 1024; }
+/// about 570.
+constexpr size_t deformer_memory_bound(size_t file_size) { return 96 * file_size + 1024 * 1024; }
 
 /// The same for compiling a rig and one instance. A joint group of one row is padded to 16, so an
 /// entry of 4 bytes can become one of 64; names and tables of 65536 controls, which a file asks for

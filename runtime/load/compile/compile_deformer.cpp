@@ -58,7 +58,7 @@ void place_mesh(const Mesh& source, const MeshPlan& plan, const DeformOptions& o
 Status fill_mesh(const MeshSource& source, const MeshPlan& plan, DeformMesh& mesh) {
   if (mesh.is_empty() && mesh.target_count == 0) return Status::kOk;
   fill_skin(source, plan, mesh);
-  const Status status = fill_targets(source, mesh);
+  const Status status = fill_targets(source, plan, mesh);
   return status == Status::kOk ? fill_surface(source, plan, mesh) : status;
 }
 

@@ -36,6 +36,8 @@ struct MeshPlan {
   uint32_t max_influences = 0;
   float max_weight = 0;  // in magnitude
   size_t target_run_count = 0, delta_count = 0;
+  size_t fixed_words = 0;    // of deltas in 16-bit storage
+  float largest_packed = 0;  // runs of smaller numbers are packed
   size_t triangle_count = 0, face_count = 0, hard_count = 0;
   Span<Vec3> directions;  // [position] outward recomputed neutral normal
   Span<uint8_t> hard;     // [position] 1: it has vertices on hard edges
@@ -57,9 +59,8 @@ struct MeshSource {
 /// Room for `count` indices below `limit`.
 inline void place_indices(size_t count, size_t limit, Placer& placer, IndexList& list,
                           size_t alignment) {
-  const bool narrow = limit <= 0x10000;
-  list.narrow = placer.array<uint16_t>(narrow ? count : 0, alignment);
-  list.wide = placer.array<uint32_t>(narrow ? 0 : count, alignment);
+  list = limit <= 0x10000 ? IndexList(placer.array<uint16_t>(count, alignment))
+                          : IndexList(placer.array<uint32_t>(count, alignment));
 }
 
 /// `value`, at most 32767 scales, in units of a scale.
@@ -83,7 +84,7 @@ void fill_skin(const MeshSource& source, const MeshPlan& plan, DeformMesh& mesh)
 
 Status plan_targets(const MeshSource& source, MeshPlan& plan);
 void place_targets(const MeshPlan& plan, bool half_storage, Placer& placer, DeformMesh& mesh);
-Status fill_targets(const MeshSource& source, DeformMesh& mesh);
+Status fill_targets(const MeshSource& source, const MeshPlan& plan, DeformMesh& mesh);
 
 Status plan_surface(const MeshSource& source, MeshPlan& plan);
 void place_surface(const MeshPlan& plan, const DeformOptions& options, Placer& placer,

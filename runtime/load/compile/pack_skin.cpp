@@ -99,7 +99,10 @@ Status plan_skin(const MeshSource& source, MeshPlan& plan) {
     plan.weight_count += influences;
     plan.max_influences = std::max(plan.max_influences, influences);
   }
-  std::sort(plan.order.begin(), plan.order.end());
+  for (uint32_t first = 0; first < count; first += kWindowPositions) {
+    const auto window = plan.order.slice(first, std::min(kWindowPositions, count - first));
+    std::sort(window.begin(), window.end());
+  }
   for (uint32_t i = 0; i < count; ++i) {
     const uint64_t key = plan.order[i];
     plan.sorted_indices[position_of(key)] = i;
@@ -115,16 +118,12 @@ void place_skin(const MeshPlan& plan, bool half_storage, Placer& placer, DeformM
   mesh.weights = placer.array<float>(fixed ? 0 : plan.weight_count, alignment);
   mesh.fixed_weights = placer.array<int16_t>(fixed ? plan.weight_count : 0, alignment);
   mesh.joints = placer.array<uint16_t>(plan.weight_count, alignment);
-  mesh.position_indices = placer.array<uint32_t>(count, alignment);
-  place_indices(count, count, placer, mesh.sorted_indices, alignof(uint32_t));
+  mesh.position_indices = placer.array<uint16_t>(count, alignment);
   mesh.skin_runs = placer.array<SkinRun>(plan.skin_run_count);
 }
 
 void fill_skin(const MeshSource& source, const MeshPlan& plan, DeformMesh& mesh) {
   const dna::Vec3Array& positions = source.mesh.positions;
-  for (uint32_t p = 0; p < mesh.position_count; ++p) {
-    mesh.sorted_indices.set(p, plan.sorted_indices[p]);
-  }
   if (!mesh.fixed_weights.empty()) mesh.weight_scale = scale_of_weights(plan.max_weight);
   float weights[kMaxFixedInfluences];
   uint32_t run = 0;
@@ -132,7 +131,7 @@ void fill_skin(const MeshSource& source, const MeshPlan& plan, DeformMesh& mesh)
   for (uint32_t i = 0; i < mesh.position_count; ++i) {
     const uint32_t p = position_of(plan.order[i]);
     const uint32_t influences = influences_of(plan.order[i]);
-    mesh.position_indices[i] = p;
+    mesh.position_indices[i] = static_cast<uint16_t>(p - window_of(i));
     if (!mesh.sorted_positions.empty()) {
       float* at = mesh.sorted_positions.data + size_t{i} * 4;
       at[0] = positions.xs[p];

@@ -117,7 +117,7 @@ void starts_from_counts(const Span<uint32_t>& first) {
 }
 
 /// The faces, and those adjacent to each position.
-void fill_faces(const Mesh& source, DeformMesh& mesh) {
+void fill_faces(const Mesh& source, const MeshPlan& plan, DeformMesh& mesh) {
   size_t face = 0;
   for_each_face(source, [&](const uint32_t* corners) {
     for (int k = 0; k < 4; ++k) mesh.faces.set(face * 4 + k, corners[k]);
@@ -129,7 +129,7 @@ void fill_faces(const Mesh& source, DeformMesh& mesh) {
       uint32_t corners[4];
       for (size_t k = 0; k < 4; ++k) corners[k] = mesh.faces[size_t{i} * 4 + k];
       for (int k = 0; k < 4; ++k) {
-        if (!repeats(corners, k)) f(first[size_t{mesh.sorted_indices[corners[k]]} + 1], i);
+        if (!repeats(corners, k)) f(first[size_t{plan.sorted_indices[corners[k]]} + 1], i);
       }
     }
   };
@@ -139,9 +139,9 @@ void fill_faces(const Mesh& source, DeformMesh& mesh) {
 }
 
 /// The vertices of each position.
-void fill_vertex_lists(DeformMesh& mesh) {
+void fill_vertex_lists(const MeshPlan& plan, DeformMesh& mesh) {
   const auto next = [&](uint32_t v) -> uint32_t& {
-    return mesh.first_vertex[size_t{mesh.sorted_indices[mesh.vertex_position_indices[v]]} + 1];
+    return mesh.first_vertex[size_t{plan.sorted_indices[mesh.vertex_position_indices[v]]} + 1];
   };
   for (uint32_t v = 0; v < mesh.vertex_count; ++v) ++next(v);
   starts_from_counts(mesh.first_vertex);
@@ -222,8 +222,8 @@ void place_surface(const MeshPlan& plan, const DeformOptions& options, Placer& p
 
 Status fill_surface(const MeshSource& source, const MeshPlan& plan, DeformMesh& mesh) {
   fill_vertices(source.mesh, mesh);
-  fill_faces(source.mesh, mesh);
-  fill_vertex_lists(mesh);
+  fill_faces(source.mesh, plan, mesh);
+  fill_vertex_lists(plan, mesh);
 
   if (plan.inward) {
     for (size_t f = 0; f < mesh.face_count(); ++f) {
@@ -234,7 +234,7 @@ Status fill_surface(const MeshSource& source, const MeshPlan& plan, DeformMesh& 
   }
   size_t hard = 0;
   for (uint32_t i = 0; i < mesh.position_count; ++i) {
-    const uint32_t p = mesh.position_indices[i];
+    const uint32_t p = mesh.position_of(i);
     if (plan.hard[p] == 0) continue;
     mesh.hard_positions[hard] = i;
     store(plan.directions[p], mesh.neutral_directions.data + hard++ * 4);

@@ -2,6 +2,7 @@
 // Blend shape targets: their deltas, sorted by block of positions, then by target.
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "runtime/load/compile/compile_deformer.h"
 
@@ -10,17 +11,49 @@ namespace {
 
 using dna::BlendShapeTarget;
 
+constexpr float kPackedLimit = 511;  // largest number of 10 bits
+
 bool is_nonzero(const BlendShapeTarget& target, uint32_t i) {
   return target.deltas.xs[i] != 0 || target.deltas.ys[i] != 0 || target.deltas.zs[i] != 0;
+}
+
+/// Packed numbers are off by at most 2^-18 of the size of the mesh.
+float largest_packed(const dna::Vec3Array& positions) {
+  float size = 0;
+  for (const auto* axis : {&positions.xs, &positions.ys, &positions.zs}) {
+    float least = INFINITY, most = -INFINITY;
+    for (uint32_t i = 0; i < axis->count; ++i) {
+      least = std::min(least, (*axis)[i]);
+      most = std::max(most, (*axis)[i]);
+    }
+    size = std::max(size, most - least);
+  }
+  return size * (2 * kPackedLimit / 0x1p18f);
+}
+
+float magnitude(const BlendShapeTarget& target, uint32_t i) {
+  return std::max({std::fabs(target.deltas.xs[i]), std::fabs(target.deltas.ys[i]),
+                   std::fabs(target.deltas.zs[i])});
 }
 
 }  // namespace
 
 Status plan_targets(const MeshSource& source, MeshPlan& plan) {
+  struct Block {
+    uint32_t last = 0;  // last target, + 1
+    uint32_t count = 0;
+    float largest = 0;
+  };
   const uint32_t positions = source.mesh.positions.xs.count;
-  const size_t blocks = (positions + kBlockPositions - 1) / kBlockPositions;
-  const Span<uint32_t> previous = source.scratch.array<uint32_t>(blocks);  // its last target, + 1
-  if (blocks != 0 && !previous.data) return source.no_memory();
+  const size_t block_count = (positions + kBlockPositions - 1) / kBlockPositions;
+  const Span<Block> blocks = source.scratch.array<Block>(block_count);
+  if (block_count != 0 && !blocks.data) return source.no_memory();
+  plan.largest_packed = largest_packed(source.mesh.positions);
+  const auto end_run = [&](Block& block) {
+    plan.fixed_words += size_t{block.count} * (block.largest <= plan.largest_packed ? 2 : 3);
+    block.count = 0;
+    block.largest = 0;
+  };
   const auto& targets = source.mesh.blend_shape_targets;
   for (uint32_t t = 0; t < targets.count; ++t) {
     const BlendShapeTarget& target = targets[t];
@@ -34,11 +67,17 @@ Status plan_targets(const MeshSource& source, MeshPlan& plan) {
       }
       if (!is_nonzero(target, i)) continue;
       ++plan.delta_count;
-      uint32_t& last = previous[plan.sorted_indices[target.vertex_indices[i]] / kBlockPositions];
-      plan.target_run_count += last != t + 1;
-      last = t + 1;
+      Block& block = blocks[plan.sorted_indices[target.vertex_indices[i]] / kBlockPositions];
+      if (block.last != t + 1) {
+        end_run(block);
+        ++plan.target_run_count;
+      }
+      block.last = t + 1;
+      ++block.count;
+      block.largest = std::max(block.largest, magnitude(target, i));
     }
   }
+  for (Block& block : blocks) end_run(block);
   return Status::kOk;
 }
 
@@ -47,17 +86,18 @@ void place_targets(const MeshPlan& plan, bool half_storage, Placer& placer, Defo
   mesh.target_channels = placer.array<uint16_t>(mesh.target_count);
   mesh.first_target_run = placer.array<uint32_t>(size_t{mesh.block_count()} + 1);
   mesh.target_runs = placer.array<TargetRun>(plan.target_run_count);
-  const size_t numbers = plan.delta_count * 3 + 1;
-  mesh.deltas = placer.array<float>(half_storage ? 0 : numbers, alignment);
-  mesh.fixed_deltas = placer.array<int16_t>(half_storage ? numbers : 0, alignment);
-  mesh.delta_scales = placer.array<float>(half_storage ? plan.target_run_count : 0);
+  const bool fixed = half_storage && plan.delta_count <= kMaxFixedDeltas;
+  mesh.deltas = placer.array<float>(fixed ? 0 : plan.delta_count * 3 + 1, alignment);
+  mesh.fixed_deltas = placer.array<int16_t>(fixed ? plan.fixed_words + 1 : 0, alignment);
+  mesh.fixed_runs = placer.array<FixedRun>(fixed ? plan.target_run_count : 0);
   mesh.delta_indices = placer.array<uint16_t>(plan.delta_count, alignment);
 }
 
 // A counting sort with two passes over all deltas: the first counts the runs and deltas of each
-// block, the second writes them. 16-bit storage takes a third one: the second finds the scales of runs.
+// block, the second writes them. 16-bit storage takes a third one: the second finds the largest
+// number of each run.
 // Targets are visited in ascending order, so a block's runs ascend too.
-Status fill_targets(const MeshSource& source, DeformMesh& mesh) {
+Status fill_targets(const MeshSource& source, const MeshPlan& plan, DeformMesh& mesh) {
   struct Block {
     uint32_t last;  // last target, + 1
     uint32_t run, delta;
@@ -69,7 +109,7 @@ Status fill_targets(const MeshSource& source, DeformMesh& mesh) {
   const auto for_each_delta = [&](auto&& f) {
     for (uint32_t t = 0; t < targets.count; ++t) {
       for (uint32_t i = 0; i < targets[t].vertex_indices.count; ++i) {
-        if (is_nonzero(targets[t], i)) f(t, i, mesh.sorted_indices[targets[t].vertex_indices[i]]);
+        if (is_nonzero(targets[t], i)) f(t, i, plan.sorted_indices[targets[t].vertex_indices[i]]);
       }
     }
   };
@@ -96,16 +136,25 @@ Status fill_targets(const MeshSource& source, DeformMesh& mesh) {
     block.last = t + 1;
     ++mesh.target_runs[block.run - 1].count;
     mesh.delta_indices[block.delta] = static_cast<uint16_t>(sorted_index % kBlockPositions);
-    const float xyz[] = {targets[t].deltas.xs[i], targets[t].deltas.ys[i], targets[t].deltas.zs[i]};
     const size_t at = size_t{block.delta++} * 3;
     if (mesh.fixed_deltas.empty()) {
-      std::copy(xyz, xyz + 3, mesh.deltas.data + at);
-      return;
+      mesh.deltas[at] = targets[t].deltas.xs[i];
+      mesh.deltas[at + 1] = targets[t].deltas.ys[i];
+      mesh.deltas[at + 2] = targets[t].deltas.zs[i];
+    } else {
+      float& largest = mesh.fixed_runs[block.run - 1].scale;
+      largest = std::max(largest, magnitude(targets[t], i));
     }
-    float& scale = mesh.delta_scales[block.run - 1];
-    for (const float part : xyz) scale = std::max(scale, std::fabs(part) / 32767);
   });
   if (!mesh.fixed_deltas.empty()) {
+    size_t word = 0;
+    for (uint32_t r = 0; r < run; ++r) {
+      FixedRun& fixed = mesh.fixed_runs[r];
+      const bool packed = fixed.scale <= plan.largest_packed;
+      fixed = {fixed.scale / (packed ? kPackedLimit : 32767),
+               static_cast<uint32_t>(2 * word + packed)};
+      word += mesh.target_runs[r].count * fixed.words_per_delta();
+    }
     for (uint32_t b = 0; b < mesh.block_count(); ++b) {
       const uint32_t first = mesh.first_target_run[b];
       const bool any = first != mesh.first_target_run[b + 1];
@@ -115,11 +164,21 @@ Status fill_targets(const MeshSource& source, DeformMesh& mesh) {
       Block& block = blocks[sorted_index / kBlockPositions];
       block.run += block.last != t + 1;
       block.last = t + 1;
-      const float scale = mesh.delta_scales[block.run - 1];
-      int16_t* const at = mesh.fixed_deltas.data + size_t{block.delta++} * 3;
-      at[0] = in_units(double{targets[t].deltas.xs[i]}, scale);
-      at[1] = in_units(double{targets[t].deltas.ys[i]}, scale);
-      at[2] = in_units(double{targets[t].deltas.zs[i]}, scale);
+      const FixedRun& fixed = mesh.fixed_runs[block.run - 1];
+      const uint32_t place = block.delta++ - mesh.target_runs[block.run - 1].first_delta;
+      int16_t* const to =
+          mesh.fixed_deltas.data + fixed.first_word() + place * fixed.words_per_delta();
+      const dna::Vec3Array& deltas = targets[t].deltas;
+      const int16_t numbers[] = {in_units(double{deltas.xs[i]}, fixed.scale),
+                                 in_units(double{deltas.ys[i]}, fixed.scale),
+                                 in_units(double{deltas.zs[i]}, fixed.scale)};
+      if (fixed.is_packed()) {
+        uint32_t packed = 0;
+        for (int k = 0; k < 3; ++k) packed |= static_cast<uint32_t>(numbers[k] + 512) << 10 * k;
+        memcpy(to, &packed, sizeof(packed));
+      } else {
+        std::copy(numbers, numbers + 3, to);
+      }
     });
   }
   for (uint32_t t = 0; t < targets.count; ++t) mesh.target_channels[t] = targets[t].channel_index;

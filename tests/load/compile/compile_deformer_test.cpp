@@ -156,21 +156,34 @@ TEST(CompileDeformer, TellsWhichLodsShowAMesh) {
 }
 
 // Neighbors run the same code, and mostly read the same matrices.
-TEST(CompileDeformer, SortedPositionsAreInRunsOfEqualInfluences) {
-  Deformed d(random_deform_rig(1, {}));
+TEST(CompileDeformer, PositionsOfAWindowAreInRunsOfEqualInfluences) {
+  DeformRigOptions options;
+  options.rows = options.columns = 70;
+  Deformed d(random_deform_rig(1, options));
   const DeformMesh& mesh = capi::object(d.deformer.get())->meshes[0];
-  uint32_t next = 0, influences = 0;
+  ASSERT_GT(mesh.position_count, kWindowPositions);
+  uint32_t next = 0, influences = ~0u, ascents = 0;
   for (const SkinRun& run : mesh.skin_runs) {
     EXPECT_EQ(run.first, next);
     EXPECT_GT(run.count, 0u);
-    EXPECT_TRUE(next == 0 || run.influences > influences);
+    EXPECT_NE(run.influences, influences);
+    if (run.first % kWindowPositions != 0) {
+      EXPECT_GT(run.influences, influences);
+      ++ascents;
+    }
     influences = run.influences;
     next += run.count;
   }
+  EXPECT_GT(ascents, 0u);
   EXPECT_EQ(next, mesh.position_count);
-  for (uint32_t p = 0; p < mesh.position_count; ++p) {
-    EXPECT_EQ(mesh.position_indices[mesh.sorted_indices[p]], p);
+  std::vector<uint32_t> times(mesh.position_count);
+  for (uint32_t i = 0; i < mesh.position_count; ++i) {
+    const uint32_t p = mesh.position_of(i);
+    ASSERT_LT(p, mesh.position_count);
+    EXPECT_EQ(p / kWindowPositions, i / kWindowPositions);
+    ++times[p];
   }
+  EXPECT_EQ(times, std::vector<uint32_t>(mesh.position_count, 1));
 }
 
 // What is missing ---------------------------------------------------------------------------------

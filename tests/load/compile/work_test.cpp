@@ -366,7 +366,7 @@ double bound(size_t bytes) { return 0.1 * std::max(1.0, double(bytes) / (1 << 20
 #endif
 #if defined(__x86_64__) && !defined(_WIN32) && !defined(__SANITIZE_ADDRESS__) && \
     !MIEN_HAS_FEATURE(address_sanitizer)
-constexpr double kSlack = 4;
+constexpr double kSlack = 2.5;
 #else
 constexpr double kSlack = 100;
 #endif
