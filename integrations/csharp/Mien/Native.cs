@@ -3662,7 +3662,7 @@ namespace Mien.Native {
 
     /// <summary>Computes the positions and normals of a mesh for the last update. Runs on the calling thread; meshes
     /// of at least 16384 positions run in tasks of about 1024 on `parallel`. `parallel` may be NULL. The
-    /// results have the same bits either way. Does not allocate or lock. Uses up to 24 KiB of stack per
+    /// results have the same bits either way. Does not allocate or lock. Uses up to 16 KiB of stack per
     /// task.
     /// Fails with MIEN_ERROR_INDEX if there is no such mesh, MIEN_ERROR_LOD if `deformer_instance` has no
     /// memory for it (MienDeformerInstanceDesc.lods).
@@ -3673,7 +3673,7 @@ namespace Mien.Native {
     /// <summary>Deforms the same mesh of `count` different instances of one deformer. The results are bit-identical to
     /// those of mien_deformer_instance_deform(), but each part of the mesh is read only once for all of them,
     /// and the total number of positions decides whether tasks are used. `parallel` may be NULL. Does not
-    /// allocate or lock. Uses up to 24 KiB of stack per task. On failure nothing is deformed.
+    /// allocate or lock. Uses up to 16 KiB of stack per task. On failure nothing is deformed.
     /// Fails with MIEN_ERROR_INDEX if there is no such mesh, MIEN_ERROR_LOD if an instance has no memory for
     /// it, MIEN_ERROR_MISMATCH if the instances have different deformers, MIEN_ERROR_INVALID_ARGUMENT if
     /// an instance is listed twice.</summary>
