@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Controls: which are not 0; correctives.
+// Controls: which are not 0, which differ; correctives.
 #pragma once
 
 #include <stdint.h>
@@ -15,6 +15,15 @@ struct NonzeroArgs {
   uint32_t count;
 };
 using NonzeroKernel = void(const NonzeroArgs& args);
+
+/// Which values differ in their bits from the others: bit i % 64 of words[i / 64]. Bits past the last value
+/// are 0.
+struct DifferentArgs {
+  const float *values, *others;  // at any address
+  uint64_t* words;
+  uint32_t count;
+};
+using DifferentKernel = void(const DifferentArgs& args);
 
 /// Correctives, entry after entry:
 ///
@@ -35,6 +44,20 @@ struct PsdArgs {
   uint32_t count;
 };
 using PsdsKernel = uint64_t(const PsdArgs& args);
+
+/// The same for some entries that do not read each other. Lists those of them whose outputs changed in their
+/// bits, and returns their number.
+struct PsdListArgs {
+  const uint16_t* outputs;
+  const float* weights;
+  const uint32_t* first_inputs;
+  const uint16_t* inputs;
+  float* controls;
+  const uint16_t* entries;
+  uint16_t* changed;  // room for `count`; may be `entries`
+  uint32_t count;
+};
+using PsdListKernel = uint32_t(const PsdListArgs& args);
 
 /// The same for many characters, one lane each: controls[32 * c + lane] for controls[c]. Bit k of
 /// changed[e] is set if the value in lane k changed.

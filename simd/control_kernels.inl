@@ -28,6 +28,33 @@ void nonzero(const NonzeroArgs& args) {
   }
 }
 
+void different(const DifferentArgs& args) {
+  const float *const values = args.values, *const others = args.others;
+  const size_t count = args.count;
+  for (size_t first = 0; first < count; first += 64) {
+    const size_t left = count - first, end = left < 64 ? left : 64;
+    uint64_t word = 0;
+    size_t i = 0;
+    for (; i + kWidth <= end; i += kWidth) {
+      const uint64_t lanes =
+          different_lanes(load_any(values + first + i), load_any(others + first + i));
+      word |= lanes << i;
+    }
+    for (; i < end; ++i) {
+      word |= uint64_t{bits_of(values[first + i]) != bits_of(others[first + i])} << i;
+    }
+    args.words[first / 64] = word;
+  }
+}
+
+inline float corrective(const float* controls, const uint16_t* inputs, size_t count, float weight) {
+  float product = 1.0f;
+  for (size_t i = 0; i < count; ++i) {
+    product *= lower_of(higher_of(controls[inputs[i]], 0.0f), 1.0f);
+  }
+  return higher_of(lower_of(product * weight, 1.0f), kLowest);
+}
+
 uint64_t psds(const PsdArgs& args) {
   float* const controls = args.controls;
   const uint64_t* const marks = args.marks;
@@ -56,11 +83,7 @@ uint64_t psds(const PsdArgs& args) {
       note(e + 3, lanes >> 3);
     }
     for (; e < end; ++e, inputs += n) {
-      float product = 1.0f;
-      for (size_t i = 0; i < n; ++i) {
-        product *= lower_of(higher_of(controls[inputs[i]], 0.0f), 1.0f);
-      }
-      const float value = higher_of(lower_of(product * args.weights[e], 1.0f), kLowest);
+      const float value = corrective(controls, inputs, n, args.weights[e]);
       float& output = controls[outputs[e]];
       const uint32_t differs = bits_of(value) != bits_of(output);
       output = value;
@@ -68,6 +91,24 @@ uint64_t psds(const PsdArgs& args) {
     }
   }
   return changed;
+}
+
+uint32_t psd_list(const PsdListArgs& args) {
+  float* const controls = args.controls;
+  const uint32_t* const first_inputs = args.first_inputs;
+  uint16_t* changed = args.changed;
+  for (uint32_t i = 0; i < args.count; ++i) {
+    const uint16_t e = args.entries[i];
+    const uint32_t first = first_inputs[e];
+    const float value =
+        corrective(controls, args.inputs + first, first_inputs[e + 1u] - first, args.weights[e]);
+    float& output = controls[args.outputs[e]];
+    const bool differs = bits_of(value) != bits_of(output);
+    output = value;
+    *changed = e;
+    changed += differs;
+  }
+  return static_cast<uint32_t>(changed - args.changed);
 }
 
 inline Vec clamp01(Vec v) { return at_most(at_least(v, broadcast(0.0f)), broadcast(1.0f)); }

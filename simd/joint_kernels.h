@@ -112,20 +112,26 @@ constexpr uint32_t kBatchAhead = 16;
 /// of 16, both are 64-byte aligned.
 using FinishSumsKernel = void(float* sums, const float* scales, size_t count);
 
-/// Some block rows, finished as by finish_sums and written: for each block row b in `block_rows`,
+/// A run of rows: neighboring packed rows that are also neighbors in the output.
+constexpr uint32_t kMaxRunRows = 8;
+
+/// Some runs of rows, finished as by finish_sums and written: for each run i in `runs` and its rows r,
 ///
-///     to[outputs[8 * b + r]] = finished sums[8 * b + r]
+///     to[outputs[i] + r] = finished sums[rows[i] + r]
 ///
-/// Returns false if one of these sums is not finite.
-struct FinishBlockRowsArgs {
-  const float* sums;
-  const float* scales;         // [packed row], or null
-  const uint64_t* block_rows;  // bit b % 64 of word b / 64
-  const uint16_t* outputs;     // [packed row]
+/// Runs of four rows or more come first and fill whole words of the set. Returns false if one of these values
+/// is not finite; what is written in its place is undefined.
+struct FinishRunsArgs {
+  const float* sums;        // [packed row]
+  const float* scales;      // [packed row], or null
+  const uint64_t* runs;     // bit i % 64 of word i / 64
+  const uint32_t* rows;     // [run] its first packed row
+  const uint8_t* overlaps;  // [run] of n >= 4 rows n - 4, else n - 1
+  const uint16_t* outputs;  // [run] where the first row goes
   float* to;
-  uint32_t word_count;
+  uint32_t four_words, word_count;  // words of runs of four rows or more, of all
 };
-using FinishBlockRowsKernel = bool(const FinishBlockRowsArgs& args);
+using FinishRunsKernel = bool(const FinishRunsArgs& args);
 
 /// Where to write the sums of six, three or one neighboring packed rows that are also neighbors in the
 /// output.

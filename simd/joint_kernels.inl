@@ -269,30 +269,64 @@ void finish_sums(float* sums, const float* scales, size_t count) {
   }
 }
 
-bool finish_block_rows(const FinishBlockRowsArgs& args) {
-  // Local copies, because the compiler must assume that writes alias `args`.
-  const float *const all_sums = args.sums, *const all_scales = args.scales;
-  float* const to = args.to;
-  constexpr float kLargest = 3.40282347e38f;
-  const Quad zero = broadcast4(0.0f), largest = broadcast4(kLargest),
-             lowest = broadcast4(-kLargest);
-  Quad none = zero;  // NaN after a sum that is not finite
-  for (uint32_t w = 0; w < args.word_count; ++w) {
-    for (uint64_t bits = args.block_rows[w]; bits != 0; bits &= bits - 1) {
-      const size_t row =
-          (size_t{w} * 64 + static_cast<uint32_t>(__builtin_ctzll(bits))) * kJointBlockRows;
-      float finished[kJointBlockRows];
-      for (size_t r = 0; r < kJointBlockRows; r += 4) {
-        Quad sum = load4(all_sums + row + r);
-        none = none + (sum - sum);
-        if (all_scales) sum = sum * load4(all_scales + row + r);
-        store4(finished + r, lower4(higher4(sum, lowest), largest) + zero);
-      }
-      const uint16_t* const outputs = args.outputs + row;
-      for (size_t r = 0; r < kJointBlockRows; ++r) to[outputs[r]] = finished[r];
-    }
+/// Calls f(i) for the members of a word of a set.
+template <class F>
+inline void for_each_in_word(uint64_t bits, F&& f) {
+  if (bits == ~uint64_t{0}) {
+    for (size_t i = 0; i < 64; ++i) f(i);
+    return;
   }
-  return different_lanes4(none, zero) == 0;
+  for (; bits != 0; bits &= bits - 1) f(static_cast<size_t>(__builtin_ctzll(bits)));
+}
+
+template <bool kScaled>
+inline bool finish_runs_by(const FinishRunsArgs& args) {
+  // Local copies, because the compiler must assume that writes alias `args`.
+  const float *const sums = args.sums, *const scales = args.scales;
+  const uint32_t four_words = args.four_words, word_count = args.word_count;
+  const uint64_t* const runs = args.runs;
+  const uint32_t* const rows = args.rows;
+  const uint8_t* const overlaps = args.overlaps;
+  const uint16_t* const outputs = args.outputs;
+  float* const to = args.to;
+  const Quad zero = broadcast4(0.0f);
+  // NaN after a value that is not finite. Each run adds to one of these once, because runs wait for it.
+  Quad none = zero;
+  float none_of_few = 0.0f;
+  const auto sum4 = [&](size_t row) {
+    const Quad sum = load4(sums + row);
+    if constexpr (kScaled) return sum * load4(scales + row);
+    return sum;
+  };
+  const auto sum1 = [&](size_t row) { return kScaled ? sums[row] * scales[row] : sums[row]; };
+  // Without branches on the length: the first four rows and the last four, which may be the same.
+  for (size_t w = 0; w < four_words; ++w) {
+    for_each_in_word(runs[w], [&](size_t i) {
+      const size_t run = w * 64 + i, row = rows[run], last = overlaps[run];
+      const Quad a = sum4(row), b = sum4(row + last);
+      none = none + ((a - a) + (b - b));
+      float* const out = to + outputs[run];
+      store4(out, a + zero);
+      store4(out + last, b + zero);
+    });
+  }
+  // Of up to three, the first, the middle and the last one.
+  for (size_t w = four_words; w < word_count; ++w) {
+    for_each_in_word(runs[w], [&](size_t i) {
+      const size_t run = w * 64 + i, row = rows[run], last = overlaps[run], middle = last / 2;
+      const float a = sum1(row), b = sum1(row + middle), c = sum1(row + last);
+      none_of_few += ((a - a) + (b - b)) + (c - c);
+      float* const out = to + outputs[run];
+      out[0] = a + 0.0f;
+      out[middle] = b + 0.0f;
+      out[last] = c + 0.0f;
+    });
+  }
+  return different_lanes4(none + broadcast4(none_of_few), zero) == 0;
+}
+
+bool finish_runs(const FinishRunsArgs& args) {
+  return args.scales ? finish_runs_by<true>(args) : finish_runs_by<false>(args);
 }
 
 // Lanes are characters here, and the 8 rows of a block row are sums in registers. With 32 registers there are

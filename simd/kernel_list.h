@@ -25,12 +25,14 @@
   KERNEL(joint_batch, JointBatchKernel)                 \
   KERNEL(joint_batch_fixed, JointBatchKernel)           \
   KERNEL(finish_sums, FinishSumsKernel)                 \
-  KERNEL(finish_block_rows, FinishBlockRowsKernel)      \
+  KERNEL(finish_runs, FinishRunsKernel)                 \
   KERNEL(scatter_targets, ScatterTargetsKernel)         \
   KERNEL(joint_transposed, JointTransposedKernel)       \
   KERNEL(joint_transposed_fixed, JointTransposedKernel) \
   KERNEL(nonzero, NonzeroKernel)                        \
+  KERNEL(different, DifferentKernel)                    \
   KERNEL(psds, PsdsKernel)                              \
+  KERNEL(psd_list, PsdListKernel)                       \
   KERNEL(psd_batch, PsdBatchKernel)                     \
   KERNEL(gather_lanes, GatherLanesKernel)               \
   KERNEL(scatter_lanes, ScatterLanesKernel)             \

@@ -7,6 +7,7 @@
 // | Vec                    | kWidth floats                                                        |
 // | Mask                   | kWidth booleans                                                      |
 // | load                   | from memory aligned to the vector                                    |
+// | load_any               | from any address                                                     |
 // | load_big_endian        | from any address, bytes of each float in the order of files          |
 // | load_half              | kWidth halves (IEEE binary16) as floats, exact for finite ones; from |
 // |                        | memory aligned to half a vector                                      |
@@ -124,6 +125,7 @@ using Vec = float;
 using Mask = bool;
 
 inline Vec load(const float* from) { return *from; }
+inline Vec load_any(const float* from) { return *from; }
 inline Vec load_half(const uint16_t* from) {
   // Moves sign, exponent and fraction to their places in a float. The factor makes up for the bias of the
   // exponent, 15 instead of 127, and is exact for subnormal halves, too.
@@ -231,6 +233,7 @@ using Mask = Vec::batch_bool_type;
 using Bits = xsimd::batch<int32_t, Vec::arch_type>;
 
 inline Vec load(const float* from) { return Vec::load_aligned(from); }
+inline Vec load_any(const float* from) { return Vec::load_unaligned(from); }
 inline Vec load_big_endian(const uint8_t* from) {
 #if defined(MIEN_KERNEL_SSE2)
   const __m128i bytes = _mm_loadu_si128(reinterpret_cast<const __m128i*>(from));

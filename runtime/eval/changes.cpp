@@ -13,6 +13,14 @@ namespace {
 
 void mark_one(const Span<uint64_t>& set, size_t i) { set[i / 64] |= uint64_t{1} << i % 64; }
 
+void mark_range(const Span<uint64_t>& set, uint32_t first, uint32_t count) {
+  for (uint32_t i = first, end = first + count; i < end;) {
+    const uint32_t in_word = std::min(64 - i % 64, end - i);
+    set[i / 64] |= ~uint64_t{0} >> (64 - in_word) << i % 64;
+    i += in_word;
+  }
+}
+
 void clear_set(const Span<uint64_t>& set) { std::fill(set.begin(), set.end(), uint64_t{0}); }
 
 size_t marked_count(const Span<uint64_t>& set) {
@@ -31,6 +39,22 @@ void for_each_marked(const Span<uint64_t>& set, F&& f) {
   }
 }
 
+/// Calls f(first, bits) for `count` values, 64 at a time, with the bits of those that differ from others,
+/// if any do, until f returns false.
+template <class F>
+void for_each_different(const Rig& rig, const float* values, const float* others, uint32_t count,
+                        F&& f) {
+  constexpr uint32_t kWords = 16;
+  for (uint32_t first = 0; first < count; first += 64 * kWords) {
+    uint64_t words[kWords];
+    const uint32_t now = std::min(count - first, 64 * kWords);
+    rig.kernels->different({values + first, others + first, words, now});
+    for (uint32_t w = 0; w * 64 < now; ++w) {
+      if (words[w] != 0 && !f(first + w * 64, words[w])) return;
+    }
+  }
+}
+
 size_t nonzero_count(const Rig& rig, const Instance& instance) {
   constexpr uint32_t kWords = 16;
   size_t count = 0;
@@ -45,69 +69,58 @@ size_t nonzero_count(const Rig& rig, const Instance& instance) {
 
 }  // namespace
 
-void mark_range(const Span<uint64_t>& set, uint32_t first, uint32_t count) {
-  for (uint32_t i = first, end = first + count; i < end;) {
-    const uint32_t in_word = std::min(64 - i % 64, end - i);
-    set[i / 64] |= ~uint64_t{0} >> (64 - in_word) << i % 64;
-    i += in_word;
-  }
-}
-
 Uses mark_changes(const Rig& rig, Instance& instance, const ControlRange& range, float* previous) {
-  constexpr uint32_t kStep = 16;
   const float* const now = instance.controls.data + range.first;
   const Uses* const control_uses = rig.control_uses.data + range.first;
-  const uint32_t count = range.end - range.first;
-  Changes& changes = instance.changes;
+  const Changes& changes = *instance.changes;
   Uses uses = 0;
-  for (uint32_t first = 0; first < count; first += kStep) {
-    const uint32_t end = std::min(count, first + kStep);
-    const size_t bytes = (end - first) * sizeof(float);
-    if (memcmp(previous + first, now + first, bytes) == 0) continue;
-    uint64_t bits = 0;
-    for (uint32_t i = first; i < end; ++i) {
-      const uint64_t differs = bits_of(previous[i]) != bits_of(now[i]);
-      uses |= control_uses[i] & (Uses{0} - differs);
-      bits |= differs << (i - first);
-    }
-    memcpy(previous + first, now + first, bytes);
-    const uint32_t at = range.first + first;
-    for (const Span<uint64_t>* set : {&changes.psds, &changes.joints, &changes.channels}) {
-      (*set)[at / 64] |= bits << at % 64;
-      if (at % 64 > 64 - kStep) (*set)[at / 64 + 1] |= bits >> (64 - at % 64);
-    }
-  }
+  for_each_different(
+      rig, now, previous, range.end - range.first, [&](uint32_t first, uint64_t bits) {
+        const uint32_t word = (range.first + first) / 64, shift = (range.first + first) % 64;
+        const uint64_t high = shift == 0 ? 0 : bits >> (64 - shift);
+        for (const Span<uint64_t>* set : {&changes.psds, &changes.channels, &changes.maps}) {
+          (*set)[word] |= bits << shift;
+          if (high != 0) (*set)[word + 1] |= high;
+        }
+        for (; bits != 0; bits &= bits - 1) {
+          const uint32_t i = first + lowest_bit(bits);
+          uses |= control_uses[i];
+          previous[i] = now[i];
+        }
+        return true;
+      });
   return uses;
 }
 
 bool has_few_changes(const Rig& rig, const Instance& instance) {
-  const size_t marked = marked_count(instance.changes.joints);
-  return 8 * marked <= nonzero_count(rig, instance);
+  const Changes& changes = *instance.changes;
+  if (changes.all & kStageJoints) return false;
+  size_t different = 0;
+  for_each_different(rig, instance.controls.data, changes.summed.data, rig.control_count,
+                     [&](uint32_t, uint64_t bits) {
+                       different += bit_count(bits);
+                       return true;
+                     });
+  return 8 * different <= nonzero_count(rig, instance);
 }
 
 // Correctives -------------------------------------------------------------------------------------
 
 void mark_all_psds(const Rig& rig, Instance& instance) {
-  Changes& changes = instance.changes;
+  Changes& changes = *instance.changes;
   clear_set(changes.psds);
   changes.all &= ~uint32_t{kStagePsd};
   // They may have changed.
-  mark_range(changes.joints, rig.raw_count, rig.psd_count);
   mark_range(changes.channels, rig.raw_count, rig.psd_count);
+  mark_range(changes.maps, rig.raw_count, rig.psd_count);
 }
 
 bool evaluate_changed_psds(const Rig& rig, Instance& instance, uint32_t lod) {
-  Changes& changes = instance.changes;
+  Changes& changes = *instance.changes;
   if (changes.all & kStagePsd) return false;
   const PsdTable& psds = rig.psds;
-  const ControlReaders& readers = rig.changes->psds;
+  const NumberLists& readers = rig.changes->psds;
   const uint32_t count = psds.count_at_lod[lod];
-  size_t marked = 0;
-  for_each_marked(changes.psds, [&](size_t control) {
-    marked += readers.first[control + 1] - readers.first[control] + 1;
-  });
-  if (8 * marked > count) return false;
-
   for_each_marked(changes.psds, [&](size_t control) {
     for (const uint32_t entry : readers.of(control)) mark_one(changes.entries, entry);
     // Another stage may have overwritten a corrective.
@@ -115,22 +128,33 @@ bool evaluate_changed_psds(const Rig& rig, Instance& instance, uint32_t lod) {
     if (control >= rig.raw_count && psd < psds.entry_of_psd.count)
       mark_one(changes.entries, psds.entry_of_psd[psd]);
   });
+  if (4 * marked_count(changes.entries) > count) {
+    clear_set(changes.entries);
+    return false;
+  }
   clear_set(changes.psds);
+  PsdListArgs args = {
+      psds.outputs.data,      psds.weights.data,   psds.first_input.data, psds.inputs.data,
+      instance.controls.data, changes.listed.data, changes.listed.data,   0};
   Uses uses = 0;
-  for (size_t w = 0; w < changes.entries.count; ++w) {
-    while (const uint64_t bits = changes.entries[w]) {
-      changes.entries[w] = bits & (bits - 1);
-      const size_t entry = w * 64 + lowest_bit(bits);
-      if (entry >= count) continue;
-      const Uses changed = rig.kernels->psds({psds.outputs.data + entry, psds.weights.data + entry,
-                                              psds.first_input.data + entry, psds.inputs.data,
-                                              psds.run_lengths.data + entry, rig.control_uses.data,
-                                              instance.controls.data, 1});
-      if (changed == 0) continue;
-      uses |= changed;
+  for (size_t w = 0; w < changes.entries.count;) {
+    // A word at a time, or, where correctives read each other, one entry.
+    for (args.count = 0; changes.entries[w] != 0;) {
+      const size_t entry = w * 64 + lowest_bit(changes.entries[w]);
+      changes.entries[w] &= changes.entries[w] - 1;
+      if (entry < count) changes.listed[args.count++] = static_cast<uint16_t>(entry);
+      if (rig.changes->nested_psds && args.count != 0) break;
+    }
+    if (args.count == 0) {
+      ++w;
+      continue;
+    }
+    const uint32_t changed = rig.kernels->psd_list(args);
+    for (const uint16_t entry : changes.listed.first(changed)) {
       const size_t output = psds.outputs[entry];
-      mark_one(changes.joints, output);
+      uses |= rig.control_uses[output];
       mark_one(changes.channels, output);
+      mark_one(changes.maps, output);
       for (const uint32_t reader : readers.of(output)) {
         if (reader > entry) mark_one(changes.entries, reader);
       }
@@ -140,16 +164,17 @@ bool evaluate_changed_psds(const Rig& rig, Instance& instance, uint32_t lod) {
   return true;
 }
 
-// Blend shapes ------------------------------------------------------------------------------------
+// Blend shapes and animated maps ------------------------------------------------------------------
 
 bool evaluate_changed_blend_shapes(const Rig& rig, Instance& instance, uint32_t lod) {
-  Changes& changes = instance.changes;
+  Changes& changes = *instance.changes;
+  const ChangeTables& tables = *rig.changes;
   const uint32_t count = rig.channels.count_at_lod[lod];
-  const bool all = (changes.all & kStageBlendShapes) != 0 || !rig.changes->single_channels ||
+  const bool all = (changes.all & kStageBlendShapes) != 0 || !tables.single_channels ||
                    4 * marked_count(changes.channels) > count;
   if (!all) {
     for_each_marked(changes.channels, [&](size_t control) {
-      for (const uint32_t entry : rig.changes->channels.of(control)) {
+      for (const uint32_t entry : tables.channels.of(control)) {
         if (entry < count)
           instance.channels[rig.channels.outputs[entry]] = instance.controls[control];
       }
@@ -161,44 +186,99 @@ bool evaluate_changed_blend_shapes(const Rig& rig, Instance& instance, uint32_t 
   return !all;
 }
 
+namespace {
+
+/// What add_table_rows() gives for one animated map, clamped.
+float animated_map(const Rig& rig, const Span<uint32_t>& rows, uint32_t row_count,
+                   const float* controls) {
+  const ControlTable& table = rig.maps;
+  float sum = 0.0f;
+  uint32_t next = 0;
+  for (const uint32_t r : rows) {
+    if (r >= row_count) break;
+    if (r < next) continue;
+    const float input = controls[table.inputs[r]];
+    if (!(table.from[r] <= input && input <= table.to[r])) continue;
+    sum += table.slope[r] * input + table.cut[r];
+    next = table.run_ends[r];
+  }
+  return sum > 0.0f ? (sum < 1.0f ? sum : 1.0f) : 0.0f;
+}
+
+}  // namespace
+
+bool evaluate_changed_maps(const Rig& rig, Instance& instance, uint32_t lod) {
+  Changes& changes = *instance.changes;
+  const ChangeTables& tables = *rig.changes;
+  const bool all = (changes.all & kStageAnimatedMaps) != 0 ||
+                   4 * marked_count(changes.maps) > rig.map_rows_at_lod[lod];
+  if (!all) {
+    clear_set(changes.map_outputs);
+    for_each_marked(changes.maps, [&](size_t control) {
+      for (const uint32_t map : tables.maps.of(control)) mark_one(changes.map_outputs, map);
+    });
+    for_each_marked(changes.map_outputs, [&](size_t map) {
+      instance.maps[map] = animated_map(rig, tables.map_rows.of(map), rig.map_rows_at_lod[lod],
+                                        instance.controls.data);
+    });
+  }
+  // The caller evaluates the others.
+  clear_set(changes.maps);
+  changes.all &= ~uint32_t{kStageAnimatedMaps};
+  return !all;
+}
+
 // Joints ------------------------------------------------------------------------------------------
 
 namespace {
 
-/// Lists the columns that changed, with the differences of their controls, and marks their block rows.
-/// Returns their number; more than `limit` if there are more, or if a difference is not finite.
+constexpr uint32_t kMaxChangedColumns = 512;  // at a time
+
+/// Lists the columns that changed, with the differences of their controls, and marks the runs of rows that
+/// they reach. Returns their number; more than `limit` if there are more, or if a difference is not finite.
 uint32_t list_changed_columns(const Rig& rig, const Instance& instance, uint32_t lod,
-                              uint32_t limit, JointRun* runs) {
+                              uint32_t limit, JointRun* columns) {
   const JointMatrix& joints = rig.joints;
-  const Changes& changes = instance.changes;
-  const size_t words = rig.changes->word_count;
+  const RowRuns& runs = rig.changes->runs;
+  const float* const controls = instance.controls.data;
+  float* const summed = instance.changes->summed.data;
+  uint64_t* const marked = instance.changes->runs.data;
   uint32_t count = 0;
-  for (size_t w = 0; w < changes.joints.count; ++w) {
-    for (uint64_t bits = changes.joints[w]; bits != 0; bits &= bits - 1) {
-      const size_t control = w * 64 + lowest_bit(bits);
-      const uint32_t column = joints.column_of_control[control];
-      if (column == kNoColumn) continue;
-      const float difference = instance.controls[control] - changes.summed[control];
-      if (difference == 0.0f) continue;
-      const ColumnPart& part = joints.part(column, joints.panels_at_lod[lod]);
-      if (part.pairs == 0 && part.singles == 0) continue;
-      if (count == limit || !(difference - difference == 0.0f)) return limit + 1;
-      runs[count++] = {joints.starts[column], part.pairs, part.singles, difference};
-      const uint64_t* const rows = rig.changes->block_rows.data + column * words;
-      for (size_t i = 0; i < words; ++i) changes.block_rows[i] |= rows[i];
+  const auto add = [&](uint32_t control) {
+    const float difference = controls[control] - summed[control];
+    // If there are too many, the caller sets all of these.
+    summed[control] = controls[control];
+    const uint32_t column = joints.column_of_control[control];
+    if (column == kNoColumn || difference == 0.0f) return true;
+    const ColumnPart& part = joints.part(column, joints.panels_at_lod[lod]);
+    if (part.pairs == 0 && part.singles == 0) return true;
+    if (count == limit || !(difference - difference == 0.0f)) {
+      count = limit + 1;
+      return false;
     }
-  }
+    columns[count++] = {joints.starts[column], part.pairs, part.singles, difference};
+    const uint64_t* const words = runs.of_column.data + size_t{column} * runs.word_count;
+    for (uint32_t w = 0; w < runs.word_count; ++w) marked[w] |= words[w];
+    return true;
+  };
+  for_each_different(rig, controls, summed, rig.control_count, [&](uint32_t first, uint64_t bits) {
+    for (; bits != 0; bits &= bits - 1) {
+      if (!add(first + lowest_bit(bits))) return false;
+    }
+    return true;
+  });
   return count;
 }
 
-/// Marks the joints of the angles in `block_rows`.
+/// Marks the joints of the angles in Changes::runs.
 void mark_turned(const Rig& rig, const Changes& changes, const uint16_t* outputs) {
+  const RowRuns& runs = rig.changes->runs;
   const uint32_t first = rig.joint_value_count();
-  const auto end = static_cast<uint32_t>(joints_and_angles_count(rig));
-  for_each_marked(changes.block_rows, [&](size_t block_row) {
-    const uint16_t* const eight = outputs + block_row * kJointBlockRows;
-    for (uint32_t r = 0; r < kJointBlockRows; ++r) {
-      if (eight[r] >= first && eight[r] < end) mark_one(changes.turned, (eight[r] - first) / 3u);
+  clear_set(changes.turned);
+  for_each_marked(changes.runs, [&](size_t run) {
+    const uint32_t length = runs.overlaps[run] + (run < size_t{runs.four_words} * 64 ? 4u : 1u);
+    for (uint32_t r = 0; r < length; ++r) {
+      if (outputs[run] + r >= first) mark_one(changes.turned, (outputs[run] + r - first) / 3u);
     }
   });
 }
@@ -206,73 +286,78 @@ void mark_turned(const Rig& rig, const Changes& changes, const uint16_t* outputs
 }  // namespace
 
 bool add_changed_columns(const Rig& rig, Instance& instance, uint32_t lod) {
-  Changes& changes = instance.changes;
-  if (changes.all & kStageJoints) return false;
+  Changes& changes = *instance.changes;
+  // A frame rounds each sum once for each column that it adds, and as much as twice more: the differences,
+  // and on some instruction sets the products.
+  constexpr uint32_t kOfFrame = 2;
+  if ((changes.all & kStageJoints) != 0 || changes.roundings + kOfFrame >= kMaxRoundings)
+    return false;
   const JointMatrix& joints = rig.joints;
   // Adding a column takes longer than summing one, because its rows are written, too.
   constexpr uint32_t kFew = 16;
-  const uint32_t limit =
-      std::min(kFew + changes.summed_count / 2, kMaxAddedColumns - changes.added_columns);
-  JointRun runs[kMaxAddedColumns];
-  clear_set(changes.block_rows);
-  const uint32_t count = list_changed_columns(rig, instance, lod, limit, runs);
+  const uint32_t limit = std::min({kFew + changes.summed_count / 2, kMaxChangedColumns,
+                                   kMaxRoundings - kOfFrame - changes.roundings});
+  JointRun columns[kMaxChangedColumns];
+  clear_set(changes.runs);
+  const uint32_t count = list_changed_columns(rig, instance, lod, limit, columns);
   if (count > limit) return false;
 
-  JointColumnsArgs add;
-  const bool fixed = joints.values.empty();
-  add.values = fixed ? static_cast<const void*>(joints.fixed_values.data) : joints.values.data;
-  add.block_rows = joints.block_rows.data;
-  add.runs = runs;
-  add.sums = changes.sums.data;
-  add.run_count = count;
-  add.portable = rig.portable;
-  (fixed ? rig.kernels->joint_columns_fixed : rig.kernels->joint_columns)(add);
-  changes.added_columns += count;
+  if (count != 0) {
+    JointColumnsArgs add;
+    const bool fixed = joints.values.empty();
+    add.values = fixed ? static_cast<const void*>(joints.fixed_values.data) : joints.values.data;
+    add.block_rows = joints.block_rows.data;
+    add.runs = columns;
+    add.sums = changes.sums.data;
+    add.run_count = count;
+    add.portable = rig.portable;
+    (fixed ? rig.kernels->joint_columns_fixed : rig.kernels->joint_columns)(add);
+    changes.roundings += count + kOfFrame;
+  }
 
-  // ML joints are added to what their rows write.
-  const uint32_t row_count = joints.panels[joints.panels_at_lod[lod]].first_block_row;
-  if (!rig.ml.joints.empty()) mark_range(changes.block_rows, 0, row_count);
-  // Columns may reach past the LOD.
-  const size_t words = bit_words(row_count);
-  if (row_count % 64 != 0) changes.block_rows[words - 1] &= ~uint64_t{0} >> (64 - row_count % 64);
-  std::fill(changes.block_rows.begin() + words, changes.block_rows.end(), uint64_t{0});
-
-  FinishBlockRowsArgs finish;
+  // Columns may reach past the LOD. ML joints are added to what their rows write. Whole words take less time
+  // than most of their bits.
+  const RowRuns& runs = rig.changes->runs;
+  const uint64_t* const at_lod = runs.at_lod.data + size_t{lod} * runs.word_count;
+  const bool all = !rig.ml.joints.empty();
+  for (uint32_t w = 0; w < runs.word_count; ++w) {
+    const uint64_t marked = changes.runs[w] & at_lod[w];
+    changes.runs[w] = all || bit_count(marked) > 44 ? at_lod[w] : marked;
+  }
+  FinishRunsArgs finish;
   finish.sums = changes.sums.data;
   finish.scales = joints.scales.empty() ? nullptr : joints.scales.data;
-  finish.block_rows = changes.block_rows.data;
-  finish.outputs = rig.changes->row_outputs.data + rig.changes->first_row_output[lod];
+  finish.runs = changes.runs.data;
+  finish.rows = runs.rows.data;
+  finish.overlaps = runs.overlaps.data;
+  finish.outputs = runs.outputs.data + size_t{lod} * runs.word_count * 64;
   finish.to = instance.joints_and_angles.data;
-  finish.word_count = static_cast<uint32_t>(words);
-  if (!rig.kernels->finish_block_rows(finish)) {
+  finish.four_words = runs.four_words;
+  finish.word_count = runs.word_count;
+  if (!rig.kernels->finish_runs(finish)) {
     drop_sums(instance);
     return false;
   }
-  clear_set(changes.turned);
   if (rig.quaternion_outputs) mark_turned(rig, changes, finish.outputs);
-  for_each_marked(changes.joints,
-                  [&](size_t control) { changes.summed[control] = instance.controls[control]; });
-  clear_set(changes.joints);
   return true;
 }
 
 Uses panels_to_sum(const Rig& rig, const Instance& instance) {
-  const Changes& changes = instance.changes;
+  const Changes& changes = *instance.changes;
   const uint32_t count = rig.joints.panels_at_lod[instance.lod];
   Uses of_lod = 0;
   for (uint32_t c = 0; c < count; ++c) of_lod |= Uses{1} << panel_bit(rig.joints, c);
-  const bool all = (changes.all & kStageJoints) != 0 ||
-                   changes.added_columns > kMaxAddedColumns / 2 || (of_lod & ~instance.stale) == 0;
+  const bool all = (changes.all & kStageJoints) != 0 || changes.roundings > kMaxRoundings / 2 ||
+                   (of_lod & ~instance.stale) == 0;
   return all ? kAllPanels : instance.stale & kAllPanels;
 }
 
 void note_sums(const Rig& rig, Instance& instance, Uses panels) {
-  Changes& changes = instance.changes;
+  Changes& changes = *instance.changes;
   std::copy(instance.controls.begin(), instance.controls.end(), changes.summed.begin());
-  clear_set(changes.joints);
   if (panels != kAllPanels) return;
   changes.all &= ~uint32_t{kStageJoints};
-  changes.added_columns = 0;
+  changes.roundings = 0;
   changes.summed_count = static_cast<uint32_t>(nonzero_count(rig, instance));
 }
 

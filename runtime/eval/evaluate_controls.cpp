@@ -97,6 +97,7 @@ void evaluate_blend_shapes(const Rig& rig, Instance& instance, uint32_t lod) {
 }
 
 void evaluate_animated_maps(const Rig& rig, Instance& instance, uint32_t lod) {
+  if (rig.changes && evaluate_changed_maps(rig, instance, lod)) return;
   std::fill(instance.maps.begin(), instance.maps.end(), 0.0f);
   add_table_rows(rig.maps, rig.map_rows_at_lod[lod], instance.controls, instance.maps);
   for (float& value : instance.maps) value = clamp01(value);

@@ -204,7 +204,7 @@ void finish_tile(const Rig& rig, Instance& instance, uint32_t lod, const JointTi
   float* const end = tile.of_panel(joints, tile.end_panel);
   const size_t first_row =
       size_t{joints.panels[tile.first_panel].first_block_row} * kJointBlockRows;
-  if (keep) std::copy(sums, end, instance.changes.sums.data + first_row);
+  if (keep) std::copy(sums, end, instance.changes->sums.data + first_row);
   const float* scales = joints.scales.empty() ? nullptr : joints.scales.data + first_row;
   rig.kernels->finish_sums(sums, scales, static_cast<size_t>(end - sums));
   write_tile(rig, instance, lod, tile, only_group);

@@ -259,7 +259,7 @@ void turn_changed_joints(const Rig& rig, Instance& instance, uint32_t lod) {
   // Angles overwrite the turns of the same joints.
   if (!rig.rotations.turns.empty()) return convert_angles(rig, instance, lod, 0, groups);
   AngleBlock block(rig, instance);
-  const Span<uint64_t>& turned = instance.changes.turned;
+  const Span<uint64_t>& turned = instance.changes->turned;
   for (uint32_t w = 0; w < turned.count; ++w) {
     for (uint64_t bits = turned[w]; bits != 0; bits &= bits - 1) {
       block.add(w * 64 + lowest_bit(bits));

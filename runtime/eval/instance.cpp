@@ -8,17 +8,22 @@
 namespace mien {
 namespace {
 
-void place_changes(const Rig& rig, Placer& placer, Changes& changes) {
+void place_changes(const Rig& rig, Placer& placer, Instance& instance) {
+  const Span<Changes> placed = placer.array<Changes>(1);
+  Changes measured = {};
+  Changes& changes = placer.measuring() ? measured : placed[0];
+  if (!placer.measuring()) instance.changes = &changes;
   const size_t words = bit_words(rig.control_count);
-  for (Span<uint64_t>* set : {&changes.psds, &changes.joints, &changes.channels}) {
-    *set =
-        placer.array<uint64_t>(words + 1);  // a range of 16 controls may reach past the last word
+  for (Span<uint64_t>* set : {&changes.psds, &changes.channels, &changes.maps}) {
+    *set = placer.array<uint64_t>(words);
   }
   const size_t block_rows = rig.joints.panels[rig.joints.panel_count()].first_block_row;
   changes.sums = placer.array<float>(block_rows * kJointBlockRows, kBlockAlignment);
   changes.summed = placer.array<float>(rig.control_count, kBlockAlignment);
   changes.entries = placer.array<uint64_t>(bit_words(rig.psds.outputs.count));
-  changes.block_rows = placer.array<uint64_t>(rig.changes->word_count);
+  changes.listed = placer.array<uint16_t>(64);
+  changes.map_outputs = placer.array<uint64_t>(bit_words(rig.map_count));
+  changes.runs = placer.array<uint64_t>(rig.changes->runs.word_count);
   changes.turned = placer.array<uint64_t>(rig.quaternion_outputs ? bit_words(rig.joint_count) : 0);
 }
 
@@ -27,7 +32,6 @@ void place_instance(const Rig& rig, Placer& placer, Instance& instance) {
   instance.gui = placer.array<float>(rig.gui_count, kBlockAlignment);
   instance.masks = placer.array<float>(rig.mask_count, kBlockAlignment);
   instance.joints_and_angles = placer.array<float>(joints_and_angles_count(rig), kBlockAlignment);
-  if (rig.changes) placer.array<float>(1);  // for rows that write no joint value
   instance.joints = instance.joints_and_angles.first(rig.joint_value_count());
   instance.channels = placer.array<float>(rig.channel_count, kBlockAlignment);
   instance.maps = placer.array<float>(rig.map_count, kBlockAlignment);
@@ -46,7 +50,7 @@ void place_instance(const Rig& rig, Placer& placer, Instance& instance) {
   instance.rbf_rotations = placer.array<float>(rig.rbf.rotations.count, kBlockAlignment);
   instance.rbf_weights = placer.array<float>(rig.rbf.pose_scales.count, kBlockAlignment);
   instance.rbf_results = placer.array<float>(rig.rbf.pose_scales.count, kBlockAlignment);
-  if (rig.changes) place_changes(rig, placer, instance.changes);
+  if (rig.changes) place_changes(rig, placer, instance);
 }
 
 void fill(const Span<float>& values, float value) {
@@ -72,7 +76,7 @@ Instance* create_instance(const Rig& rig, const Allocator& allocator) {
 void clear_results(Instance& instance) {
   const Rig& rig = *instance.rig;
   instance.stale = kAllUses;
-  instance.changes.all = kStagesAll;
+  if (instance.changes) instance.changes->all = kStagesAll;
   fill(instance.joints_and_angles, 0.0f);
   if (rig.quaternion_outputs) {
     for (uint32_t j = 0; j < rig.joint_count; ++j) {

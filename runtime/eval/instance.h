@@ -12,17 +12,19 @@ namespace mien {
 /// With MIEN_REUSE_SUMS: what changed, and the sums of the joint matrix (changes.h).
 struct Changes {
   // [control / 64] bit control % 64: may differ from what the stage last evaluated.
-  Span<uint64_t> psds, joints, channels;
-  uint32_t all = 0;  // stages that have to evaluate everything
+  Span<uint64_t> psds, channels, maps;
+  uint32_t all;  // stages that have to evaluate everything
 
-  Span<float> sums;    // [packed row] before scaling; without those that this LOD does not have
-  Span<float> summed;  // [control] the values that they are the sums for
-  uint32_t summed_count = 0;   // controls that were not 0 when all sums were computed
-  uint32_t added_columns = 0;  // since then
+  uint32_t summed_count;  // controls that were not 0 when all sums were computed
+  uint32_t roundings;     // of each sum since then, at most
+  Span<float> sums;       // [packed row] before scaling; without those that this LOD does not have
+  Span<float> summed;     // [control] the values that they are the sums for
 
-  Span<uint64_t> entries;     // scratch: correctives to compute; zeros outside of calls
-  Span<uint64_t> block_rows;  // scratch
-  Span<uint64_t> turned;      // scratch: joints whose angles changed
+  Span<uint64_t> entries;      // scratch: correctives to compute; zeros outside of calls
+  Span<uint16_t> listed;       // scratch: those of a word
+  Span<uint64_t> map_outputs;  // scratch
+  Span<uint64_t> runs;         // scratch: of RowRuns
+  Span<uint64_t> turned;       // scratch: joints whose angles changed
 };
 
 struct Instance : Object {
@@ -45,7 +47,7 @@ struct Instance : Object {
   Span<float> previous_raw, previous_masks;  // at the start of the last evaluation
   Span<float> before_writing;                // scratch: old values of controls that a stage writes
   Uses stale = 0;                            // stages and row panels that must be evaluated
-  Changes changes;                           // empty unless the rig has ChangeTables
+  Changes* changes = nullptr;                // null unless the rig has ChangeTables
 
   Span<float> rotations;      // scratch: of the blocks of RotationTable, or of TwistSwingTable
   Span<float> ml_values;      // outputs of the ML steps, for later steps

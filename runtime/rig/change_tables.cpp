@@ -8,50 +8,62 @@
 namespace mien {
 namespace {
 
-uint32_t block_rows_before(const JointMatrix& joints, uint32_t panel_end) {
-  return joints.panels[panel_end].first_block_row;
+// Lists -------------------------------------------------------------------------------------------
+
+void place_lists(size_t lists, size_t numbers, Placer& placer, NumberLists& placed) {
+  placed.first = placer.array<uint32_t>(lists + 1);
+  placed.numbers = placer.array<uint32_t>(numbers);
 }
 
-void place_readers(const Rig& rig, size_t entries, Placer& placer, ControlReaders& readers) {
-  readers.first = placer.array<uint32_t>(size_t{rig.control_count} + 1);
-  readers.entries = placer.array<uint32_t>(entries);
-}
-
-/// Calls for_each(f) twice: it calls f(control, entry) for all entries, in order.
+/// Calls for_each(f) twice: it calls f(list, number) for all numbers, in order.
 template <class ForEach>
-void fill_readers(ControlReaders& readers, ForEach&& for_each) {
-  for_each([&](uint32_t control, uint32_t) { ++readers.first[control + 1]; });
-  for (size_t c = 1; c < readers.first.count; ++c) readers.first[c] += readers.first[c - 1];
+void fill_lists(NumberLists& lists, ForEach&& for_each) {
+  for_each([&](uint32_t list, uint32_t) { ++lists.first[list + 1]; });
+  for (size_t i = 1; i < lists.first.count; ++i) lists.first[i] += lists.first[i - 1];
   // Filling moves each start to the next one; they are moved back afterwards.
-  for_each(
-      [&](uint32_t control, uint32_t entry) { readers.entries[readers.first[control]++] = entry; });
-  for (size_t c = readers.first.count - 1; c > 0; --c) readers.first[c] = readers.first[c - 1];
-  readers.first[0] = 0;
+  for_each([&](uint32_t list, uint32_t number) { lists.numbers[lists.first[list]++] = number; });
+  for (size_t i = lists.first.count - 1; i > 0; --i) lists.first[i] = lists.first[i - 1];
+  lists.first[0] = 0;
 }
 
-void place_tables(const Rig& rig, Placer& placer, ChangeTables& tables) {
-  const JointMatrix& joints = rig.joints;
-  place_readers(rig, rig.psds.inputs.count, placer, tables.psds);
-  place_readers(rig, rig.channels.inputs.count, placer, tables.channels);
-  tables.word_count = static_cast<uint32_t>(
-      bit_words(joints.panels.empty() ? 0 : block_rows_before(joints, joints.panel_count())));
-  tables.block_rows = placer.array<uint64_t>(joints.columns.count * tables.word_count);
-  size_t rows = 0;
-  for (uint32_t lod = 0; lod < rig.lod_count; ++lod) {
-    rows += size_t{block_rows_before(joints, joints.panels_at_lod[lod])} * kJointBlockRows;
-  }
-  tables.first_row_output = placer.array<uint32_t>(size_t{rig.lod_count} + 1);
-  tables.row_outputs = placer.array<uint16_t>(rows);
+void place_control_lists(const Rig& rig, Placer& placer, ChangeTables& tables) {
+  place_lists(rig.control_count, rig.psds.inputs.count, placer, tables.psds);
+  place_lists(rig.control_count, rig.channels.inputs.count, placer, tables.channels);
+  place_lists(rig.control_count, rig.maps.inputs.count, placer, tables.maps);
+  place_lists(rig.map_count, rig.maps.inputs.count, placer, tables.map_rows);
 }
 
-void fill_column_rows(const JointMatrix& joints, ChangeTables& tables) {
-  for (size_t k = 0; k < joints.columns.count; ++k) {
-    uint64_t* const words = tables.block_rows.data + k * tables.word_count;
-    joints.for_each_block(k, joints.panel_count(), [&](uint32_t, uint32_t block_row) {
-      words[block_row / 64] |= uint64_t{1} << block_row % 64;
-    });
-  }
+void fill_control_lists(const Rig& rig, ChangeTables& tables) {
+  fill_lists(tables.psds, [&](auto&& f) {
+    for (uint32_t e = 0; e < rig.psds.outputs.count; ++e) {
+      const uint32_t first = rig.psds.first_input[e], end = rig.psds.first_input[e + 1];
+      for (uint32_t i = first; i < end; ++i) f(rig.psds.inputs[i], e);
+    }
+  });
+  fill_lists(tables.channels, [&](auto&& f) {
+    for (uint32_t i = 0; i < rig.channels.inputs.count; ++i) f(rig.channels.inputs[i], i);
+  });
+  fill_lists(tables.maps, [&](auto&& f) {
+    for (size_t r = 0; r < rig.maps.inputs.count; ++r) f(rig.maps.inputs[r], rig.maps.outputs[r]);
+  });
+  fill_lists(tables.map_rows, [&](auto&& f) {
+    for (uint32_t r = 0; r < rig.maps.outputs.count; ++r) f(rig.maps.outputs[r], r);
+  });
 }
+
+// Runs of rows ------------------------------------------------------------------------------------
+
+constexpr uint32_t kNoRun = ~uint32_t{0};
+
+/// Scratch memory.
+struct PackedRows {
+  size_t count = 0;
+  uint16_t none = 0;       // an output that there is not
+  Span<uint16_t> outputs;  // [lod][packed row] the joint value or angle that it writes, or none
+  Span<uint8_t> lengths;   // [packed row] of the run that begins there, or 0
+  Span<uint32_t> runs;     // [packed row] the run that it belongs to, or kNoRun
+  Span<uint32_t> writers;  // [output] the last packed row that writes it
+};
 
 /// Calls f(packed row, output) for the rows that a LOD writes, in the order of evaluation.
 template <class F>
@@ -73,55 +85,138 @@ void for_each_written_row(const Rig& rig, uint32_t lod, F&& f) {
   }
 }
 
-/// `last_row` is scratch memory: an element for each joint value and angle.
-void fill_row_outputs(const Rig& rig, Span<uint32_t> last_row, ChangeTables& tables) {
-  const auto none = static_cast<uint16_t>(last_row.count);
-  uint32_t first = 0;
+void find_outputs(const Rig& rig, PackedRows& rows) {
+  std::fill(rows.outputs.begin(), rows.outputs.end(), rows.none);
   for (uint32_t lod = 0; lod < rig.lod_count; ++lod) {
-    tables.first_row_output[lod] = first;
-    uint16_t* const outputs = tables.row_outputs.data + first;
-    const uint32_t rows =
-        block_rows_before(rig.joints, rig.joints.panels_at_lod[lod]) * kJointBlockRows;
-    std::fill(outputs, outputs + rows, none);
+    uint16_t* const outputs = rows.outputs.data + lod * rows.count;
     for_each_written_row(rig, lod, [&](size_t row, size_t output) {
-      last_row[output] = static_cast<uint32_t>(row);
+      rows.writers[output] = static_cast<uint32_t>(row);
     });
     for_each_written_row(rig, lod, [&](size_t row, size_t output) {
-      if (last_row[output] == row) outputs[row] = static_cast<uint16_t>(output);
+      if (rows.writers[output] == row) outputs[row] = static_cast<uint16_t>(output);
     });
-    first += rows;
   }
-  tables.first_row_output[rig.lod_count] = first;
+}
+
+/// Whether a row is written at any LOD.
+bool is_written(const Rig& rig, const PackedRows& rows, size_t row) {
+  for (uint32_t lod = 0; lod < rig.lod_count; ++lod) {
+    if (rows.outputs[lod * rows.count + row] != rows.none) return true;
+  }
+  return false;
+}
+
+/// Whether each LOD that writes a row also writes the next one, beside it, and the other way round.
+bool joins_next(const Rig& rig, const PackedRows& rows, size_t row) {
+  if (row + 1 == rows.count) return false;
+  for (uint32_t lod = 0; lod < rig.lod_count; ++lod) {
+    const uint16_t* const outputs = rows.outputs.data + lod * rows.count + row;
+    const bool written = outputs[0] != rows.none;
+    if (written != (outputs[1] != rows.none)) return false;
+    if (written && outputs[1] != outputs[0] + 1) return false;
+  }
+  return true;
+}
+
+void find_runs(const Rig& rig, PackedRows& rows, RowRuns& runs) {
+  size_t fours = 0, others = 0;
+  for (size_t row = 0, end; row < rows.count; row = end) {
+    end = row + 1;
+    if (!is_written(rig, rows, row)) continue;
+    while (end < row + kMaxRunRows && joins_next(rig, rows, end - 1)) ++end;
+    rows.lengths[row] = static_cast<uint8_t>(end - row);
+    ++(end - row >= 4 ? fours : others);
+  }
+  runs.four_words = static_cast<uint32_t>(bit_words(fours));
+  runs.word_count = runs.four_words + static_cast<uint32_t>(bit_words(others));
+}
+
+void place_runs(const Rig& rig, uint32_t word_count, Placer& placer, RowRuns& runs) {
+  runs.rows = placer.array<uint32_t>(size_t{word_count} * 64);
+  runs.overlaps = placer.array<uint8_t>(size_t{word_count} * 64);
+  runs.outputs = placer.array<uint16_t>(size_t{rig.lod_count} * word_count * 64);
+  runs.at_lod = placer.array<uint64_t>(size_t{rig.lod_count} * word_count);
+  runs.of_column = placer.array<uint64_t>(rig.joints.columns.count * word_count);
+}
+
+void mark_bit(uint64_t* words, size_t i) { words[i / 64] |= uint64_t{1} << i % 64; }
+
+void fill_runs(const Rig& rig, const PackedRows& rows, RowRuns& runs) {
+  uint32_t next_four = 0, next_other = runs.four_words * 64;
+  std::fill(rows.runs.begin(), rows.runs.end(), kNoRun);
+  for (size_t row = 0; row < rows.count; ++row) {
+    const uint32_t length = rows.lengths[row];
+    if (length == 0) continue;
+    const uint32_t run = length >= 4 ? next_four++ : next_other++;
+    runs.rows[run] = static_cast<uint32_t>(row);
+    runs.overlaps[run] = static_cast<uint8_t>(length >= 4 ? length - 4 : length - 1);
+    std::fill_n(rows.runs.begin() + row, length, run);
+    for (uint32_t lod = 0; lod < rig.lod_count; ++lod) {
+      const uint16_t output = rows.outputs[lod * rows.count + row];
+      if (output == rows.none) continue;
+      runs.outputs[size_t{lod} * runs.word_count * 64 + run] = output;
+      mark_bit(runs.at_lod.data + size_t{lod} * runs.word_count, run);
+    }
+  }
+}
+
+void fill_column_runs(const JointMatrix& joints, const PackedRows& rows, RowRuns& runs) {
+  for (size_t k = 0; k < joints.columns.count; ++k) {
+    uint64_t* const words = runs.of_column.data + k * runs.word_count;
+    joints.for_each_block(k, joints.panel_count(), [&](uint32_t block, uint32_t block_row) {
+      for (uint32_t r = 0; r < kJointBlockRows; ++r) {
+        const size_t at = size_t{block} * kJointBlockRows + r;
+        const uint32_t run = rows.runs[size_t{block_row} * kJointBlockRows + r];
+        const bool moves =
+            joints.values.empty() ? joints.fixed_values[at] != 0 : joints.values[at] != 0.0f;
+        if (moves && run != kNoRun) mark_bit(words, run);
+      }
+    });
+  }
 }
 
 }  // namespace
 
 const ChangeTables* create_change_tables(const Rig& rig, const Allocator& allocator) {
   Arena scratch(allocator);
+  PackedRows rows;
+  const JointMatrix& joints = rig.joints;
+  if (!joints.panels.empty())
+    rows.count = size_t{joints.panels[joints.panel_count()].first_block_row} * kJointBlockRows;
   const size_t outputs = joints_and_angles_count(rig);
-  const Span<uint32_t> last_row = scratch.array<uint32_t>(std::max(outputs, size_t{1}));
+  rows.none = static_cast<uint16_t>(outputs);
+  rows.outputs = scratch.unwritten_array<uint16_t>(rig.lod_count * rows.count);
+  rows.lengths = scratch.array<uint8_t>(rows.count);
+  rows.runs = scratch.array<uint32_t>(rows.count);
+  rows.writers = scratch.array<uint32_t>(outputs);
   const Span<uint8_t> channels = scratch.array<uint8_t>(size_t{rig.channel_count} + 1);
-  if (last_row.empty() || channels.empty()) return nullptr;
-  auto* const tables = create_object<ChangeTables>(
-      allocator, [&](Placer& placer, ChangeTables& placed) { place_tables(rig, placer, placed); });
+  if (rows.outputs.count != rig.lod_count * rows.count || rows.lengths.count != rows.count ||
+      rows.runs.count != rows.count || rows.writers.count != outputs || channels.empty()) {
+    return nullptr;
+  }
+  RowRuns runs;
+  find_outputs(rig, rows);
+  find_runs(rig, rows, runs);
+  auto* const tables =
+      create_object<ChangeTables>(allocator, [&](Placer& placer, ChangeTables& placed) {
+        place_control_lists(rig, placer, placed);
+        place_runs(rig, runs.word_count, placer, placed.runs);
+      });
   if (!tables) return nullptr;
 
-  fill_readers(tables->psds, [&](auto&& f) {
-    for (uint32_t e = 0; e < rig.psds.outputs.count; ++e) {
-      const uint32_t first = rig.psds.first_input[e], end = rig.psds.first_input[e + 1];
-      for (uint32_t i = first; i < end; ++i) f(rig.psds.inputs[i], e);
-    }
-  });
-  fill_readers(tables->channels, [&](auto&& f) {
-    for (uint32_t i = 0; i < rig.channels.inputs.count; ++i) f(rig.channels.inputs[i], i);
-  });
+  fill_control_lists(rig, *tables);
+  for (const uint16_t output : rig.psds.outputs) {
+    tables->nested_psds |= !tables->psds.of(output).empty();
+  }
   tables->single_channels = true;
   for (const uint16_t channel : rig.channels.outputs) {
     tables->single_channels &= channels[channel] == 0;
     channels[channel] = 1;
   }
-  fill_column_rows(rig.joints, *tables);
-  fill_row_outputs(rig, last_row.first(outputs), *tables);
+  tables->runs.word_count = runs.word_count;
+  tables->runs.four_words = runs.four_words;
+  fill_runs(rig, rows, tables->runs);
+  fill_column_runs(joints, rows, tables->runs);
   return tables;
 }
 

@@ -5,37 +5,47 @@
 
 #include "runtime/base/object.h"
 #include "runtime/base/span.h"
+#include "simd/joint_kernels.h"
 
 namespace mien {
 
 struct Rig;
 
-/// The entries of a table that read each control.
-struct ControlReaders {
-  Span<uint32_t> first;  // [control] into entries, one more at the end
-  Span<uint32_t> entries;
+/// Lists of numbers, one after the other.
+struct NumberLists {
+  Span<uint32_t> first;  // [list] into numbers, one more at the end
+  Span<uint32_t> numbers;
 
-  Span<uint32_t> of(size_t control) const {
-    return entries.slice(first[control], first[control + 1] - first[control]);
+  Span<uint32_t> of(size_t list) const {
+    return numbers.slice(first[list], first[list + 1] - first[list]);
   }
 };
 
 /// Words for a set of `count` bits.
 constexpr size_t bit_words(size_t count) { return (count + 63) / 64; }
 
+/// The packed rows in runs, in the order and with the limits of FinishRunsArgs. Each LOD writes all rows of a
+/// run, to neighboring joint values or angles, or none. Rows that others overwrite at a LOD count as not
+/// written.
+struct RowRuns {
+  uint32_t four_words = 0, word_count = 0;  // of a set of runs
+  Span<uint32_t> rows;                      // [run] its first packed row
+  Span<uint8_t> overlaps;                   // [run] that of FinishRunsArgs
+  Span<uint16_t> outputs;                   // [lod][run] where that row goes
+  Span<uint64_t> at_lod;                    // [lod][word]: the LOD writes it
+  Span<uint64_t> of_column;                 // [column][word]: the column has a value in it
+};
+
 struct ChangeTables : Object {
   static constexpr uint32_t kTag = 0x6D43'4854;
 
-  ControlReaders psds;           // entries of PsdTable
-  ControlReaders channels;       // entries of ChannelTable
+  NumberLists psds;              // [control] entries of PsdTable that read it
+  NumberLists channels;          // [control] entries of ChannelTable that read it
+  NumberLists maps;              // [control] animated maps that read it
+  NumberLists map_rows;          // [animated map] its rows in Rig::maps, ascending
+  bool nested_psds = false;      // some correctives read others
   bool single_channels = false;  // no two entries write one channel
-  uint32_t word_count = 0;       // for a set of block rows
-  Span<uint64_t>
-      block_rows;  // [column][word]: bit b % 64 of word b / 64: has a block in block row b
-  // The joint value or angle that a packed row writes at a LOD; the number past the last one if it writes
-  // none, or if another row writes the same one later.
-  Span<uint32_t> first_row_output;  // [lod] into row_outputs, one more at the end
-  Span<uint16_t> row_outputs;       // [packed row] of the LOD's panels
+  RowRuns runs;
 };
 
 /// Null if memory ran out.

@@ -165,7 +165,7 @@ TEST_F(Files, AHeadIsLittleMoreThanItsMatrix) {
   if (!golden::has_head()) GTEST_SKIP() << golden::no_head();
   const Bytes file = golden::read_rig(golden::kHead);
   EXPECT_LE(rig_bytes_per_stored_byte(file), kMaxPerStoredByte);
-  EXPECT_LE(info_of(create_rig(open_dna(file).get())).instance_bytes, 41u * 1024);
+  EXPECT_LE(info_of(create_rig(open_dna(file).get())).instance_bytes, 40u * 1024);
 }
 
 TEST_F(Files, FilesThatCannotBeOpened) {

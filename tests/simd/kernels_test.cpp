@@ -538,6 +538,28 @@ TEST(PsdKernels, BitEqualToPlainLoopsAndTellChanges) {
       }
       // Once more: nothing changes.
       EXPECT_EQ(kernels->psds(args), 0u);
+      // As lists of those that do not read each other, the last ones first.
+      values = c.controls(k);
+      uint64_t told = 0;
+      for (uint32_t e = 0, count; e < 20; e += count) {
+        count = c.run_lengths[e];
+        uint16_t entries[20] = {};
+        for (uint32_t i = 0; i < count; ++i) entries[i] = static_cast<uint16_t>(e + count - 1 - i);
+        const PsdListArgs list = {c.outputs.data(),
+                                  c.weights.data(),
+                                  c.first_inputs.data(),
+                                  c.inputs.data(),
+                                  values.data(),
+                                  entries,
+                                  entries,
+                                  count};
+        const uint32_t listed = kernels->psd_list(list);
+        for (uint32_t i = 0; i < listed; ++i) told |= uint64_t{1} << c.outputs[entries[i]];
+      }
+      EXPECT_EQ(told, changed);
+      for (uint32_t i = 0; i < c.control_count; ++i) {
+        EXPECT_EQ(bits_of(values[i]), bits_of(expected[i])) << "control " << i;
+      }
     }
   }
 }
@@ -556,6 +578,29 @@ TEST(NonzeroKernel, FindsWhatIsNotZero) {
       for (uint32_t i = 0; i < (count + 63) / 64 * 64; ++i) {
         const bool expected = i < count && values[i] != 0.0f;
         EXPECT_EQ(words[i / 64] >> i % 64 & 1, expected) << i;
+      }
+    }
+  }
+}
+
+TEST(DifferentKernel, ComparesBits) {
+  for (const KernelTable* kernels : present_kernels()) {
+    for (uint32_t count : {0u, 1u, 15u, 64u, 65u, 197u}) {
+      for (uint32_t shift : {0u, 1u, 3u}) {
+        SCOPED_TRACE(std::string(kernels->name) + ", " + std::to_string(count));
+        alignas(64) float values[200], others[200];
+        for (uint32_t i = 0; i < 200; ++i) {
+          const float awkward[] = {0.0f, -0.0f, 1e-45f, -2.0f, std::nanf(""), 0.0f};
+          values[i] = awkward[i * i % 6];
+          others[i] = awkward[i * 7 % 11 % 6];
+        }
+        uint64_t words[4] = {};
+        kernels->different({values + shift, others + shift / 2, words, count});
+        for (uint32_t i = 0; i < (count + 63) / 64 * 64; ++i) {
+          const bool expected =
+              i < count && bits_of(values[i + shift]) != bits_of(others[i + shift / 2]);
+          EXPECT_EQ(words[i / 64] >> i % 64 & 1, expected) << i;
+        }
       }
     }
   }
@@ -583,41 +628,64 @@ TEST(FinishSumsKernel, ScalesAndSaturates) {
   }
 }
 
-TEST(FinishBlockRowsKernel, WritesTheRowsOfTheSet) {
-  constexpr uint32_t kBlockRows = 70, kRows = kBlockRows * kJointBlockRows;
+TEST(FinishRunsKernel, WritesTheRunsOfTheSet) {
+  // Two words of runs of each length, with other rows between them.
+  constexpr uint32_t kRuns = 2 * kMaxRunRows * 64, kRows = kRuns * (kMaxRunRows + 1);
   constexpr float kUntouched = 12345.0f, kLargest = std::numeric_limits<float>::max();
-  alignas(64) float sums[kRows], scales[kRows];
-  uint16_t outputs[kRows];
-  for (uint32_t i = 0; i < kRows; ++i) {
-    sums[i] = i % 5 ? static_cast<float>(i) - 200 : -0.0f;
-    scales[i] = 0.25f;
-    outputs[i] = static_cast<uint16_t>((i * 37) % kRows);
+  std::vector<float> sums(kRows), scales(kRows, 0.25f);
+  std::vector<uint32_t> rows(kRuns);
+  std::vector<uint16_t> outputs(kRuns);
+  std::vector<uint64_t> words(kRuns / 64);
+  std::vector<bool> in_set(kRows);
+  const auto length = [](uint32_t run) { return kMaxRunRows - run / 128; };
+  for (uint32_t i = 0; i < kRows; ++i) sums[i] = i % 5 ? static_cast<float>(i) - 200 : -0.0f;
+  for (uint32_t i = 0; i < kRuns; ++i) {
+    const uint32_t last = kRows - kMaxRunRows + i % 2;
+    rows[i] = i == kRuns - 1 ? kRows - 1 : i * 37 * (kMaxRunRows + 1) % last;
+    outputs[i] = static_cast<uint16_t>(i * 613 % kRuns * (kMaxRunRows + 1));
+    if (i % 3 != 0 && i != kRuns - 1) continue;
+    words[i / 64] |= uint64_t{1} << i % 64;
+    std::fill_n(in_set.begin() + rows[i], length(i), true);
   }
-  sums[24] = kLargest;
-  scales[24] = 4;
-  uint64_t words[2] = {uint64_t{1} << 3 | uint64_t{1} << 63, uint64_t{1} << 2};
-  const auto in_set = [&](uint32_t row) {
-    return words[row / kJointBlockRows / 64] >> row / kJointBlockRows % 64 & 1;
-  };
+  FinishRunsArgs args = {};
+  args.runs = words.data();
+  args.rows = rows.data();
+  args.outputs = outputs.data();
+  args.four_words = 2 * (kMaxRunRows - 3);
+  args.word_count = kRuns / 64;
+  std::vector<uint8_t> overlaps(kRuns);
+  for (uint32_t i = 0; i < kRuns; ++i) {
+    overlaps[i] = static_cast<uint8_t>(length(i) < 4 ? length(i) - 1 : length(i) - 4);
+  }
+  args.overlaps = overlaps.data();
   for (const KernelTable* kernels : present_kernels()) {
     SCOPED_TRACE(kernels->name);
     for (const float* scale :
-         {static_cast<const float*>(nullptr), static_cast<const float*>(scales)}) {
-      std::vector<float> written(kRows, kUntouched);
-      EXPECT_TRUE(kernels->finish_block_rows({sums, scale, words, outputs, written.data(), 2}));
-      for (uint32_t i = 0; i < kRows; ++i) {
-        const float finished = i == 24 ? kLargest : sums[i] * (scale ? scale[i] : 1) + 0.0f;
-        EXPECT_EQ(bits_of(written[outputs[i]]), bits_of(in_set(i) ? finished : kUntouched)) << i;
-      }
-      for (const float wrong : {std::numeric_limits<float>::infinity(), std::nanf("")}) {
-        for (const uint32_t row : {24u, 31u, 504u, 531u, 100u}) {
-          const float before = sums[row];
-          sums[row] = wrong;
-          EXPECT_EQ(kernels->finish_block_rows({sums, scale, words, outputs, written.data(), 2}),
-                    !in_set(row))
-              << row;
-          sums[row] = before;
+         {static_cast<const float*>(nullptr), static_cast<const float*>(scales.data())}) {
+      std::vector<float> written(kRuns * (kMaxRunRows + 1), kUntouched), expected = written;
+      for (uint32_t i = 0; i < kRuns; ++i) {
+        if (i % 3 != 0 && i != kRuns - 1) continue;
+        for (uint32_t r = 0; r < length(i); ++r) {
+          const size_t row = rows[i] + r;
+          expected[outputs[i] + r] = sums[row] * (scale ? scale[row] : 1) + 0.0f;
         }
+      }
+      args.sums = sums.data();
+      args.scales = scale;
+      args.to = written.data();
+      EXPECT_TRUE(kernels->finish_runs(args));
+      for (size_t i = 0; i < written.size(); ++i) {
+        ASSERT_EQ(bits_of(written[i]), bits_of(expected[i])) << i;
+      }
+      for (uint32_t row = 0; row < kRows; row += row < 100 ? 1 : 97) {
+        const float before = sums[row];
+        for (const float value : {std::numeric_limits<float>::infinity(), std::nanf("")}) {
+          sums[row] = value;
+          EXPECT_EQ(kernels->finish_runs(args), !in_set[row]) << row;
+        }
+        sums[row] = -kLargest;
+        EXPECT_TRUE(kernels->finish_runs(args));
+        sums[row] = before;
       }
     }
   }

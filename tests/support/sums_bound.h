@@ -23,9 +23,9 @@ class SumsBound {
     const std::vector<double> now = magnitudes(rig, instance);
     double active = 0;
     for (const float control : instance.controls) active += control != 0.0f;
-    const Changes& changes = instance.changes;
+    const Changes& changes = *instance.changes;
     const bool anew =
-        joints && changes.added_columns == 0 && (changes.all & uint32_t{kStageJoints}) == 0;
+        joints && changes.roundings == 0 && (changes.all & uint32_t{kStageJoints}) == 0;
     if (anew || largest_.empty()) {
       largest_ = now;
       active_ = active;
@@ -66,8 +66,8 @@ class SumsBound {
 
   double bound(size_t output) const {
     if (largest_.empty()) return 0;  // nothing was evaluated
-    // Where products overflow, sums saturate at once or later.
-    if (largest_[output] > 1e38) return std::numeric_limits<double>::infinity();
+    // Where products overflow or are NaN, sums saturate at once or later.
+    if (!(largest_[output] <= 1e38)) return std::numeric_limits<double>::infinity();
     return (active_ + 1539) * std::ldexp(1.0, -23) * largest_[output];
   }
 
@@ -84,6 +84,26 @@ class SumsBound {
     }
     if (angles == 0) return 0;
     return angles > 0.1 ? 2 : angles + 1e-6;
+  }
+
+  /// Calls f(packed row, joint value or angle) for the rows that a LOD writes, in the order of evaluation.
+  template <class F>
+  static void for_each_target(const Rig& rig, uint32_t lod, F&& f) {
+    const JointMatrix& joints = rig.joints;
+    for (uint32_t c = 0; c < joints.panels_at_lod[lod]; ++c) {
+      const size_t first_row = size_t{joints.panels[c].first_block_row} * kJointBlockRows;
+      const JointTarget* target = joints.targets.data + joints.panels[c].first_target;
+      for (uint32_t kind = 0; kind < kTargetKinds; ++kind) {
+        const uint16_t* const at_lod =
+            joints.targets_at_lod.data + (size_t{c} * kTargetKinds + kind) * rig.lod_count;
+        for (uint32_t t = 0; t < at_lod[lod]; ++t) {
+          for (uint32_t r = 0; r < kTargetRows[kind]; ++r) {
+            f(first_row + target[t].packed_row + r, target[t].output + r);
+          }
+        }
+        target += at_lod[0];
+      }
+    }
   }
 
   /// [joint value or angle] the sum of the magnitudes of its products.
@@ -106,9 +126,8 @@ class SumsBound {
       });
     }
     std::vector<double> of_outputs(joints_and_angles_count(rig) + 1);
-    const uint16_t* const outputs =
-        rig.changes->row_outputs.data + rig.changes->first_row_output[instance.lod];
-    for (size_t row = 0; row < rows.size(); ++row) of_outputs[outputs[row]] = rows[row];
+    for_each_target(rig, instance.lod,
+                    [&](size_t row, size_t output) { of_outputs[output] = rows[row]; });
     return of_outputs;
   }
 
