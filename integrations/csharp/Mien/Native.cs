@@ -256,7 +256,7 @@ namespace Mien {
     Unchanged = 0,
     /// <summary>compute everything in each evaluation, for measurements</summary>
     Nothing = 1,
-    /// <summary>also the sums of the joint matrix: where few controls changed, only their differences are added, so such a frame costs little even if these controls move joints everywhere. Joint values then depend on earlier frames: they differ from those of a full evaluation by at most (n + 1539) * 2^-23 * M, before rotations are made from them. n is the number of controls that are not 0, M the sum of the magnitudes of the products that a joint value is the sum of; both are the largest since all sums were last computed, which happens after a reset, after a change of LOD and after 512 added differences. Everything else is bit-identical. Rigs and instances take more memory: MienRigInfo.rig_bytes, .instance_bytes</summary>
+    /// <summary>also the sums of the joint matrix: where few controls changed, only their differences are added, so such a frame costs little even if these controls move joints everywhere. Joint values then depend on earlier frames: they differ from those of a full evaluation by at most (n + 1539) * 2^-23 * M, before rotations are made from them. n is the number of controls that are not 0, M the sum of the magnitudes of the products that a joint value is the sum of; both are the largest since all sums were last computed, which happens after a reset, after a change of LOD and before 1536 differences were added. Everything else is bit-identical. Rigs and instances take more memory: MienRigInfo.rig_bytes, .instance_bytes</summary>
     Sums = 2,
   }
 

@@ -507,7 +507,7 @@ impl Reuse {
     /// most (n + 1539) \* 2^-23 \* M, before rotations are made from them. n is the number of
     /// controls that are not 0, M the sum of the magnitudes of the products that a joint value is
     /// the sum of; both are the largest since all sums were last computed, which happens after a
-    /// reset, after a change of LOD and after 512 added differences. Everything else is
+    /// reset, after a change of LOD and before 1536 differences were added. Everything else is
     /// bit-identical. Rigs and instances take more memory: MienRigInfo.`rig_bytes`,
     /// .`instance_bytes`.
     pub const SUMS: Self = Self(2);
