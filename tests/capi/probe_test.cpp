@@ -38,10 +38,10 @@ Head& head() {
 TEST(MixProbes, AntagonistsAreCountedAndWrittenAsFarAsThereIsRoom) {
   size_t count = 0;
   ASSERT_EQ(mien_mix_antagonists(head().rig.get(), nullptr, 0, &count), MIEN_OK);
-  EXPECT_EQ(count, 10u);
+  EXPECT_EQ(count, 11u);
   MienMixAntagonists pairs[3] = {};
   ASSERT_EQ(mien_mix_antagonists(head().rig.get(), pairs, 2, &count), MIEN_OK);
-  EXPECT_EQ(count, 10u);
+  EXPECT_EQ(count, 11u);
   EXPECT_EQ(pairs[0].first, head().control("eyeBlinkLeft"));
   EXPECT_EQ(pairs[0].second, head().control("eyeWideLeft"));
   EXPECT_EQ(pairs[0].stiffness, 1);

@@ -53,7 +53,7 @@ TEST(Antagonists, AreTheHalvesOfGuiControls) {
                        "eyeLookUpLeft eyeLookDownLeft", "eyeLookUpRight eyeLookDownRight",
                        "eyeLookOutLeft eyeLookInLeft", "eyeLookInRight eyeLookOutRight",
                        "jawLeft jawRight", "mouthLeft mouthRight", "mouthSmileLeft mouthFrownLeft",
-                       "mouthSmileRight mouthFrownRight"}));
+                       "mouthSmileRight mouthFrownRight", "neckThroatUp neckThroatDown"}));
   // Without room they are counted.
   EXPECT_EQ(find_antagonists(*head().deformer.rig, {pairs.data(), 2}), count);
 }
@@ -120,6 +120,8 @@ TEST(Mirror, PairsLeftAndRightAndKeepsTheMiddle) {
     const size_t left = name.find("Left"), right = name.find("Right");
     if (left != std::string::npos) name.replace(left, 4, "Right");
     if (right != std::string::npos) name.replace(right, 5, "Left");
+    // Names of MetaHuman rigs end in L or R.
+    if (name.back() == 'L' || name.back() == 'R') name.back() = name.back() == 'L' ? 'R' : 'L';
     EXPECT_EQ(head().controls[map[c]], name);
     EXPECT_EQ(map[map[c]], c);
   }
