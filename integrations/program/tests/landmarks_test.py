@@ -91,7 +91,7 @@ class Landmarks(ProgramTest):
 
     def play(self, scheme, poses, packet, *options, hold=18):
         """Each pose for some packets at 60 per second, while the head turns."""
-        listener = Listener(scheme, "--landmarks", path("points.json"), "--seconds", str(len(poses) * hold / 60 + 0.6),
+        listener = Listener(scheme, "--landmarks", path("points.json"), "--seconds", str(len(poses) * hold / 60 + 1.2),
                             *options, rig=HEAD)
         k = 0
         for pose in poses:

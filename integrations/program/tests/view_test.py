@@ -284,6 +284,7 @@ class View(ProgramTest):
         self.fails(USAGE, *page, path("tiny.dna"), "--delay", "0.1", says="--live")
         self.fails(USAGE, *page, path("tiny.dna"), "--names", path("page/viewer.js"), says="--live")
         self.fails(USAGE, *page, path("tiny.dna"), "--live", "tcp://:1", says="--live")
+        self.fails(USAGE, *page, path("tiny.dna"), "--live", "landmarks3://:0", says="mien play")
         write("some.glb", b"glTF\2\0\0\0\14\0\0\0")
         self.fails(USAGE, *page, path("some.glb"), "--live", "livelink://127.0.0.1:0", says="GLB")
         self.start(path("tiny.dna"))
