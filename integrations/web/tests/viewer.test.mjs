@@ -75,7 +75,7 @@ test("the built-in head opens by its button", options, async () => {
   await frames();
   assert.equal(await text("file"), "Built-in head");
   assert.equal(await text("count"), "72 controls");
-  assert.match(await text("facts"), /109 joints.*8 LODs/);
+  assert.match(await text("facts"), /110 joints.*8 LODs/);
   assert.deepEqual(page.errors, []);
 });
 
@@ -209,7 +209,7 @@ test("expressions, search, LODs, skeleton and heat map", options, async () => {
     search.value = "smile left";
     search.dispatchEvent(new Event("input"));
   });
-  assert.equal(await text("count"), "1 of 52");
+  assert.equal(await text("count"), "1 of 72");
   await page.run(() => document.querySelector("#list li:not([hidden]) button").click());
   assert.match(await text("inspected"), /mouthSmileLeft at 1 moves \d+ joints/);
   assert.ok(await page.run(() => document.querySelectorAll("#moved li").length) > 3);
@@ -476,7 +476,7 @@ test("10,000 frames and 100 reopenings take no more memory", options, async () =
   }, count);
   await reopen(5);
   const [before, heapBefore] = await measure();
-  assert.deepEqual(await reopen(100), [true, 52]);
+  assert.deepEqual(await reopen(100), [true, 72]);
   const [afterwards, heapAfterwards] = await measure();
   assert.equal(afterwards, before);
   assert.ok(heapAfterwards - heapBefore < 4e6, `the heap grew by ${heapAfterwards - heapBefore} bytes`);
