@@ -350,7 +350,7 @@ class Generate(ProgramTest):
         self.assertEqual(self.ok("demo-head", "-o", "-").stdout, read("person0.dna"))
         self.assertNotEqual(read("person7.dna"), read("person0.dna"))
         names = self.names("person0.dna", "raw")
-        self.assertEqual(len(names), 52)
+        self.assertEqual(len(names), 72)
         self.assertIn("jawOpen", names)
 
     def test_the_same_seed_gives_the_same_bytes(self):

@@ -249,7 +249,7 @@ TEST(Project, ReproducesAMeshAtTheSamePlaces) {
         ++compared;
       }
     }
-    EXPECT_LE(different, compared / 50) << match;
+    EXPECT_LE(different, compared / 40) << match;
     EXPECT_TRUE(dna_of(document));
     EXPECT_EQ(mien_document_project(document.get(), twin, twin, &desc, &farthest, &error),
               MIEN_ERROR_INVALID_ARGUMENT);
