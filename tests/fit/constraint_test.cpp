@@ -63,7 +63,12 @@ struct Constrained {
 TEST(Constraint, JointsTakePlacesAndDirections) {
   Constrained it;
   Random random = Random::from_seed(82, 1);
-  const std::vector<float> raw = it.head.pose(random, 10);
+  std::vector<float> raw = it.head.pose(random, 10);
+  uint32_t look = 0;  // it turns a joint, whatever the others do
+  ASSERT_EQ(mien_rig_find(it.head.rig.get(), MIEN_KIND_RAW_CONTROL,
+                          "CTRL_expressions.eyeLookOutLeft", &look),
+            MIEN_OK);
+  raw[look] = 0.8f;
   const uint32_t joint = it.moved_joint(raw);
   const std::vector<float> posed = it.models(raw), rest = it.models(std::vector<float>(raw.size()));
   const float* m = posed.data() + size_t{joint} * 16;

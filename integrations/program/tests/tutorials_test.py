@@ -108,7 +108,7 @@ class Tutorials(unittest.TestCase):
     def test_engine_loop(self):
         self.needs_compiler()
         printed = self.follow("engine-loop", ["loop"])
-        self.assertIn("64 characters, 100 frames, 981 joint values each", printed)
+        self.assertIn("64 characters, 100 frames, 990 joint values each", printed)
 
 
 if __name__ == "__main__":
