@@ -65,8 +65,7 @@ TEST(Constraint, JointsTakePlacesAndDirections) {
   Random random = Random::from_seed(82, 1);
   std::vector<float> raw = it.head.pose(random, 10);
   uint32_t look = 0;  // it turns a joint, whatever the others do
-  ASSERT_EQ(mien_rig_find(it.head.rig.get(), MIEN_KIND_RAW_CONTROL,
-                          "CTRL_expressions.eyeLookOutLeft", &look),
+  ASSERT_EQ(mien_rig_find(it.head.rig.get(), MIEN_KIND_RAW_CONTROL, "eyeLookOutLeft", &look),
             MIEN_OK);
   raw[look] = 0.8f;
   const uint32_t joint = it.moved_joint(raw);

@@ -306,7 +306,7 @@ test("the shown LOD is downloaded as GLB with its expressions, and opens again i
   writeFileSync(file, bytes);
   assert.equal(await page.run(() => window.viewer.model.face.controls.jawOpen), 1); // the page goes on as it was
   await open(file);
-  assert.match(await text("facts"), /^52 morph targets, \d/);
+  assert.match(await text("facts"), /^72 morph targets, \d/);
   assert.ok(await page.run(() => document.getElementById("save-glb").hidden));
   assert.equal(await page.run(() => window.viewer.model.current[window.viewer.model.list.indexOf("jawOpen")]), 1);
   const posed = await numbers(`(() => {
