@@ -40,7 +40,7 @@ enum MienPreset {
                                RBF solvers with 670 poses, 22 twists and 16 swings; some are
                                quaternion joints */
     MIEN_PRESET_HEAD = 5,   /* a stylized head to look at: skin, eyes, teeth, tongue, hair; the 52
-                               ARKit expressions as raw controls of the same names (0 to 1),
+                               ARKit expressions and 20 of MetaHuman rigs as raw controls (0 to 1),
                                correctives, wrinkle maps, 8 LODs. Seed 0 is the designed head; other
                                seeds vary skull, nose, jaw, age, hair and colors. The metadata holds
                                vertex colors: key "mien.colors.<mesh name>", value base64 of 3 bytes

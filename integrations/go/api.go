@@ -639,7 +639,7 @@ const PresetLarge Preset = 3
 // a synthetic rig of the size of a production body: 342 joints, moved by 72 RBF solvers with 670 poses, 22 twists and 16 swings; some are quaternion joints
 const PresetBody Preset = 4
 
-// a stylized head to look at: skin, eyes, teeth, tongue, hair; the 52 ARKit expressions as raw controls of the same names (0 to 1), correctives, wrinkle maps, 8 LODs. Seed 0 is the designed head; other seeds vary skull, nose, jaw, age, hair and colors. The metadata holds vertex colors: key "mien.colors.<mesh name>", value base64 of 3 bytes (sRGB) per vertex position of the mesh.
+// a stylized head to look at: skin, eyes, teeth, tongue, hair; the 52 ARKit expressions and 20 of MetaHuman rigs as raw controls (0 to 1), correctives, wrinkle maps, 8 LODs. Seed 0 is the designed head; other seeds vary skull, nose, jaw, age, hair and colors. The metadata holds vertex colors: key "mien.colors.<mesh name>", value base64 of 3 bytes (sRGB) per vertex position of the mesh.
 const PresetHead Preset = 5
 
 // a synthetic rig with the published counts of exported heads and names in MetaHuman's conventions: version 2.5, 870 joints, 263 raw controls (251 expressions, 12 parts of quaternions), 174 GUI controls, 545 correctives, 782 channels, an RBF solver with 18 poses, 8 LODs

@@ -507,7 +507,7 @@ namespace Mien {
     Large = 3,
     /// <summary>a synthetic rig of the size of a production body: 342 joints, moved by 72 RBF solvers with 670 poses, 22 twists and 16 swings; some are quaternion joints</summary>
     Body = 4,
-    /// <summary>a stylized head to look at: skin, eyes, teeth, tongue, hair; the 52 ARKit expressions as raw controls of the same names (0 to 1), correctives, wrinkle maps, 8 LODs. Seed 0 is the designed head; other seeds vary skull, nose, jaw, age, hair and colors. The metadata holds vertex colors: key "mien.colors.&lt;mesh name&gt;", value base64 of 3 bytes (sRGB) per vertex position of the mesh.</summary>
+    /// <summary>a stylized head to look at: skin, eyes, teeth, tongue, hair; the 52 ARKit expressions and 20 of MetaHuman rigs as raw controls (0 to 1), correctives, wrinkle maps, 8 LODs. Seed 0 is the designed head; other seeds vary skull, nose, jaw, age, hair and colors. The metadata holds vertex colors: key "mien.colors.&lt;mesh name&gt;", value base64 of 3 bytes (sRGB) per vertex position of the mesh.</summary>
     Head = 5,
     /// <summary>a synthetic rig with the published counts of exported heads and names in MetaHuman's conventions: version 2.5, 870 joints, 263 raw controls (251 expressions, 12 parts of quaternions), 174 GUI controls, 545 correctives, 782 channels, an RBF solver with 18 poses, 8 LODs</summary>
     MetahumanHead = 6,

@@ -946,11 +946,11 @@ impl Preset {
     /// A synthetic rig of the size of a production body: 342 joints, moved by 72 RBF solvers with
     /// 670 poses, 22 twists and 16 swings; some are quaternion joints.
     pub const BODY: Self = Self(4);
-    /// A stylized head to look at: skin, eyes, teeth, tongue, hair; the 52 ARKit expressions as
-    /// raw controls of the same names (0 to 1), correctives, wrinkle maps, 8 LODs. Seed 0 is the
-    /// designed head; other seeds vary skull, nose, jaw, age, hair and colors. The metadata holds
-    /// vertex colors: key "mien.colors.\<mesh name\>", value base64 of 3 bytes (sRGB) per vertex
-    /// position of the mesh.
+    /// A stylized head to look at: skin, eyes, teeth, tongue, hair; the 52 ARKit expressions and
+    /// 20 of MetaHuman rigs as raw controls (0 to 1), correctives, wrinkle maps, 8 LODs. Seed 0 is
+    /// the designed head; other seeds vary skull, nose, jaw, age, hair and colors. The metadata
+    /// holds vertex colors: key "mien.colors.\<mesh name\>", value base64 of 3 bytes (sRGB) per
+    /// vertex position of the mesh.
     pub const HEAD: Self = Self(5);
     /// A synthetic rig with the published counts of exported heads and names in MetaHuman's
     /// conventions: version 2.5, 870 joints, 263 raw controls (251 expressions, 12 parts of
