@@ -59,9 +59,8 @@ struct MienFit {
   mien::Span<uint32_t> joint_first;  // [control + 1]
   mien::Span<uint32_t> joint_rows;
   mien::Span<float> joint_effects;
-  mien::Span<uint32_t>
-      depends_first;  // [control + 1] raw controls that a corrective reads, directly or not
-  mien::Span<uint32_t> depends_on;
+  // Raw controls that a corrective reads, directly or not: [control + 1], and the list.
+  mien::Span<uint32_t> depends_first, depends_on;
   void* joint_block = nullptr;
   size_t joint_block_size = 0;
   mien::Span<float> observability;  // [raw control]
@@ -113,8 +112,8 @@ struct MienFit {
   mien::Span<uint32_t> counting;    // controls that count
   mien::Span<uint8_t> counts;       // [control]
   mien::Span<uint8_t> above_zero;   // [raw control]
-  mien::Span<uint32_t> matrix_free,
-      factor_free;  // free controls of the matrix that is kept, and of the factor
+  // Free controls of the matrix that is kept, and of the factor.
+  mien::Span<uint32_t> matrix_free, factor_free;
   mien::Span<double> kept_matrix;
 };
 

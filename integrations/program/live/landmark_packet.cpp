@@ -5,7 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "integrations/program/io/text.h"
+#include "integrations/program/io/json_check.h"
 
 namespace mien::live {
 
@@ -115,7 +115,7 @@ std::string LandmarkDecoder::decode(const uint8_t* bytes, size_t size,
                                     LandmarkPacket& packet) const {
   packet = LandmarkPacket();
   packet.values.assign(names_.names.size() * names_.width, NAN);
-  const PacketJson document = PacketJson::parse(without_nan(bytes, size), nullptr, false);
+  const PacketJson document = cli::parse_written_json<PacketJson>(without_nan(bytes, size));
   if (document.is_discarded()) return "it is not JSON";
   const PacketJson* landmarks = &document;
   if (document.is_object()) {
