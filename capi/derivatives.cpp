@@ -3,9 +3,15 @@
 #include "runtime/derive/derivatives.h"
 
 #include "capi/handles.h"
+#include "runtime/derive/jacobian.h"
 
 using namespace mien;
 using namespace mien::capi;
+
+namespace mien::capi {
+template <>
+struct ObjectOf<MienJacobian> : TypeOf<Jacobian> {};
+}  // namespace mien::capi
 
 namespace {
 
@@ -29,14 +35,17 @@ bool is_point(const Derivatives& d, uint32_t point, uint32_t mesh) {
   return point != MIEN_POINT_POSITIONS || mesh < d.deformer->meshes.count;
 }
 
+MienStatus check_points(const Derivatives& d, uint32_t from, uint32_t to, uint32_t mesh) {
+  if (from > kLastPoint || to > kLastPoint) return MIEN_ERROR_INVALID_ARGUMENT;
+  if (!is_point(d, from, mesh) || !is_point(d, to, mesh)) return MIEN_ERROR_INDEX;
+  const bool leads = leads_to(static_cast<Point>(from), static_cast<Point>(to));
+  return leads ? MIEN_OK : MIEN_ERROR_INVALID_ARGUMENT;
+}
+
 MienStatus check_way(const MienDerivatives* handle, uint32_t from, uint32_t to, uint32_t mesh) {
   if (MienStatus status = check(handle)) return status;
   const Derivatives& d = *object(handle);
-  if (from > kLastPoint || to > kLastPoint) return MIEN_ERROR_INVALID_ARGUMENT;
-  if (!is_point(d, from, mesh) || !is_point(d, to, mesh)) return MIEN_ERROR_INDEX;
-  if (!leads_to(static_cast<Point>(from), static_cast<Point>(to))) {
-    return MIEN_ERROR_INVALID_ARGUMENT;
-  }
+  if (MienStatus status = check_points(d, from, to, mesh)) return status;
   return d.linearized ? MIEN_OK : MIEN_ERROR_INVALID_ARGUMENT;
 }
 
@@ -59,14 +68,53 @@ MienStatus multiply(decltype(push)& product, MienDerivatives* handle, uint32_t f
   return MIEN_OK;
 }
 
-/// Whether a list of numbers is within a point, and ascending if it must be.
-MienStatus check_numbers(const uint32_t* numbers, size_t count, size_t size, bool ascending) {
-  if (!numbers) return count == 0 ? MIEN_OK : MIEN_ERROR_NULL_ARGUMENT;
+/// Whether a list of numbers is within a point, and ascending if it must be. `name` is that of the field.
+MienStatus check_numbers(const uint32_t* numbers, size_t count, size_t size, bool ascending,
+                         const char* name, MienError* error) {
+  if (!numbers) {
+    if (count == 0) return MIEN_OK;
+    return give_error(error, MIEN_ERROR_NULL_ARGUMENT, "MienJacobianDesc.%s is NULL, its count %zu",
+                      name, count);
+  }
   for (size_t i = 0; i < count; ++i) {
-    if (numbers[i] >= size) return MIEN_ERROR_INDEX;
-    if (ascending && i != 0 && numbers[i] <= numbers[i - 1]) return MIEN_ERROR_INVALID_ARGUMENT;
+    if (numbers[i] >= size) {
+      return give_error(error, MIEN_ERROR_INDEX, "MienJacobianDesc.%s[%zu] is %u of %zu", name, i,
+                        unsigned{numbers[i]}, size);
+    }
+    if (ascending && i != 0 && numbers[i] <= numbers[i - 1]) {
+      return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
+                        "MienJacobianDesc.%s[%zu] is %u after %u: they must ascend", name, i,
+                        unsigned{numbers[i]}, unsigned{numbers[i - 1]});
+    }
   }
   return MIEN_OK;
+}
+
+MienStatus check_jacobian_desc(const Derivatives& d, const MienJacobianDesc& desc,
+                               MienError* error) {
+  const MienStatus points = check_points(d, desc.from_point, desc.to_point, desc.mesh);
+  if (points == MIEN_ERROR_INDEX) {
+    return give_error(
+        error, points,
+        "MienJacobianDesc: from point %u to point %u of mesh %u: there is no such mesh, "
+        "or the derivatives have no deformer",
+        unsigned{desc.from_point}, unsigned{desc.to_point}, unsigned{desc.mesh});
+  }
+  if (points != MIEN_OK) {
+    return give_error(error, points, "MienJacobianDesc: point %u has no effect on point %u",
+                      unsigned{desc.from_point}, unsigned{desc.to_point});
+  }
+  if (desc.lod >= d.rig->lod_count) {
+    return give_error(error, MIEN_ERROR_LOD, "MienJacobianDesc.lod is %u: the rig has %u LODs",
+                      unsigned{desc.lod}, unsigned{d.rig->lod_count});
+  }
+  const size_t columns = point_size(d, static_cast<Point>(desc.from_point), desc.mesh);
+  const size_t rows = point_size(d, static_cast<Point>(desc.to_point), desc.mesh);
+  if (MienStatus status =
+          check_numbers(desc.inputs, desc.input_count, columns, false, "inputs", error)) {
+    return status;
+  }
+  return check_numbers(desc.outputs, desc.output_count, rows, true, "outputs", error);
 }
 
 }  // namespace
@@ -135,35 +183,58 @@ MienStatus mien_derivatives_reverse(MienDerivatives* derivatives, uint32_t from,
   return multiply(pull, derivatives, from, to, mesh, count, {to, from, gradients, outputs});
 }
 
-MienStatus mien_derivatives_jacobian(MienDerivatives* derivatives, uint32_t from, uint32_t to,
-                                     uint32_t mesh, const MienJacobian* jacobian,
-                                     size_t* out_count) {
-  if (!out_count) return MIEN_ERROR_NULL_ARGUMENT;
-  *out_count = 0;
-  if (MienStatus status = check_way(derivatives, from, to, mesh)) return status;
-  MienJacobian known;
-  if (MienStatus status = read_struct(jacobian, known)) return status;
+MienStatus mien_jacobian_create(const MienDerivatives* derivatives, const MienJacobianDesc* desc,
+                                MienJacobian** out_jacobian, MienError* error) {
+  if (MienStatus status = clear_output(out_jacobian, error)) return status;
+  if (MienStatus status = check(derivatives, "derivatives", error)) return status;
+  MienJacobianDesc known;
+  if (MienStatus status = read_desc(desc, known, "MienJacobianDesc", error)) return status;
+  Allocator allocator;
+  if (MienStatus status = read_allocator(known.allocator, allocator, error)) return status;
+  if (MienStatus status = check_jacobian_desc(*object(derivatives), known, error)) return status;
+  Jacobian* made = create_jacobian(*object(derivatives),
+                                   {static_cast<Point>(known.from_point),
+                                    static_cast<Point>(known.to_point),
+                                    known.mesh,
+                                    known.lod,
+                                    {known.inputs, known.input_count},
+                                    {known.outputs, known.output_count}},
+                                   allocator);
+  if (!made) return give_error(error, MIEN_ERROR_MEMORY, "no memory for a matrix of derivatives");
+  *out_jacobian = reinterpret_cast<MienJacobian*>(made);
+  return succeed(error);
+}
+
+void mien_jacobian_destroy(MienJacobian* jacobian) { destroy(jacobian); }
+
+MienStatus mien_jacobian_pattern(const MienJacobian* jacobian, MienJacobianPattern* out_pattern) {
+  if (MienStatus status = clear_struct(out_pattern)) return status;
+  if (MienStatus status = check(jacobian)) return status;
+  const Jacobian& of = *object(jacobian);
+  MienJacobianPattern told = {};
+  told.rows = view_of(of.rows);
+  told.columns = view_of(of.columns);
+  told.row_count = of.row_places.count;
+  told.column_count = of.column_places.count;
+  told.direction_count = of.color_count();
+  write_struct(out_pattern, told);
+  return MIEN_OK;
+}
+
+MienStatus mien_derivatives_jacobian(MienDerivatives* derivatives, const MienJacobian* jacobian,
+                                     const uint8_t* wanted, size_t wanted_count, float* values,
+                                     size_t value_count) {
+  if (MienStatus status = check(derivatives)) return status;
+  if (MienStatus status = check(jacobian)) return status;
   Derivatives& d = *object(derivatives);
-  const auto first = static_cast<Point>(from), last = static_cast<Point>(to);
-  if (MienStatus status =
-          check_numbers(known.inputs, known.input_count, point_size(d, first, mesh), false)) {
-    return status;
+  const Jacobian& of = *object(jacobian);
+  if (of.rig != d.rig || of.deformer != d.deformer) return MIEN_ERROR_MISMATCH;
+  if (!d.linearized) return MIEN_ERROR_INVALID_ARGUMENT;
+  if (of.lod != d.lod) return MIEN_ERROR_MISMATCH;
+  if (value_count != of.rows.count || wanted_count != (wanted ? of.column_places.count : 0)) {
+    return MIEN_ERROR_INVALID_ARGUMENT;
   }
-  if (MienStatus status =
-          check_numbers(known.outputs, known.output_count, point_size(d, last, mesh), true)) {
-    return status;
-  }
-  if (known.capacity != 0 && (!known.rows || !known.columns || !known.values)) {
-    return MIEN_ERROR_NULL_ARGUMENT;
-  }
-  *out_count = find_jacobian(d, {first,
-                                 last,
-                                 mesh,
-                                 {known.inputs, known.input_count},
-                                 {known.outputs, known.output_count},
-                                 known.rows,
-                                 known.columns,
-                                 known.values,
-                                 known.capacity});
-  return known.capacity != 0 && *out_count > known.capacity ? MIEN_ERROR_INVALID_ARGUMENT : MIEN_OK;
+  if (!values && value_count != 0) return MIEN_ERROR_NULL_ARGUMENT;
+  find_jacobian(d, of, wanted, values);
+  return MIEN_OK;
 }

@@ -80,9 +80,12 @@ void place(const MienFitDesc& desc, Placer& placer, MienFit& fit) {
   fit.free = placer.array<uint32_t>(moving);
   fit.inputs = placer.array<uint32_t>(moving);
   fit.first = placer.array<uint32_t>(moving + 1);
-  fit.rows = placer.array<uint32_t>(moving * all);
-  fit.columns = placer.array<uint32_t>(moving * all);
-  fit.values = placer.array<float>(moving * all);
+  const size_t entries = pattern_of(fit).rows.count;
+  fit.rows = placer.array<uint32_t>(entries);
+  fit.values = placer.array<float>(entries);
+  fit.wanted = placer.array<uint8_t>(raw);
+  fit.first_entry = placer.array<uint32_t>(raw + 1);
+  fit.entries = placer.array<float>(entries);
   fit.surface = placer.array<double>(desc.point_count * 3);
   fit.targets = placer.array<double>(desc.point_count * 3);
   fit.weights = placer.array<double>(desc.point_count);
@@ -316,6 +319,14 @@ MienStatus create_parts(const MienFitDesc& desc, MienFit& fit, Arena& arena, Par
   if (status == MIEN_OK) {
     status = create_derivatives(desc, fit, nullptr, &fit.control_derivatives, error);
   }
+  if (status == MIEN_OK) {
+    MienJacobianDesc jacobian = mien_jacobian_desc_default();
+    jacobian.from_point = MIEN_POINT_RAW;
+    jacobian.to_point = MIEN_POINT_CONTROLS;
+    jacobian.lod = fit.lod;
+    jacobian.allocator = desc.allocator;
+    status = mien_jacobian_create(fit.control_derivatives, &jacobian, &fit.by_raw, error);
+  }
   if (status != MIEN_OK || !desc.deformer) return status;
   if (desc.point_count != 0) status = create_point_parts(desc, fit, arena, parts, error);
   const auto or_all = [&](const Chosen& chosen) -> const MienDeformer* {
@@ -363,6 +374,7 @@ void destroy_parts(const MienFit& fit) {
   if (fit.sample_derivatives != fit.derivatives) mien_derivatives_destroy(fit.sample_derivatives);
   mien_deformer_instance_destroy(fit.deformed);
   mien_derivatives_destroy(fit.derivatives);
+  mien_jacobian_destroy(fit.by_raw);
   mien_derivatives_destroy(fit.control_derivatives);
   mien_instance_destroy(fit.instance);
 }
@@ -411,6 +423,8 @@ MienStatus mien_fit_create(const MienRig* rig, const MienFitDesc* desc, MienFit*
   copy_desc(known, *fit);
   copy_points(known, parts, *fit);
   copy_triangles(known, *fit);
+  for (const uint32_t column : span_of(pattern_of(*fit).columns)) ++fit->first_entry[column + 1];
+  for (size_t c = 0; c < fit->raw_count; ++c) fit->first_entry[c + 1] += fit->first_entry[c];
   std::copy(fit->raw.begin(), fit->raw.end(), fit->initial.begin());
   static_cast<void>(mien_rig_evaluate(rig, fit->instance, fit->lod));
   fit->tag = kFitTag;

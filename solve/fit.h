@@ -25,6 +25,7 @@ struct MienFit {
   const MienRig* rig = nullptr;  // kept by the instance
   MienInstance* instance = nullptr;
   MienDerivatives* control_derivatives = nullptr;  // up to joint values: no deformer
+  MienJacobian* by_raw = nullptr;                  // of all controls by raw ones
   // With a deformer. Where points read few positions, these are of a deformer of those positions alone.
   MienDerivatives* derivatives = nullptr;
   MienDeformerInstance* deformed = nullptr;
@@ -78,8 +79,11 @@ struct MienFit {
   mien::Span<double> gradient, step, work;        // [control that may move]
   mien::Span<uint32_t> free;                      // places in `controls`
   mien::Span<uint32_t> inputs;                    // their raw controls
-  mien::Span<uint32_t> rows, columns, first;      // D by free control
+  mien::Span<uint32_t> rows, first;               // D by free control, without entries of 0
   mien::Span<float> values;
+  mien::Span<uint8_t> wanted;           // [raw control] it is free
+  mien::Span<uint32_t> first_entry;     // [raw control + 1] into entries
+  mien::Span<float> entries;            // of `by_raw`
   mien::Span<double> surface, targets;  // [point][3]: in model space; where it is drawn to
   mien::Span<double> normals;       // [point][3] of the surface, or of the one that it is drawn to
   mien::Span<double> weights;       // [point]: 0 if it is missing
@@ -126,6 +130,14 @@ constexpr uint32_t kBlockFrames = 16;  // whose joint values are multiplied toge
 
 /// Fills the metrics and the observability. Temporary memory comes from the arena. False if it ran out.
 bool measure_rig(MienFit& fit, Arena& arena);
+
+/// The entries of MienFit::by_raw, by column.
+inline MienJacobianPattern pattern_of(const MienFit& fit) {
+  MienJacobianPattern pattern = mien_jacobian_pattern_default();
+  static_cast<void>(mien_jacobian_pattern(fit.by_raw, &pattern));
+  return pattern;
+}
+inline Span<const uint32_t> span_of(const MienIndex32View& view) { return {view.data, view.count}; }
 
 /// D at the values of the instance, for the free controls. `first` gets where each begins.
 void list_free_derivatives(MienFit& fit, size_t free_count);

@@ -33,38 +33,48 @@ void multiply_columns(Span<Column> columns, const uint32_t* rows, const float* v
   }
 }
 
-/// The derivatives of a point of the chain by one before it, by column. Null data if memory ran out.
+/// The derivatives of a point of the chain by all controls, by column, without those of 0.
 struct Entries {
   Span<Column> columns;
-  Span<uint32_t> rows, numbers;
+  Span<uint32_t> rows;
   Span<float> values;
 };
-bool find_entries(MienFit& fit, MienDerivatives* derivatives, uint32_t from, uint32_t to,
-                  Arena& arena, Entries& out) {
-  MienJacobian jacobian = mien_jacobian_default();
-  size_t count = 0;
-  if (mien_derivatives_linearize(derivatives, fit.instance, MIEN_STAGE_ALL) != MIEN_OK ||
-      mien_derivatives_jacobian(derivatives, from, to, fit.mesh, &jacobian, &count) != MIEN_OK) {
-    return false;
-  }
+/// False if memory ran out.
+bool find_entries(MienFit& fit, MienDerivatives* derivatives, uint32_t to, Arena& arena,
+                  Entries& out) {
+  MienJacobianDesc desc = mien_jacobian_desc_default();
+  desc.from_point = MIEN_POINT_CONTROLS;
+  desc.to_point = to;
+  desc.mesh = to == MIEN_POINT_POSITIONS ? fit.mesh : 0;
+  desc.lod = fit.lod;
+  const MienAllocator allocator = {fit.allocator.user, fit.allocator.allocate,
+                                   fit.allocator.release};
+  desc.allocator = &allocator;
+  MienJacobian* jacobian = nullptr;
+  MienJacobianPattern pattern = mien_jacobian_pattern_default();
+  if (mien_jacobian_create(derivatives, &desc, &jacobian, nullptr) != MIEN_OK) return false;
+  bool made = mien_jacobian_pattern(jacobian, &pattern) == MIEN_OK;
+  const size_t count = pattern.rows.count;
   out.columns = arena.array<Column>(fit.control_count + 1);
   out.rows = arena.array<uint32_t>(count + 1);
-  out.numbers = arena.array<uint32_t>(count + 1);
   out.values = arena.array<float>(count + 1);
-  if (!out.columns.data || !out.rows.data || !out.numbers.data || !out.values.data) return false;
-  jacobian.rows = out.rows.data;
-  jacobian.columns = out.numbers.data;
-  jacobian.values = out.values.data;
-  jacobian.capacity = count;
-  if (count != 0 &&
-      mien_derivatives_jacobian(derivatives, from, to, fit.mesh, &jacobian, &count) != MIEN_OK) {
-    return false;
+  made = made && out.columns.data && out.rows.data && out.values.data &&
+         mien_derivatives_linearize(derivatives, fit.instance, MIEN_STAGE_ALL) == MIEN_OK &&
+         mien_derivatives_jacobian(derivatives, jacobian, nullptr, 0, out.values.data, count) ==
+             MIEN_OK;
+  uint32_t kept = 0;
+  for (size_t i = 0; made && i < count; ++i) {
+    if (out.values[i] == 0) continue;
+    Column& column = out.columns[pattern.columns.data[i]];
+    if (column.count++ == 0) column.first = kept;
+    out.rows[kept] = pattern.rows.data[i];
+    out.values[kept++] = out.values[i];
   }
+  mien_jacobian_destroy(jacobian);
+  if (!made) return false;
   out.columns = out.columns.first(fit.control_count);
-  for (uint32_t i = 0; i < count; ++i) {
-    Column& column = out.columns[out.numbers[i]];
-    if (column.count++ == 0) column.first = i;
-  }
+  out.rows = out.rows.first(kept);
+  out.values = out.values.first(kept);
   return true;
 }
 
@@ -92,20 +102,18 @@ bool are_sums(MienFit& fit, const Entries& entries, const Span<double>& sums) {
   return worst <= 1e-5 * largest;
 }
 
-/// What correctives read: the derivatives by raw controls where all are a little above 0, so that no factor is 0 and
-/// no product above 1. Networks and RBF solvers have none. False if memory ran out.
-bool find_dependencies(MienFit& fit, Arena& arena, Entries& out) {
+/// Calls f(corrective, raw control that it reads, directly or not), if networks and RBF solvers, which are no products,
+/// write none of the controls.
+template <class F>
+void for_each_dependency(const MienFit& fit, F&& f) {
   uint32_t learned = 0, solved = 0;
   static_cast<void>(mien_rig_count(fit.rig, MIEN_KIND_ML_CONTROL, &learned));
   static_cast<void>(mien_rig_count(fit.rig, MIEN_KIND_RBF_CONTROL, &solved));
-  if (learned + solved != 0) return true;
-  std::fill(fit.raw.begin(), fit.raw.end(), 0.01f);
-  evaluate(fit);
-  const bool found =
-      find_entries(fit, fit.control_derivatives, MIEN_POINT_RAW, MIEN_POINT_CONTROLS, arena, out);
-  std::copy(fit.initial.begin(), fit.initial.end(), fit.raw.begin());
-  evaluate(fit);
-  return found;
+  if (learned + solved != 0) return;
+  const MienJacobianPattern pattern = pattern_of(fit);
+  for (size_t i = 0; i < pattern.rows.count; ++i) {
+    if (pattern.rows.data[i] >= fit.raw_count) f(pattern.rows.data[i], pattern.columns.data[i]);
+  }
 }
 
 void place_effects(size_t count, size_t dependency_count, Placer& placer, MienFit& fit) {
@@ -124,27 +132,21 @@ void place_effects(size_t count, size_t dependency_count, Placer& placer, MienFi
   fit.kept_matrix = placer.array<double>(fit.controls.count * fit.controls.count);
 }
 
-void keep_dependencies(MienFit& fit, const Entries& entries, size_t count) {
-  const auto for_each = [&](auto&& f) {
-    for (size_t i = 0; i < count; ++i) {
-      if (entries.rows[i] >= fit.raw_count) f(entries.rows[i], entries.numbers[i]);
-    }
-  };
-  for_each([&](uint32_t control, uint32_t) { ++fit.depends_first[control + 1]; });
+void keep_dependencies(MienFit& fit) {
+  for_each_dependency(fit, [&](uint32_t control, uint32_t) { ++fit.depends_first[control + 1]; });
   for (size_t c = 0; c < fit.control_count; ++c) fit.depends_first[c + 1] += fit.depends_first[c];
   // Each list is filled from its end, then it begins where it should.
   for (size_t c = fit.control_count; c > 0; --c) fit.depends_first[c] = fit.depends_first[c - 1];
-  for_each([&](uint32_t control, uint32_t raw) {
+  for_each_dependency(fit, [&](uint32_t control, uint32_t raw) {
     fit.depends_on[fit.depends_first[control + 1]++] = raw;
   });
 }
 
 /// For mien_fit_solve_frames(). False if memory ran out.
-bool keep_effects(MienFit& fit, const Entries& entries, Arena& arena) {
-  const size_t count = entries.rows.count - 1;
-  Entries dependencies;
-  if (!find_dependencies(fit, arena, dependencies)) return false;
-  const size_t dependency_count = dependencies.rows.empty() ? 0 : dependencies.rows.count - 1;
+bool keep_effects(MienFit& fit, const Entries& entries) {
+  const size_t count = entries.rows.count;
+  size_t dependency_count = 0;
+  for_each_dependency(fit, [&](uint32_t, uint32_t) { ++dependency_count; });
   MienFit measured = fit;
   Placer sizes(nullptr);
   place_effects(count, dependency_count, sizes, measured);
@@ -158,21 +160,21 @@ bool keep_effects(MienFit& fit, const Entries& entries, Arena& arena) {
   for (size_t c = 0; c < fit.control_count; ++c) {
     fit.joint_first[c + 1] = fit.joint_first[c] + entries.columns[c].count;
   }
-  keep_dependencies(fit, dependencies, dependency_count);
+  keep_dependencies(fit);
   return true;
 }
 
 bool measure_joints(MienFit& fit, Arena& arena, Entries& entries) {
   const Span<double> dense = arena.array<double>(fit.joint_count + 1);
-  if (!dense.data || !find_entries(fit, fit.control_derivatives, MIEN_POINT_CONTROLS,
-                                   MIEN_POINT_JOINTS, arena, entries)) {
+  if (!dense.data ||
+      !find_entries(fit, fit.control_derivatives, MIEN_POINT_JOINTS, arena, entries)) {
     return false;
   }
-  if (are_sums(fit, entries, dense.first(fit.joint_count)) && !keep_effects(fit, entries, arena)) {
+  if (are_sums(fit, entries, dense.first(fit.joint_count)) && !keep_effects(fit, entries)) {
     return false;
   }
   std::fill(dense.begin(), dense.end(), 0.0);
-  for (size_t i = 0; i + 1 < entries.rows.count; ++i) {
+  for (size_t i = 0; i < entries.rows.count; ++i) {
     entries.values[i] *= std::sqrt(fit.joint_weights[entries.rows[i]]);
   }
   multiply_columns(entries.columns, entries.rows.data, entries.values.data, dense.data,
@@ -184,8 +186,7 @@ bool measure_joints(MienFit& fit, Arena& arena, Entries& entries) {
 bool measure_points(MienFit& fit, Arena& arena) {
   const size_t count = fit.samples.count;
   Entries entries;
-  if (!find_entries(fit, fit.sample_derivatives, MIEN_POINT_CONTROLS, MIEN_POINT_POSITIONS, arena,
-                    entries)) {
+  if (!find_entries(fit, fit.sample_derivatives, MIEN_POINT_POSITIONS, arena, entries)) {
     return false;
   }
   const Span<float> coordinates = arena.array<float>(fit.sample_position_count * 3 + 1);
@@ -285,20 +286,24 @@ bool measure_rig(MienFit& fit, Arena& arena) {
 }
 
 void list_free_derivatives(MienFit& fit, size_t free_count) {
-  MienJacobian jacobian = mien_jacobian_default();
-  jacobian.inputs = fit.inputs.data;
-  jacobian.input_count = free_count;
-  jacobian.rows = fit.rows.data;
-  jacobian.columns = fit.columns.data;
-  jacobian.values = fit.values.data;
-  jacobian.capacity = fit.values.count;
-  size_t count = 0;
-  std::fill(fit.first.data, fit.first.data + free_count + 1, 0u);
+  fit.first[0] = 0;
   if (free_count == 0) return;
-  static_cast<void>(mien_derivatives_jacobian(fit.control_derivatives, MIEN_POINT_RAW,
-                                              MIEN_POINT_CONTROLS, 0, &jacobian, &count));
-  for (size_t i = 0; i < count; ++i) ++fit.first[fit.columns[i] + 1];
-  for (size_t c = 0; c < free_count; ++c) fit.first[c + 1] += fit.first[c];
+  std::fill(fit.wanted.begin(), fit.wanted.end(), uint8_t{0});
+  for (size_t a = 0; a < free_count; ++a) fit.wanted[fit.inputs[a]] = 1;
+  static_cast<void>(mien_derivatives_jacobian(fit.control_derivatives, fit.by_raw, fit.wanted.data,
+                                              fit.wanted.count, fit.entries.data,
+                                              fit.entries.count));
+  const MienIndex32View rows = pattern_of(fit).rows;
+  uint32_t count = 0;
+  for (size_t a = 0; a < free_count; ++a) {
+    const uint32_t raw = fit.inputs[a];
+    for (uint32_t i = fit.first_entry[raw]; i < fit.first_entry[raw + 1]; ++i) {
+      if (fit.entries[i] == 0) continue;
+      fit.rows[count] = rows.data[i];
+      fit.values[count++] = fit.entries[i];
+    }
+    fit.first[a + 1] = count;
+  }
 }
 
 void project_metric(MienFit& fit, const double* metric, double factor, size_t free_count) {

@@ -66,7 +66,7 @@ WITHOUT = {
 }
 # Families of names that languages have not yet: what they begin with. Users call these by the C interface, which Rust has
 # in mien-sys, Lua by its FFI, C# as Mien.Native.Functions, and Go as cgo.
-_DERIVATIVES = ("MienDerivatives", "MienJacobian", "mien_derivatives_")
+_DERIVATIVES = ("MienDerivatives", "MienJacobian", "mien_derivatives_", "mien_jacobian_")
 _SOLVING = (*_DERIVATIVES, "mien_deformer_create_subset", "MienFitDesc", "MienFitFrame", "MienFitSurface", "mien_fit_")
 LATER_IN_ALL = (
     "MienAuthorDesc", "MienAuthorMesh", "MienDocument", "MienPlacement",

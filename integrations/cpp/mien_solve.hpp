@@ -12,7 +12,10 @@ namespace mien {
 inline namespace MIEN_CPP_NAMESPACE {
 
 using DerivativesDesc = Sized<MienDerivativesDesc>;
-using Jacobian = Sized<MienJacobian>;
+using JacobianDesc = Sized<MienJacobianDesc>;
+using JacobianPattern = Sized<MienJacobianPattern>;
+
+class Jacobian;
 
 /// Derivatives at a pose (docs/derivatives.md). For one thread at a time. `mesh` is that of
 /// MIEN_POINT_POSITIONS, else 0.
@@ -60,14 +63,9 @@ class Derivatives : public Owner<MienDerivatives, mien_derivatives_destroy> {
     }
     return mien_derivatives_reverse(get(), from, to, mesh, count, gradients.data(), out.data());
   }
-  /// Fills the arrays of `jacobian`, and returns how many entries there are; only counts them if its capacity
-  /// is 0.
-  Result<size_t> jacobian(MienPoint from, MienPoint to, const Jacobian& jacobian,
-                          uint32_t mesh = 0) {
-    size_t found = 0;
-    const MienStatus status = mien_derivatives_jacobian(get(), from, to, mesh, &jacobian, &found);
-    return {status, std::move(found)};
-  }
+  /// The entries of a matrix, in the order of its pattern. `wanted`: a byte per column, 0 leaves the values of
+  /// the column as they are; empty: all columns.
+  Status jacobian(const Jacobian& jacobian, Span<float> values, Span<const uint8_t> wanted = {});
 
  private:
   /// Whole rows, as many in as out.
@@ -85,6 +83,32 @@ class Derivatives : public Owner<MienDerivatives, mien_derivatives_destroy> {
     return MIEN_OK;
   }
 };
+
+/// A sparse matrix of derivatives: which entries it has, and which columns are computed together. Any threads may
+/// use one at the same time.
+class Jacobian : public Owner<MienJacobian, mien_jacobian_destroy> {
+ public:
+  using Owner::Owner;
+
+  /// The derivatives may go afterwards; others of their rig and deformer may compute the entries.
+  static Result<Jacobian> create(const Derivatives& derivatives, const JacobianDesc& desc) {
+    return make<Jacobian>([&](MienJacobian** out, MienError* error) {
+      return mien_jacobian_create(derivatives.get(), &desc, out, error);
+    });
+  }
+  /// Its views are valid as long as the matrix.
+  Result<JacobianPattern> pattern() const {
+    JacobianPattern found;
+    const MienStatus status = mien_jacobian_pattern(get(), &found);
+    return {status, std::move(found)};
+  }
+};
+
+inline Status Derivatives::jacobian(const Jacobian& jacobian, Span<float> values,
+                                    Span<const uint8_t> wanted) {
+  return mien_derivatives_jacobian(get(), jacobian.get(), wanted.empty() ? nullptr : wanted.data(),
+                                   wanted.size(), values.data(), values.size());
+}
 
 using FitDesc = Sized<MienFitDesc>;
 using FitFrame = Sized<MienFitFrame>;

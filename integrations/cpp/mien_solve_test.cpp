@@ -44,16 +44,28 @@ void test_derivatives(const mien::Rig& rig, mien::Instance& face) {
   Row two(2 * joints);
   CHECK(derivatives.forward(MIEN_POINT_RAW, MIEN_POINT_JOINTS, u, two).status() ==
         MIEN_ERROR_INVALID_ARGUMENT);
-  const size_t count = derivatives.jacobian(MIEN_POINT_RAW, MIEN_POINT_JOINTS, {}).value();
-  std::vector<uint32_t> rows(count), columns(count);
+  mien::JacobianDesc desc;
+  desc.from_point = MIEN_POINT_JOINTS;
+  desc.to_point = MIEN_POINT_RAW;
+  CHECK(mien::Jacobian::create(derivatives, desc).status() == MIEN_ERROR_INVALID_ARGUMENT);
+  desc.from_point = MIEN_POINT_RAW;
+  desc.to_point = MIEN_POINT_JOINTS;
+  const mien::Jacobian jacobian = mien::Jacobian::create(derivatives, desc).value();
+  const mien::JacobianPattern pattern = jacobian.pattern().value();
+  const size_t count = pattern.rows.count;
+  CHECK(pattern.row_count == joints && pattern.column_count == raw && count != 0);
   Row values(count), product(joints);
-  mien::Jacobian jacobian;
-  jacobian.rows = rows.data();
-  jacobian.columns = columns.data();
-  jacobian.values = values.data();
-  jacobian.capacity = count;
-  CHECK(derivatives.jacobian(MIEN_POINT_RAW, MIEN_POINT_JOINTS, jacobian).value() == count);
-  for (size_t i = 0; i < count; ++i) product[rows[i]] += values[i] * u[columns[i]];
+  CHECK(derivatives.jacobian(jacobian, values));
+  for (size_t i = 0; i < count; ++i) {
+    product[pattern.rows.data[i]] += values[i] * u[pattern.columns.data[i]];
+  }
+  std::vector<uint8_t> wanted(raw);
+  Row kept(count, -7.0f), few(count - 1);
+  CHECK(derivatives.jacobian(jacobian, kept, wanted));
+  CHECK(kept == Row(count, -7.0f));
+  CHECK(derivatives.jacobian(jacobian, few).status() == MIEN_ERROR_INVALID_ARGUMENT);
+  wanted.pop_back();
+  CHECK(derivatives.jacobian(jacobian, kept, wanted).status() == MIEN_ERROR_INVALID_ARGUMENT);
   for (size_t i = 0; i < joints; ++i) {
     CHECK(std::fabs(product[i] - forward[i]) <= 1e-3f * (1 + std::fabs(forward[i])));
   }

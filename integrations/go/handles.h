@@ -29,6 +29,9 @@ struct MienDeformerInstance {
 struct MienDerivatives {
   char unused;
 };
+struct MienJacobian {
+  char unused;
+};
 struct MienBaked {
   char unused;
 };

@@ -2,6 +2,7 @@
 #include "runtime/derive/derivatives.h"
 
 #include "runtime/derive/derive_stages.h"
+#include "runtime/derive/jacobian.h"
 
 namespace mien {
 namespace {
@@ -133,24 +134,13 @@ const Span<float>& buffer_of(const Derivatives& d, Point point) {
   return d.moved;
 }
 
-bool is_matrix(Point point) {
-  return point == Point::kLocals || point == Point::kModels || point == Point::kSkins;
-}
-
-/// Where number i of a point stands in its buffer, or none: matrices have constant rows.
-size_t place_in_buffer(Point point, size_t i) {
-  if (!is_matrix(point)) return i;
-  const size_t column = i % kMatrixFloats / 4, row = i % 4;
-  return row == 3 ? ~size_t{0} : i / kMatrixFloats * kMatrixParts + 3 * column + row;
-}
-
 void load(Derivatives& d, Point point, uint32_t lanes, uint32_t count, const float* rows) {
   const size_t size = point_size(d, point, 0);
   float* const buffer = buffer_of(d, point).data;
   for (uint32_t k = 0; k < count; ++k) {
     for (size_t i = 0; i < size; ++i) {
       const size_t at = place_in_buffer(point, i);
-      if (at != ~size_t{0}) buffer[at * lanes + k] = rows[k * size + i];
+      if (at != kNoPlace) buffer[at * lanes + k] = rows[k * size + i];
     }
   }
 }
@@ -161,7 +151,7 @@ void save(Derivatives& d, Point point, uint32_t lanes, uint32_t count, float* ro
   for (uint32_t k = 0; k < count; ++k) {
     for (size_t i = 0; i < size; ++i) {
       const size_t at = place_in_buffer(point, i);
-      rows[k * size + i] = at == ~size_t{0} ? 0.0f : buffer[at * lanes + k];
+      rows[k * size + i] = at == kNoPlace ? 0.0f : buffer[at * lanes + k];
     }
   }
 }
@@ -270,56 +260,47 @@ void in_lanes(uint32_t count, One&& one, Many&& many) {
   if (k < count) one(k);
 }
 
-/// Writes the entries of one column: value(i) is that of number i at the output.
-template <class F>
-size_t add_column(const JacobianArgs& args, size_t size, uint32_t column, size_t count, F&& value) {
-  const size_t rows = args.outputs.data ? args.outputs.count : size;
-  for (size_t r = 0; r < rows; ++r) {
-    const float v = value(args.outputs.data ? args.outputs[r] : r);
-    if (v == 0.0f) continue;
-    if (count < args.capacity) {
-      args.rows[count] = static_cast<uint32_t>(r);
-      args.columns[count] = column;
-      args.values[count] = v;
-    }
-    ++count;
-  }
-  return count;
-}
-
 }  // namespace
 
-size_t find_jacobian(Derivatives& d, const JacobianArgs& args) {
+// Columns of a color share a direction. Each row has an entry of at most one of them, so it gets what a
+// direction of that column alone gives.
+void find_jacobian(Derivatives& d, const Jacobian& jacobian, const uint8_t* wanted, float* values) {
   constexpr uint32_t L = kBatchLanes;
-  const size_t size = point_size(d, args.to, args.mesh);
-  const size_t inputs = args.inputs.data ? args.inputs.count : point_size(d, args.from, args.mesh);
-  size_t count = 0;
-  for (size_t first = 0; first < inputs; first += L) {
-    const auto lanes = static_cast<uint32_t>(std::min<size_t>(L, inputs - first));
-    clear_for_push(d, args.from, args.to, L);
-    clear_buffers({&buffer_of(d, args.from)}, L);
-    d.lane_count = lanes;
-    for (uint32_t k = 0; k < lanes; ++k) {
-      const size_t input = args.inputs.data ? args.inputs[first + k] : first + k;
-      const size_t at = place_in_buffer(args.from, input);
-      if (at != ~size_t{0}) buffer_of(d, args.from).data[at * L + k] = 1.0f;
-    }
-    push_buffers<L>(d, args.from, args.to);
-    for (uint32_t k = 0; k < lanes; ++k) {
-      const auto column = static_cast<uint32_t>(first + k);
-      if (args.to == Point::kPositions) {
-        push_positions(d, args.mesh, k, L, d.moved.data);
-        count = add_column(args, size, column, count, [&](size_t i) { return d.moved[i]; });
-        continue;
+  const Span<uint32_t>& first = jacobian.first_of_color;
+  const auto is_wanted = [&](uint32_t column) { return !wanted || wanted[column] != 0; };
+  for (uint32_t color = 0; color < jacobian.color_count();) {
+    clear_for_push(d, jacobian.from, jacobian.to, L);
+    clear_buffers({&buffer_of(d, jacobian.from)}, L);
+    // Lanes of the next colors that have a wanted column.
+    uint32_t colors[L];
+    d.lane_count = 0;
+    for (; color < jacobian.color_count() && d.lane_count < L; ++color) {
+      bool any = false;
+      for (const uint32_t c :
+           jacobian.by_color.slice(first[color], first[color + 1] - first[color])) {
+        if (!is_wanted(c)) continue;
+        any = true;
+        const size_t at = jacobian.column_places[c];
+        buffer_of(d, jacobian.from).data[at * L + d.lane_count] = 1.0f;
       }
-      const float* buffer = buffer_of(d, args.to).data;
-      count = add_column(args, size, column, count, [&](size_t i) {
-        const size_t at = place_in_buffer(args.to, i);
-        return at == ~size_t{0} ? 0.0f : buffer[at * L + k];
-      });
+      if (any) colors[d.lane_count++] = color;
+    }
+    if (d.lane_count == 0) return;
+    push_buffers<L>(d, jacobian.from, jacobian.to);
+    const bool to_positions = jacobian.to == Point::kPositions;
+    for (uint32_t k = 0; k < d.lane_count; ++k) {
+      if (to_positions) push_positions(d, jacobian.mesh, k, L, d.moved.data);
+      const float* const results = to_positions ? d.moved.data : buffer_of(d, jacobian.to).data + k;
+      const size_t stride = to_positions ? 1 : L;
+      const uint32_t begin = first[colors[k]], end = first[colors[k] + 1];
+      for (const uint32_t c : jacobian.by_color.slice(begin, end - begin)) {
+        if (!is_wanted(c)) continue;
+        for (size_t e = jacobian.first_entry[c]; e < jacobian.first_entry[c + 1]; ++e) {
+          values[e] = results[jacobian.row_places[jacobian.rows[e]] * stride];
+        }
+      }
     }
   }
-  return count;
 }
 
 size_t derivatives_size(const Rig& rig, const Deformer* deformer) {
@@ -367,7 +348,7 @@ void linearize(Derivatives& d, const Instance& instance, uint32_t stages) {
   const Rig& rig = *d.rig;
   if (!d.linearized || d.lod != instance.lod) {
     d.lod = instance.lod;
-    find_value_rows(d);
+    find_value_rows(rig, d.lod, d.value_rows);
   }
   d.stages = stages;
   std::copy(instance.controls.begin(), instance.controls.end(), d.values.begin());

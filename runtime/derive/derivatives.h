@@ -129,17 +129,9 @@ void push(Derivatives& derivatives, Point from, Point to, uint32_t mesh, uint32_
 void pull(Derivatives& derivatives, Point from, Point to, uint32_t mesh, uint32_t count,
           const float* gradients, float* outputs);
 
-/// The matrix of derivatives: entries that are not 0, by column, then by row.
-struct JacobianArgs {
-  Point from, to;
-  uint32_t mesh;
-  Span<const uint32_t> inputs, outputs;  // numbers at the points; empty data: all
-  uint32_t* rows;
-  uint32_t* columns;
-  float* values;
-  size_t capacity;
-};
-/// Returns how many entries there are; at most `capacity` are written.
-size_t find_jacobian(Derivatives& derivatives, const JacobianArgs& args);
+struct Jacobian;
+/// Entries of the columns with a byte other than 0 in `wanted`, or of all (jacobian.h).
+void find_jacobian(Derivatives& derivatives, const Jacobian& jacobian, const uint8_t* wanted,
+                   float* values);
 
 }  // namespace mien

@@ -129,10 +129,10 @@ void sum_transposed(Derivatives& d, uint32_t lane, uint32_t lanes) {
 
 }  // namespace
 
-void find_value_rows(Derivatives& d) {
-  std::fill(d.value_rows.begin(), d.value_rows.end(), kNoRow);
-  for_each_row(*d.rig, d.lod,
-               [&](size_t row, size_t value) { d.value_rows[value] = static_cast<uint32_t>(row); });
+void find_value_rows(const Rig& rig, uint32_t lod, const Span<uint32_t>& value_rows) {
+  std::fill(value_rows.begin(), value_rows.end(), kNoRow);
+  for_each_row(rig, lod,
+               [&](size_t row, size_t value) { value_rows[value] = static_cast<uint32_t>(row); });
 }
 
 template <uint32_t L>

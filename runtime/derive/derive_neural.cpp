@@ -77,41 +77,6 @@ void run_layer(Derivatives& d, const NetworkLayer& layer, const float* in, float
   for (uint32_t i = 0; i < layer.output_count; ++i) slopes[i] = slope_of(layer, out[i]);
 }
 
-/// Calls f(lane of a dependency's value, i) for the inputs of a step that are not gathered, or gathered:
-/// f(where the input comes from, number).
-template <uint32_t L, class F>
-void for_each_input(const Derivatives& d, const MlStep& step, float* controls, float* values,
-                    F&& f) {
-  const MlTable& ml = d.rig->ml;
-  uint32_t i = 0;
-  if (step.gather_count != 0) {
-    const uint32_t count = std::min(step.gather_count, ml.layers[step.first_layer].input_count);
-    for (; i < count; ++i) {
-      f(controls + size_t{ml.controls[step.first_gather + i]} * L, i);
-    }
-    return;
-  }
-  for (const MlDependency& from :
-       ml.dependencies.slice(step.first_dependency, step.dependency_count)) {
-    for (uint32_t k = 0; k < from.count; ++k) f(values + (size_t{from.first} + k) * L, i++);
-  }
-}
-
-/// The terms of a weighted sum: f(where the value is, output, weight).
-template <uint32_t L, class F>
-void for_each_term(const Derivatives& d, const MlStep& step, float* controls, float* values,
-                   F&& f) {
-  const MlTable& ml = d.rig->ml;
-  for (const MlDependency& from :
-       ml.dependencies.slice(step.first_dependency, step.dependency_count)) {
-    for (uint32_t i = 0; i < step.output_count; ++i) {
-      f(from.gathers ? controls + size_t{ml.controls[from.first + i]} * L
-                     : values + (size_t{from.first} + i) * L,
-        i, from.weight);
-    }
-  }
-}
-
 /// Calls f(control) for what ML joints read, if it is converted: those controls start from constants.
 template <class F>
 void for_each_joint_control(const Rig& rig, F&& f) {
@@ -234,9 +199,9 @@ template <uint32_t L>
 void push_network(Derivatives& d, const MlStep& step) {
   float* in = d.ml_layers[0].data;
   float* out = d.ml_layers[1].data;
-  for_each_input<L>(d, step, d.controls.data, d.ml_values.data, [&](const float* from, uint32_t i) {
-    std::copy(from, from + L, in + size_t{i} * L);
-  });
+  for_each_ml_input<L>(
+      d.rig->ml, step, d.controls.data, d.ml_values.data,
+      [&](const float* from, uint32_t i) { std::copy(from, from + L, in + size_t{i} * L); });
   for (uint32_t l = 0; l < step.layer_count; ++l) {
     const NetworkLayer& layer = d.rig->ml.layers[step.first_layer + l];
     multiply<L>(d, weights_of(d, layer), layer.input_count, layer.output_count, in, out);
@@ -267,8 +232,8 @@ void pull_network(Derivatives& d, const MlStep& step) {
                 layer.input_count, in, out);
     std::swap(in, out);
   }
-  for_each_input<L>(d, step, d.controls.data, d.ml_values.data,
-                    [&](float* to, uint32_t i) { add_scaled<L>(to, in + size_t{i} * L, 1.0f); });
+  for_each_ml_input<L>(d.rig->ml, step, d.controls.data, d.ml_values.data,
+                       [&](float* to, uint32_t i) { add_scaled<L>(to, in + size_t{i} * L, 1.0f); });
 }
 
 }  // namespace
@@ -310,10 +275,10 @@ void linearize_ml(Derivatives& d, const Instance& instance) {
     float* const outputs = d.ml_values.data + step.first_output;
     if (step.layer_count == 0) {
       std::fill(outputs, outputs + step.output_count, 0.0f);
-      for_each_term<1>(d, step, d.values.data, d.ml_values.data,
-                       [&](const float* from, uint32_t i, float weight) {
-                         outputs[i] = saturated(outputs[i] + saturated(weight * *from));
-                       });
+      for_each_ml_term<1>(ml, step, d.values.data, d.ml_values.data,
+                          [&](const float* from, uint32_t i, float weight) {
+                            outputs[i] = saturated(outputs[i] + saturated(weight * *from));
+                          });
       continue;
     }
     const float mask = d.ml_masks[s] = mask_of(rig, instance, step);
@@ -322,8 +287,8 @@ void linearize_ml(Derivatives& d, const Instance& instance) {
     } else {
       float* in = d.ml_layers[0].data;
       float* out = d.ml_layers[1].data;
-      for_each_input<1>(d, step, d.values.data, d.ml_values.data,
-                        [&](const float* from, uint32_t i) { in[i] = *from; });
+      for_each_ml_input<1>(ml, step, d.values.data, d.ml_values.data,
+                           [&](const float* from, uint32_t i) { in[i] = *from; });
       for (uint32_t l = 0; l < step.layer_count; ++l) {
         run_layer(d, ml.layers[step.first_layer + l], in, out,
                   d.slopes.data + first_slope_of(d, step, l));
@@ -358,10 +323,10 @@ void push_ml(Derivatives& d) {
     if (!is_at_lod(step.lods, d.lod)) continue;
     float* const outputs = d.ml_values.data + size_t{step.first_output} * L;
     if (step.layer_count == 0) {
-      for_each_term<L>(d, step, d.controls.data, d.ml_values.data,
-                       [&](const float* from, uint32_t i, float weight) {
-                         add_scaled<L>(outputs + size_t{i} * L, from, weight);
-                       });
+      for_each_ml_term<L>(ml, step, d.controls.data, d.ml_values.data,
+                          [&](const float* from, uint32_t i, float weight) {
+                            add_scaled<L>(outputs + size_t{i} * L, from, weight);
+                          });
       continue;
     }
     const float mask = d.ml_masks[s];
@@ -387,10 +352,10 @@ void pull_ml(Derivatives& d) {
     if (!is_at_lod(step.lods, d.lod)) continue;
     float* const outputs = d.ml_values.data + size_t{step.first_output} * L;
     if (step.layer_count == 0) {
-      for_each_term<L>(d, step, d.controls.data, d.ml_values.data,
-                       [&](float* to, uint32_t i, float weight) {
-                         add_scaled<L>(to, outputs + size_t{i} * L, weight);
-                       });
+      for_each_ml_term<L>(ml, step, d.controls.data, d.ml_values.data,
+                          [&](float* to, uint32_t i, float weight) {
+                            add_scaled<L>(to, outputs + size_t{i} * L, weight);
+                          });
       continue;
     }
     const uint32_t count = scatter_count(rig, step, d.lod);

@@ -14,14 +14,6 @@ using Part = Dual<4>;
 /// Numbers that a solver compares: those of its controls, or of the parts of rotations.
 uint32_t compared_count(const RbfSolverPlan& plan) { return plan.input_count; }
 
-/// The control that is input `i` of a solver.
-uint16_t input_control(const RbfTable& rbf, const RbfSolverPlan& plan, uint32_t i) {
-  if (!takes_parts(plan)) return rbf.inputs[plan.first_input + i];
-  const size_t lane = plan.first_input + i / 4;
-  return rbf
-      .rotations[lane / kBlockLanes * 4 * kBlockLanes + i % 4 * kBlockLanes + lane % kBlockLanes];
-}
-
 /// The numbers of a rotation a b c w, with a the axis of the twist, that a solver compares: b c w of the
 /// swing, or a w. Returns their number.
 uint32_t split(const double* q, bool swing, Part* parts) {
@@ -193,11 +185,11 @@ void linearize_solver(Derivatives& d, uint32_t index) {
   const uint32_t each = plan.angle_inputs;
   const bool split_up = takes_parts(plan);
   for (uint32_t i = 0; i < count; ++i) {
-    if (!split_up) s.compared[i] = d.values[input_control(rbf, plan, i)];
+    if (!split_up) s.compared[i] = d.values[rbf_input_control(rbf, plan, i)];
   }
   for (uint32_t r = 0; split_up && r < count / each; ++r) {
     double q[4];
-    for (uint32_t k = 0; k < 4; ++k) q[k] = d.values[input_control(rbf, plan, 4 * r + k)];
+    for (uint32_t k = 0; k < 4; ++k) q[k] = d.values[rbf_input_control(rbf, plan, 4 * r + k)];
     Part parts[3];
     split(q, each == 3, parts);
     for (uint32_t k = 0; k < each; ++k) {
@@ -260,6 +252,13 @@ uint32_t rbf_input_count(const RbfSolverPlan& plan) {
   return takes_parts(plan) ? plan.input_count / plan.angle_inputs * 4 : plan.input_count;
 }
 
+uint16_t rbf_input_control(const RbfTable& rbf, const RbfSolverPlan& plan, uint32_t i) {
+  if (!takes_parts(plan)) return rbf.inputs[plan.first_input + i];
+  const size_t lane = plan.first_input + i / 4;
+  return rbf
+      .rotations[lane / kBlockLanes * 4 * kBlockLanes + i % 4 * kBlockLanes + lane % kBlockLanes];
+}
+
 void linearize_rbf(Derivatives& d) {
   const Rig& rig = *d.rig;
   if (rig.rbf_count == 0) return;
@@ -289,7 +288,7 @@ void push_rbf(Derivatives& d) {
       clear<L>(results + size_t{t} * L);
       for (uint32_t i = 0; i < inputs; ++i) {
         if (slopes[i] == 0.0f) continue;
-        add_scaled<L>(results + size_t{t} * L, x + size_t{input_control(rbf, plan, i)} * L,
+        add_scaled<L>(results + size_t{t} * L, x + size_t{rbf_input_control(rbf, plan, i)} * L,
                       slopes[i]);
       }
     }
@@ -348,7 +347,7 @@ void pull_rbf(Derivatives& d) {
     for (uint32_t t = 0; t < plan.pose_count; ++t, slopes += inputs) {
       for (uint32_t i = 0; i < inputs; ++i) {
         if (slopes[i] == 0.0f) continue;
-        add_scaled<L>(x + size_t{input_control(rbf, plan, i)} * L, results + size_t{t} * L,
+        add_scaled<L>(x + size_t{rbf_input_control(rbf, plan, i)} * L, results + size_t{t} * L,
                       slopes[i]);
       }
     }

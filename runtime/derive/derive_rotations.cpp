@@ -74,11 +74,6 @@ DualQuaternion<N> variables(const float* q) {
           Dual<N>::variable(q[3], 3)};
 }
 
-/// Where a rotation of a joint is among the joint values.
-size_t rotation_value(const Rig& rig, uint32_t joint) {
-  return size_t{joint} * rig.joint_attributes + 3;
-}
-
 // Quaternion joints -------------------------------------------------------------------------------
 
 struct Product {  // of plain quaternions
@@ -156,47 +151,7 @@ void linearize_turn(Derivatives& d, uint32_t lane_number) {
   }
 }
 
-/// Calls f(control, slopes [4]) for the steps of a lane.
-template <class F>
-void for_each_step(const Derivatives& d, uint32_t lane_number, F&& f) {
-  const RotationTable& table = d.rig->rotations;
-  const size_t block = lane_number / kBlockLanes, lane = lane_number % kBlockLanes;
-  const size_t first = table.first_steps[block];
-  const size_t of_lod = size_t{d.lod} * table.block_count() + block;
-  const auto steps = static_cast<size_t>(table.lane_steps_at_lod[of_lod * kBlockLanes + lane]);
-  for (size_t s = first; s < first + steps; ++s) {
-    f(table.columns[s * kBlockLanes + lane], d.turn_slopes.data + (s * kBlockLanes + lane) * 4);
-  }
-}
-
-uint32_t turn_blocks(const Derivatives& d) {
-  const RotationTable& table = d.rig->rotations;
-  return table.first_steps.empty() ? 0 : table.blocks_at_lod[d.lod];
-}
-
-/// Calls f(joint) for the joints whose angles become quaternions at the LOD.
-template <class F>
-void for_each_angle_joint(const Derivatives& d, F&& f) {
-  const Rig& rig = *d.rig;
-  const RotationTable& table = rig.rotations;
-  if (table.angle_joints.empty()) return;
-  for (uint32_t group = 0; group < rig.joints.group_count; ++group) {
-    const GroupRotations& rotations = table.groups[group];
-    const uint32_t rows = rig.joints.group_rows_at_lod[size_t{group} * rig.lod_count + d.lod];
-    for (const AngleJoint& joint :
-         table.angle_joints.slice(rotations.first_angle_joint, rotations.angle_joint_count)) {
-      if (joint.first_row >= rows) break;
-      f(joint.joint);
-    }
-  }
-}
-
 // Twists and swings -------------------------------------------------------------------------------
-
-uint32_t twist_blocks(const Derivatives& d) {
-  const TwistSwingTable& table = d.rig->twist_swing;
-  return table.outputs.empty() ? 0 : table.blocks_at_lod[d.lod];
-}
 
 using Turn4 = DualQuaternion<4>;
 
@@ -251,12 +206,6 @@ void linearize_twist(Derivatives& d, uint32_t lane_number) {
     result = slerp_to_identity(twist, blend);
   }
   output_slopes(rig, result, d.twist_slopes.data + size_t{lane_number} * 16);
-}
-
-/// The controls that a lane of a twist or swing reads.
-uint16_t twist_input(const TwistSwingTable& table, uint32_t lane_number, size_t k) {
-  return table
-      .inputs[(lane_number / kBlockLanes * 4 + k) * kBlockLanes + lane_number % kBlockLanes];
 }
 
 // ML joints ---------------------------------------------------------------------------------------
@@ -343,16 +292,16 @@ void convert_rotation_slopes(Derivatives& d, float* x, float* slopes) {
 
 void linearize_rotations(Derivatives& d, const Instance& instance) {
   const Rig& rig = *d.rig;
-  for_each_output(rig.rotations.turns, d.lod, turn_blocks(d),
+  for_each_output(rig.rotations.turns, d.lod, turn_blocks(rig, d.lod),
                   [&](const RotationOutput& output) { linearize_turn(d, output.lane); });
-  for_each_angle_joint(d, [&](uint32_t joint) {
+  for_each_angle_joint(rig, d.lod, [&](uint32_t joint) {
     const float* angles =
         instance.joints_and_angles.data + rig.joint_value_count() + size_t{joint} * 3;
     const Dual<3> three[3] = {Dual<3>::variable(angles[0], 0), Dual<3>::variable(angles[1], 1),
                               Dual<3>::variable(angles[2], 2)};
     output_slopes(rig, from_angles(rig.rotation, three), d.angle_slopes.data + size_t{joint} * 12);
   });
-  for_each_output(rig.twist_swing.outputs, d.lod, twist_blocks(d),
+  for_each_output(rig.twist_swing.outputs, d.lod, twist_blocks(rig, d.lod),
                   [&](const RotationOutput& output) { linearize_twist(d, output.lane); });
   for (size_t j = 0; j < rig.ml.joints.count; ++j) {
     if (runs(d, rig.ml.joints[j])) linearize_ml_joint(d, instance, j);
@@ -364,16 +313,18 @@ void push_rotations(Derivatives& d) {
   const Rig& rig = *d.rig;
   const uint32_t parts = parts_of_output(rig);
   const float* const x = d.controls.data;
-  for_each_output(rig.rotations.turns, d.lod, turn_blocks(d), [&](const RotationOutput& output) {
-    float* to = d.joints.data + rotation_value(rig, output.joint) * L;
-    clear_rotation<L>(rig, to);
-    for_each_step(d, output.lane, [&](uint16_t control, const float* slopes) {
-      for (uint32_t r = 0; r < parts; ++r) {
-        add_scaled<L>(to + size_t{r} * L, x + size_t{control} * L, slopes[r]);
-      }
-    });
-  });
-  for_each_angle_joint(d, [&](uint32_t joint) {
+  for_each_output(rig.rotations.turns, d.lod, turn_blocks(rig, d.lod),
+                  [&](const RotationOutput& output) {
+                    float* to = d.joints.data + rotation_value(rig, output.joint) * L;
+                    clear_rotation<L>(rig, to);
+                    for_each_step(rig, d.lod, output.lane, [&](uint16_t control, size_t step) {
+                      const float* slopes = d.turn_slopes.data + step * 4;
+                      for (uint32_t r = 0; r < parts; ++r) {
+                        add_scaled<L>(to + size_t{r} * L, x + size_t{control} * L, slopes[r]);
+                      }
+                    });
+                  });
+  for_each_angle_joint(rig, d.lod, [&](uint32_t joint) {
     float* to = d.joints.data + rotation_value(rig, joint) * L;
     const float* angles = d.joints.data + (rig.joint_value_count() + size_t{joint} * 3) * L;
     const float* slopes = d.angle_slopes.data + size_t{joint} * 12;
@@ -384,7 +335,7 @@ void push_rotations(Derivatives& d) {
       }
     }
   });
-  for_each_output(rig.twist_swing.outputs, d.lod, twist_blocks(d),
+  for_each_output(rig.twist_swing.outputs, d.lod, twist_blocks(rig, d.lod),
                   [&](const RotationOutput& output) {
                     float* to = d.joints.data + rotation_value(rig, output.joint) * L;
                     const float* slopes = d.twist_slopes.data + size_t{output.lane} * 16;
@@ -456,7 +407,7 @@ void pull_rotations(Derivatives& d) {
     }
   }
   for_each_output_backwards(
-      rig.twist_swing.outputs, d.lod, twist_blocks(d), [&](const RotationOutput& output) {
+      rig.twist_swing.outputs, d.lod, twist_blocks(rig, d.lod), [&](const RotationOutput& output) {
         float* from = d.joints.data + rotation_value(rig, output.joint) * L;
         const float* slopes = d.twist_slopes.data + size_t{output.lane} * 16;
         for (uint32_t r = 0; r < parts; ++r) {
@@ -468,7 +419,7 @@ void pull_rotations(Derivatives& d) {
         clear_rotation<L>(rig, from);
       });
   // A joint has its angles from one group; more than one writes the same.
-  for_each_angle_joint(d, [&](uint32_t joint) {
+  for_each_angle_joint(rig, d.lod, [&](uint32_t joint) {
     float* from = d.joints.data + rotation_value(rig, joint) * L;
     float* angles = d.joints.data + (rig.joint_value_count() + size_t{joint} * 3) * L;
     const float* slopes = d.angle_slopes.data + size_t{joint} * 12;
@@ -480,9 +431,10 @@ void pull_rotations(Derivatives& d) {
     clear_rotation<L>(rig, from);
   });
   for_each_output_backwards(
-      rig.rotations.turns, d.lod, turn_blocks(d), [&](const RotationOutput& output) {
+      rig.rotations.turns, d.lod, turn_blocks(rig, d.lod), [&](const RotationOutput& output) {
         float* from = d.joints.data + rotation_value(rig, output.joint) * L;
-        for_each_step(d, output.lane, [&](uint16_t control, const float* slopes) {
+        for_each_step(rig, d.lod, output.lane, [&](uint16_t control, size_t step) {
+          const float* slopes = d.turn_slopes.data + step * 4;
           for (uint32_t r = 0; r < parts; ++r) {
             add_scaled<L>(x + size_t{control} * L, from + size_t{r} * L, slopes[r]);
           }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Derivatives against central differences of the models in double precision (tests/support), each product in
 // reverse against the one forward, and the documented choices where there is no derivative.
-#include "runtime/derive/derivatives.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,39 +9,13 @@
 #include "integrations/program/model/ml_model.h"
 #include "integrations/program/model/rbf_model.h"
 #include "integrations/program/model/rotation_model.h"
+#include "tests/derive/derivatives_handle.h"
 #include "tests/support/deform_rig.h"
 #include "tests/support/random_layer_rig.h"
 
 namespace mien {
 namespace {
 
-struct DestroyDerivatives {
-  void operator()(MienDerivatives* d) const { mien_derivatives_destroy(d); }
-};
-using DerivativesHandle = std::unique_ptr<MienDerivatives, DestroyDerivatives>;
-
-DerivativesHandle create_derivatives(const MienRig* rig, const MienDeformer* deformer = nullptr) {
-  MienDerivativesDesc desc = mien_derivatives_desc_default();
-  desc.deformer = deformer;
-  MienDerivatives* made = nullptr;
-  MienError error = sized<MienError>();
-  EXPECT_EQ(mien_derivatives_create(rig, &desc, &made, &error), MIEN_OK) << error.message;
-  return DerivativesHandle(made);
-}
-
-size_t size_of(const DerivativesHandle& d, uint32_t point, uint32_t mesh = 0) {
-  size_t size = 0;
-  EXPECT_EQ(mien_derivatives_size(d.get(), point, mesh, &size), MIEN_OK);
-  return size;
-}
-
-std::vector<float> forward(const DerivativesHandle& d, uint32_t from, uint32_t to,
-                           const std::vector<float>& rows, uint32_t count = 1, uint32_t mesh = 0) {
-  std::vector<float> out(size_of(d, to, mesh) * count);
-  EXPECT_EQ(mien_derivatives_forward(d.get(), from, to, mesh, count, rows.data(), out.data()),
-            MIEN_OK);
-  return out;
-}
 std::vector<float> reverse(const DerivativesHandle& d, uint32_t from, uint32_t to,
                            const std::vector<float>& rows, uint32_t count = 1, uint32_t mesh = 0) {
   std::vector<float> out(size_of(d, from, mesh) * count);
@@ -64,11 +36,6 @@ double dot(const std::vector<float>& a, const std::vector<float>& b) {
   return sum;
 }
 double length(const std::vector<float>& a) { return std::sqrt(dot(a, a)); }
-
-void linearize(const DerivativesHandle& d, const Character& character,
-               uint32_t stages = MIEN_STAGE_ALL) {
-  EXPECT_EQ(mien_derivatives_linearize(d.get(), character.instance.get(), stages), MIEN_OK);
-}
 
 // For random u and v: (J u) v = u (J^T v), of which float sums lose a little of |J u| |v| + |u| |J^T v|.
 void expect_transposed(const DerivativesHandle& d, Random& random, uint32_t from, uint32_t to,
@@ -475,59 +442,6 @@ TEST(Derivatives, OfAGeneratedHeadAreConsistent) {
       expect_consistent(d, random, false);
     }
   }
-}
-
-TEST(Derivatives, JacobianHasTheEntriesOfTheProducts) {
-  Random random = Random::from_seed(71, 5);
-  const LayerRig layers = random_layer_rig(random, false);
-  const LayerFile file(layers);
-  const RigHandle rig = create_rig(file.dna.get());
-  Character character(rig);
-  const std::vector<float> raw = random_raw(layers, {4, 8}, random);
-  std::copy(raw.begin(), raw.end(), character.raw.begin());
-  character.evaluate(0);
-  const DerivativesHandle d = create_derivatives(rig.get());
-  linearize(d, character);
-  MienJacobian jacobian = mien_jacobian_default();
-  size_t count = 0;
-  ASSERT_EQ(
-      mien_derivatives_jacobian(d.get(), MIEN_POINT_RAW, MIEN_POINT_JOINTS, 0, &jacobian, &count),
-      MIEN_OK);
-  ASSERT_GT(count, 0u);
-  std::vector<uint32_t> rows(count), columns(count);
-  std::vector<float> values(count);
-  jacobian.rows = rows.data();
-  jacobian.columns = columns.data();
-  jacobian.values = values.data();
-  jacobian.capacity = count;
-  ASSERT_EQ(
-      mien_derivatives_jacobian(d.get(), MIEN_POINT_RAW, MIEN_POINT_JOINTS, 0, &jacobian, &count),
-      MIEN_OK);
-  std::vector<float> unit(raw.size());
-  size_t entries = 0;
-  for (uint32_t c = 0; c < raw.size(); ++c) {
-    std::fill(unit.begin(), unit.end(), 0.0f);
-    unit[c] = 1;
-    const std::vector<float> column = forward(d, MIEN_POINT_RAW, MIEN_POINT_JOINTS, unit);
-    for (uint32_t r = 0; r < column.size(); ++r) {
-      if (column[r] == 0) continue;
-      ASSERT_LT(entries, count);
-      EXPECT_EQ(rows[entries], r);
-      EXPECT_EQ(columns[entries], c);
-      EXPECT_EQ(values[entries++], column[r]);
-    }
-  }
-  EXPECT_EQ(entries, count);
-  jacobian.capacity = count - 1;
-  EXPECT_EQ(
-      mien_derivatives_jacobian(d.get(), MIEN_POINT_RAW, MIEN_POINT_JOINTS, 0, &jacobian, &count),
-      MIEN_ERROR_INVALID_ARGUMENT);
-  const uint32_t wrong[] = {0, 100000};
-  jacobian.outputs = wrong;
-  jacobian.output_count = 2;
-  EXPECT_EQ(
-      mien_derivatives_jacobian(d.get(), MIEN_POINT_RAW, MIEN_POINT_JOINTS, 0, &jacobian, &count),
-      MIEN_ERROR_INDEX);
 }
 
 TEST(Derivatives, RefuseWrongArguments) {

@@ -102,30 +102,71 @@ MIEN_CHECKED MienStatus mien_derivatives_reverse(MienDerivatives* derivatives, u
                                                  uint32_t mesh, uint32_t count, const float* gradients,
                                                  float* outputs);
 
-/* A matrix of derivatives: its entries that are not 0, by column, then by row. */
-typedef struct MienJacobian {
-    size_t struct_size;
-    const uint32_t* inputs;  /* numbers at `from`, the columns. NULL: all */
-    const uint32_t* outputs; /* numbers at `to`, the rows, ascending. NULL: all */
-    size_t input_count;      /* 0 if `inputs` is NULL */
-    size_t output_count;     /* 0 if `outputs` is NULL */
-    uint32_t* rows;          /* places in `outputs`, or numbers at `to` */
-    uint32_t* columns;       /* places in `inputs`, or numbers at `from` */
-    float* values;
-    size_t capacity;         /* entries that fit rows, columns and values. 0: they may be NULL, and
-                                entries are only counted */
-} MienJacobian;
-MIEN_DEFAULT(MienJacobian, mien_jacobian_default)
+/* The sparse matrix of the derivatives of chosen numbers at one point, its rows, with respect to chosen
+ * numbers at an earlier one, its columns: which entries may be other than 0 in some pose, and which columns
+ * have no row in common, so that one direction computes them together (docs/derivatives.md, 9). Never
+ * changes. */
+typedef struct MienJacobian MienJacobian;
 
-/* Computes the matrix of the derivatives of the numbers at `to` with respect to those at `from`, with
- * `mesh` as above. `out_count` is the number of entries; at most `capacity` of them are written. Does not
- * allocate or lock.
- * Fails with MIEN_ERROR_INVALID_ARGUMENT if `capacity` is too small and not 0, if `from` has no effect on
- * `to` or nothing was linearized, MIEN_ERROR_INDEX if a point lacks its deformer or mesh, or an input or
- * output does not exist. */
-MIEN_CHECKED MienStatus mien_derivatives_jacobian(MienDerivatives* derivatives, uint32_t from, uint32_t to,
-                                                  uint32_t mesh, const MienJacobian* jacobian,
-                                                  size_t* out_count);
+/* Which matrix. */
+typedef struct MienJacobianDesc {
+    size_t struct_size;
+    uint32_t from_point;            /* MIEN_POINT_...: of the columns */
+    uint32_t to_point;              /* MIEN_POINT_...: of the rows */
+    uint32_t mesh;                  /* the mesh of MIEN_POINT_POSITIONS, else 0 */
+    uint32_t lod;                   /* of the evaluations: entries that other LODs add are left out */
+    const uint32_t* inputs;         /* numbers at from_point, one per column. NULL: all */
+    const uint32_t* outputs;        /* numbers at to_point, one per row, ascending. NULL: all */
+    size_t input_count;             /* 0 if `inputs` is NULL */
+    size_t output_count;            /* 0 if `outputs` is NULL */
+    const MienAllocator* allocator; /* NULL: the heap */
+} MienJacobianDesc;
+MIEN_DEFAULT(MienJacobianDesc, mien_jacobian_desc_default)
+
+/* The entries of a matrix: by column, then by row. */
+typedef struct MienJacobianPattern {
+    size_t struct_size;
+    MienIndex32View rows;     /* of each entry: a place in MienJacobianDesc.outputs, or a number at to_point */
+    MienIndex32View columns;  /* of each entry: a place in MienJacobianDesc.inputs, or a number at
+                                 from_point */
+    size_t row_count;         /* rows and columns of the matrix, with or without entries */
+    size_t column_count;
+    size_t direction_count;   /* directions that compute all columns: the colors of a coloring */
+} MienJacobianPattern;
+MIEN_DEFAULT(MienJacobianPattern, mien_jacobian_pattern_default)
+
+/* Creates a matrix for derivatives that have the rig and the deformer of `derivatives`, linearized or not.
+ * `derivatives` may be destroyed afterwards. The matrix takes one block of memory: 8 bytes per entry, 4 per
+ * row, 20 per column. More is needed until the call returns: 4 bytes per row, 12 per column, and 8 for each
+ * number on the way (controls, joint values, matrices, results of networks, positions of the mesh).
+ * Destroy with mien_jacobian_destroy().
+ * Fails with MIEN_ERROR_INVALID_ARGUMENT if from_point has no effect on to_point or the outputs do not
+ * ascend, MIEN_ERROR_INDEX if a point lacks its deformer or mesh, or an input or output does not exist,
+ * MIEN_ERROR_LOD if the rig has no such LOD. */
+MIEN_CHECKED MienStatus mien_jacobian_create(const MienDerivatives* derivatives,
+                                             const MienJacobianDesc* desc, MienJacobian** out_jacobian,
+                                             MienError* error);
+
+/* Destroys a matrix. NULL is allowed. */
+MIEN_API void mien_jacobian_destroy(MienJacobian* jacobian);
+
+/* Returns the entries. They are the same in all poses, so a solver can order and factor the matrix
+ * symbolically once. The views are valid until the matrix is destroyed. */
+MIEN_CHECKED MienStatus mien_jacobian_pattern(const MienJacobian* jacobian,
+                                              MienJacobianPattern* out_pattern);
+
+/* Computes the entries of a matrix at the values that were linearized: `values` gets a float per entry of
+ * the pattern, of which some may be 0. Each is equal to what mien_derivatives_forward() computes for a
+ * direction that is 1 at the number of its column, else 0. `wanted` may be NULL: all columns; otherwise it
+ * has a byte per column, and entries of columns with a 0 are not computed and keep their values. Threads may
+ * use one matrix at the same time, each with derivatives of its own. Does not allocate or lock.
+ * Fails with MIEN_ERROR_MISMATCH if the matrix was created for another rig or deformer, or the values were
+ * linearized at another LOD, MIEN_ERROR_INVALID_ARGUMENT if nothing was linearized, `value_count` is not
+ * the number of entries, or `wanted_count` not that of columns (0 if `wanted` is NULL). */
+MIEN_CHECKED MienStatus mien_derivatives_jacobian(MienDerivatives* derivatives,
+                                                  const MienJacobian* jacobian, const uint8_t* wanted,
+                                                  size_t wanted_count, float* values,
+                                                  size_t value_count);
 
 #ifdef __cplusplus
 }

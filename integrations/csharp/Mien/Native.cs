@@ -668,7 +668,8 @@ namespace Mien.Native {
       new[] { sizeof(MienVertexStream), 16 },
       new[] { sizeof(MienVertexOutput), 64 },
       new[] { sizeof(MienDerivativesDesc), 24 },
-      new[] { sizeof(MienJacobian), 72 },
+      new[] { sizeof(MienJacobianDesc), 64 },
+      new[] { sizeof(MienJacobianPattern), 64 },
       new[] { sizeof(MienBakedDesc), 24 },
       new[] { sizeof(MienBakedInfo), 48 },
       new[] { sizeof(MienBakedRigDesc), 24 },
@@ -1338,29 +1339,52 @@ namespace Mien.Native {
     }
   }
 
-  /// <summary>A matrix of derivatives: its entries that are not 0, by column, then by row.</summary>
+  /// <summary>Which matrix.</summary>
   [StructLayout(LayoutKind.Sequential)]
-  public unsafe struct MienJacobian {
+  public unsafe struct MienJacobianDesc {
     public UIntPtr StructSize;
-    /// <summary>numbers at `from`, the columns. NULL: all</summary>
+    /// <summary>MIEN_POINT_...: of the columns</summary>
+    public Point FromPoint;
+    /// <summary>MIEN_POINT_...: of the rows</summary>
+    public Point ToPoint;
+    /// <summary>the mesh of MIEN_POINT_POSITIONS, else 0</summary>
+    public uint Mesh;
+    /// <summary>of the evaluations: entries that other LODs add are left out</summary>
+    public uint Lod;
+    /// <summary>numbers at from_point, one per column. NULL: all</summary>
     public uint* Inputs;
-    /// <summary>numbers at `to`, the rows, ascending. NULL: all</summary>
+    /// <summary>numbers at to_point, one per row, ascending. NULL: all</summary>
     public uint* Outputs;
     /// <summary>0 if `inputs` is NULL</summary>
     public UIntPtr InputCount;
     /// <summary>0 if `outputs` is NULL</summary>
     public UIntPtr OutputCount;
-    /// <summary>places in `outputs`, or numbers at `to`</summary>
-    public uint* Rows;
-    /// <summary>places in `inputs`, or numbers at `from`</summary>
-    public uint* Columns;
-    public float* Values;
-    /// <summary>entries that fit rows, columns and values. 0: they may be NULL, and entries are only counted</summary>
-    public UIntPtr Capacity;
+    /// <summary>NULL: the heap</summary>
+    public MienAllocator* Allocator;
 
     /// <summary>All fields zero but StructSize.</summary>
-    public static MienJacobian Create() {
-      return new MienJacobian { StructSize = (UIntPtr)sizeof(MienJacobian) };
+    public static MienJacobianDesc Create() {
+      return new MienJacobianDesc { StructSize = (UIntPtr)sizeof(MienJacobianDesc) };
+    }
+  }
+
+  /// <summary>The entries of a matrix: by column, then by row.</summary>
+  [StructLayout(LayoutKind.Sequential)]
+  public unsafe struct MienJacobianPattern {
+    public UIntPtr StructSize;
+    /// <summary>of each entry: a place in MienJacobianDesc.outputs, or a number at to_point</summary>
+    public MienIndex32View Rows;
+    /// <summary>of each entry: a place in MienJacobianDesc.inputs, or a number at from_point</summary>
+    public MienIndex32View Columns;
+    /// <summary>rows and columns of the matrix, with or without entries</summary>
+    public UIntPtr RowCount;
+    public UIntPtr ColumnCount;
+    /// <summary>directions that compute all columns: the colors of a coloring</summary>
+    public UIntPtr DirectionCount;
+
+    /// <summary>All fields zero but StructSize.</summary>
+    public static MienJacobianPattern Create() {
+      return new MienJacobianPattern { StructSize = (UIntPtr)sizeof(MienJacobianPattern) };
     }
   }
 
@@ -2911,6 +2935,19 @@ namespace Mien.Native {
     protected override void Destroy(IntPtr taken) { Functions.mien_derivatives_destroy(taken); }
   }
 
+  /// <summary>The sparse matrix of the derivatives of chosen numbers at one point, its rows, with respect to chosen
+  /// numbers at an earlier one, its columns: which entries may be other than 0 in some pose, and which columns
+  /// have no row in common, so that one direction computes them together (docs/derivatives.md, 9). Never
+  /// changes.</summary>
+  public sealed class JacobianHandle : Handle {
+    /// <summary>For parameters that may be NULL.</summary>
+    public static readonly JacobianHandle Null = new JacobianHandle(IntPtr.Zero);
+
+    internal JacobianHandle(IntPtr taken, params Handle[] kept) : base(taken, kept) { }
+
+    protected override void Destroy(IntPtr taken) { Functions.mien_jacobian_destroy(taken); }
+  }
+
   /// <summary>An open baked file: a rig, and possibly its deformer, as they are in memory. They are used in place,
   /// so that programs can ship without DNA files. A baked file holds all options of its objects except the
   /// instruction set and MienReuse, and works on all machines of one byte order. The same objects give the
@@ -3771,14 +3808,36 @@ namespace Mien.Native {
     [DllImport("mien", CallingConvention = CallingConvention.Cdecl)]
     public static extern Status mien_derivatives_reverse(DerivativesHandle derivatives, uint from, uint to, uint mesh, uint count, float* gradients, float* outputs);
 
-    /// <summary>Computes the matrix of the derivatives of the numbers at `to` with respect to those at `from`, with
-    /// `mesh` as above. `out_count` is the number of entries; at most `capacity` of them are written. Does not
-    /// allocate or lock.
-    /// Fails with MIEN_ERROR_INVALID_ARGUMENT if `capacity` is too small and not 0, if `from` has no effect on
-    /// `to` or nothing was linearized, MIEN_ERROR_INDEX if a point lacks its deformer or mesh, or an input or
-    /// output does not exist.</summary>
+    /// <summary>Creates a matrix for derivatives that have the rig and the deformer of `derivatives`, linearized or not.
+    /// `derivatives` may be destroyed afterwards. The matrix takes one block of memory: 8 bytes per entry, 4 per
+    /// row, 20 per column. More is needed until the call returns: 4 bytes per row, 12 per column, and 8 for each
+    /// number on the way (controls, joint values, matrices, results of networks, positions of the mesh).
+    /// Destroy with mien_jacobian_destroy().
+    /// Fails with MIEN_ERROR_INVALID_ARGUMENT if from_point has no effect on to_point or the outputs do not
+    /// ascend, MIEN_ERROR_INDEX if a point lacks its deformer or mesh, or an input or output does not exist,
+    /// MIEN_ERROR_LOD if the rig has no such LOD.</summary>
     [DllImport("mien", CallingConvention = CallingConvention.Cdecl)]
-    public static extern Status mien_derivatives_jacobian(DerivativesHandle derivatives, uint from, uint to, uint mesh, MienJacobian* jacobian, UIntPtr* out_count);
+    public static extern Status mien_jacobian_create(DerivativesHandle derivatives, MienJacobianDesc* desc, out IntPtr out_jacobian, MienError* error);
+
+    /// <summary>Destroys a matrix. NULL is allowed.</summary>
+    [DllImport("mien", CallingConvention = CallingConvention.Cdecl)]
+    public static extern void mien_jacobian_destroy(IntPtr jacobian);
+
+    /// <summary>Returns the entries. They are the same in all poses, so a solver can order and factor the matrix
+    /// symbolically once. The views are valid until the matrix is destroyed.</summary>
+    [DllImport("mien", CallingConvention = CallingConvention.Cdecl)]
+    public static extern Status mien_jacobian_pattern(JacobianHandle jacobian, MienJacobianPattern* out_pattern);
+
+    /// <summary>Computes the entries of a matrix at the values that were linearized: `values` gets a float per entry of
+    /// the pattern, of which some may be 0. Each is equal to what mien_derivatives_forward() computes for a
+    /// direction that is 1 at the number of its column, else 0. `wanted` may be NULL: all columns; otherwise it
+    /// has a byte per column, and entries of columns with a 0 are not computed and keep their values. Threads may
+    /// use one matrix at the same time, each with derivatives of its own. Does not allocate or lock.
+    /// Fails with MIEN_ERROR_MISMATCH if the matrix was created for another rig or deformer, or the values were
+    /// linearized at another LOD, MIEN_ERROR_INVALID_ARGUMENT if nothing was linearized, `value_count` is not
+    /// the number of entries, or `wanted_count` not that of columns (0 if `wanted` is NULL).</summary>
+    [DllImport("mien", CallingConvention = CallingConvention.Cdecl)]
+    public static extern Status mien_derivatives_jacobian(DerivativesHandle derivatives, JacobianHandle jacobian, byte* wanted, UIntPtr wanted_count, float* values, UIntPtr value_count);
 
     /// <summary>Writes a rig and its deformer to a baked file. `deformer` may be NULL. The file is written under a
     /// temporary name and renamed, so that a failure leaves `path` unchanged.

@@ -14,6 +14,7 @@ typedef struct MienBatch MienBatch;
 typedef struct MienDeformer MienDeformer;
 typedef struct MienDeformerInstance MienDeformerInstance;
 typedef struct MienDerivatives MienDerivatives;
+typedef struct MienJacobian MienJacobian;
 typedef struct MienBaked MienBaked;
 typedef struct MienClip MienClip;
 typedef struct MienClipPlayer MienClipPlayer;
@@ -360,18 +361,29 @@ typedef struct MienDerivativesDesc {
     MienAllocator const* allocator; /* NULL: the heap */
 } MienDerivativesDesc;
 
-/* A matrix of derivatives: its entries that are not 0, by column, then by row. */
-typedef struct MienJacobian {
+/* Which matrix. */
+typedef struct MienJacobianDesc {
     size_t struct_size;
-    uint32_t const* inputs; /* numbers at `from`, the columns. NULL: all */
-    uint32_t const* outputs; /* numbers at `to`, the rows, ascending. NULL: all */
+    uint32_t from_point; /* MIEN_POINT_...: of the columns */
+    uint32_t to_point; /* MIEN_POINT_...: of the rows */
+    uint32_t mesh; /* the mesh of MIEN_POINT_POSITIONS, else 0 */
+    uint32_t lod; /* of the evaluations: entries that other LODs add are left out */
+    uint32_t const* inputs; /* numbers at from_point, one per column. NULL: all */
+    uint32_t const* outputs; /* numbers at to_point, one per row, ascending. NULL: all */
     size_t input_count; /* 0 if `inputs` is NULL */
     size_t output_count; /* 0 if `outputs` is NULL */
-    uint32_t* rows; /* places in `outputs`, or numbers at `to` */
-    uint32_t* columns; /* places in `inputs`, or numbers at `from` */
-    float* values;
-    size_t capacity; /* entries that fit rows, columns and values. 0: they may be NULL, and entries are only counted */
-} MienJacobian;
+    MienAllocator const* allocator; /* NULL: the heap */
+} MienJacobianDesc;
+
+/* The entries of a matrix: by column, then by row. */
+typedef struct MienJacobianPattern {
+    size_t struct_size;
+    MienIndex32View rows; /* of each entry: a place in MienJacobianDesc.outputs, or a number at to_point */
+    MienIndex32View columns; /* of each entry: a place in MienJacobianDesc.inputs, or a number at from_point */
+    size_t row_count; /* rows and columns of the matrix, with or without entries */
+    size_t column_count;
+    size_t direction_count; /* directions that compute all columns: the colors of a coloring */
+} MienJacobianPattern;
 
 /* How to open a baked file. */
 typedef struct MienBakedDesc {
@@ -1793,13 +1805,32 @@ Fails with MIEN_ERROR_INDEX if a point lacks its deformer or mesh, MIEN_ERROR_IN
 has no effect on `to` or nothing was linearized. */
 MienStatus mien_derivatives_reverse(MienDerivatives* derivatives, uint32_t from, uint32_t to, uint32_t mesh, uint32_t count, float const* gradients, float* outputs);
 
-/* Computes the matrix of the derivatives of the numbers at `to` with respect to those at `from`, with
-`mesh` as above. `out_count` is the number of entries; at most `capacity` of them are written. Does not
-allocate or lock.
-Fails with MIEN_ERROR_INVALID_ARGUMENT if `capacity` is too small and not 0, if `from` has no effect on
-`to` or nothing was linearized, MIEN_ERROR_INDEX if a point lacks its deformer or mesh, or an input or
-output does not exist. */
-MienStatus mien_derivatives_jacobian(MienDerivatives* derivatives, uint32_t from, uint32_t to, uint32_t mesh, MienJacobian const* jacobian, size_t* out_count);
+/* Creates a matrix for derivatives that have the rig and the deformer of `derivatives`, linearized or not.
+`derivatives` may be destroyed afterwards. The matrix takes one block of memory: 8 bytes per entry, 4 per
+row, 20 per column. More is needed until the call returns: 4 bytes per row, 12 per column, and 8 for each
+number on the way (controls, joint values, matrices, results of networks, positions of the mesh).
+Destroy with mien_jacobian_destroy().
+Fails with MIEN_ERROR_INVALID_ARGUMENT if from_point has no effect on to_point or the outputs do not
+ascend, MIEN_ERROR_INDEX if a point lacks its deformer or mesh, or an input or output does not exist,
+MIEN_ERROR_LOD if the rig has no such LOD. */
+MienStatus mien_jacobian_create(MienDerivatives const* derivatives, MienJacobianDesc const* desc, MienJacobian** out_jacobian, MienError* error);
+
+/* Destroys a matrix. NULL is allowed. */
+void mien_jacobian_destroy(MienJacobian* jacobian);
+
+/* Returns the entries. They are the same in all poses, so a solver can order and factor the matrix
+symbolically once. The views are valid until the matrix is destroyed. */
+MienStatus mien_jacobian_pattern(MienJacobian const* jacobian, MienJacobianPattern* out_pattern);
+
+/* Computes the entries of a matrix at the values that were linearized: `values` gets a float per entry of
+the pattern, of which some may be 0. Each is equal to what mien_derivatives_forward() computes for a
+direction that is 1 at the number of its column, else 0. `wanted` may be NULL: all columns; otherwise it
+has a byte per column, and entries of columns with a 0 are not computed and keep their values. Threads may
+use one matrix at the same time, each with derivatives of its own. Does not allocate or lock.
+Fails with MIEN_ERROR_MISMATCH if the matrix was created for another rig or deformer, or the values were
+linearized at another LOD, MIEN_ERROR_INVALID_ARGUMENT if nothing was linearized, `value_count` is not
+the number of entries, or `wanted_count` not that of columns (0 if `wanted` is NULL). */
+MienStatus mien_derivatives_jacobian(MienDerivatives* derivatives, MienJacobian const* jacobian, uint8_t const* wanted, size_t wanted_count, float* values, size_t value_count);
 
 /* Writes a rig and its deformer to a baked file. `deformer` may be NULL. The file is written under a
 temporary name and renamed, so that a failure leaves `path` unchanged.
@@ -3157,7 +3188,8 @@ api.sizes = {
   MienVertexStream = 16,
   MienVertexOutput = 64,
   MienDerivativesDesc = 24,
-  MienJacobian = 72,
+  MienJacobianDesc = 64,
+  MienJacobianPattern = 64,
   MienBakedDesc = 24,
   MienBakedInfo = 48,
   MienBakedRigDesc = 24,
@@ -3243,6 +3275,7 @@ api.destroy = {
   MienDeformer = "mien_deformer_destroy",
   MienDeformerInstance = "mien_deformer_instance_destroy",
   MienDerivatives = "mien_derivatives_destroy",
+  MienJacobian = "mien_jacobian_destroy",
   MienBaked = "mien_baked_close",
   MienClip = "mien_clip_close",
   MienClipPlayer = "mien_clip_player_destroy",

@@ -787,6 +787,10 @@ class MienDerivatives(c_void_p):
     pass
 
 
+class MienJacobian(c_void_p):
+    pass
+
+
 class MienBaked(c_void_p):
     pass
 
@@ -1527,46 +1531,70 @@ class MienDerivativesDesc(Structure):
         self.allocator = allocator
 
 
-class MienJacobian(Structure):
+class MienJacobianDesc(Structure):
     _fields_ = [
         ("struct_size", c_size_t),
+        ("from_point", c_uint32),
+        ("to_point", c_uint32),
+        ("mesh", c_uint32),
+        ("lod", c_uint32),
         ("inputs", c_void_p),
         ("outputs", c_void_p),
         ("input_count", c_size_t),
         ("output_count", c_size_t),
-        ("rows", c_void_p),
-        ("columns", c_void_p),
-        ("values", c_void_p),
-        ("capacity", c_size_t),
+        ("allocator", POINTER(MienAllocator)),
     ]
     struct_size: Any
+    from_point: Any
+    to_point: Any
+    mesh: Any
+    lod: Any
     inputs: Any
     outputs: Any
     input_count: Any
     output_count: Any
-    rows: Any
-    columns: Any
-    values: Any
-    capacity: Any
+    allocator: Any
 
     def __init__(self, *,
+                 from_point: int = 0,
+                 to_point: int = 0,
+                 mesh: int = 0,
+                 lod: int = 0,
                  inputs: Any = None,
                  outputs: Any = None,
                  input_count: int = 0,
                  output_count: int = 0,
-                 rows: Any = None,
-                 columns: Any = None,
-                 values: Any = None,
-                 capacity: int = 0) -> None:
-        super().__init__(72)
+                 allocator: Any = None) -> None:
+        super().__init__(64)
+        self.from_point = from_point
+        self.to_point = to_point
+        self.mesh = mesh
+        self.lod = lod
         self.inputs = inputs
         self.outputs = outputs
         self.input_count = input_count
         self.output_count = output_count
-        self.rows = rows
-        self.columns = columns
-        self.values = values
-        self.capacity = capacity
+        self.allocator = allocator
+
+
+class MienJacobianPattern(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("rows", MienIndex32View),
+        ("columns", MienIndex32View),
+        ("row_count", c_size_t),
+        ("column_count", c_size_t),
+        ("direction_count", c_size_t),
+    ]
+    struct_size: Any
+    rows: Any
+    columns: Any
+    row_count: Any
+    column_count: Any
+    direction_count: Any
+
+    def __init__(self) -> None:
+        super().__init__(64)
 
 
 class MienBakedDesc(Structure):
@@ -4541,12 +4569,24 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
         (Status.INDEX,
          "a point lacks its deformer or mesh"),
     ),
-    "mien_derivatives_jacobian": (
+    "mien_jacobian_create": (
         (Status.INVALID_ARGUMENT,
-         "`capacity` is too small and not 0, if `from` has no effect on `to` or nothing "
-         "was linearized"),
+         "from_point has no effect on to_point or the outputs do not ascend"),
         (Status.INDEX,
          "a point lacks its deformer or mesh, or an input or output does not exist"),
+        (Status.LOD,
+         "the rig has no such LOD"),
+        (Status.MEMORY,
+         "memory runs out"),
+    ),
+    "mien_jacobian_pattern": (),
+    "mien_derivatives_jacobian": (
+        (Status.INVALID_ARGUMENT,
+         "nothing was linearized, `value_count` is not the number of entries, or "
+         "`wanted_count` not that of columns (0 if `wanted` is NULL)"),
+        (Status.MISMATCH,
+         "the matrix was created for another rig or deformer, or the values were "
+         "linearized at another LOD"),
     ),
     "mien_bake_file": (
         (Status.MISMATCH,
@@ -5888,8 +5928,12 @@ FUNCTIONS: Tuple[Tuple[str, Any, Tuple[Any, ...]], ...] = (
      c_void_p, c_void_p)),
     ("mien_derivatives_reverse", c_int32, (MienDerivatives, c_uint32, c_uint32, c_uint32, c_uint32,
      c_void_p, c_void_p)),
-    ("mien_derivatives_jacobian", c_int32, (MienDerivatives, c_uint32, c_uint32, c_uint32,
-     POINTER(MienJacobian), c_void_p)),
+    ("mien_jacobian_create", c_int32, (MienDerivatives, POINTER(MienJacobianDesc),
+     POINTER(MienJacobian), POINTER(MienError))),
+    ("mien_jacobian_destroy", None, (MienJacobian,)),
+    ("mien_jacobian_pattern", c_int32, (MienJacobian, POINTER(MienJacobianPattern))),
+    ("mien_derivatives_jacobian", c_int32, (MienDerivatives, MienJacobian, c_void_p, c_size_t,
+     c_void_p, c_size_t)),
     ("mien_bake_file", c_int32, (MienRig, MienDeformer, c_char_p, POINTER(MienError))),
     ("mien_bake_memory", c_int32, (MienRig, MienDeformer, c_void_p, c_size_t, c_void_p,
      POINTER(MienError))),
@@ -6111,6 +6155,9 @@ class Library:
     mien_derivatives_linearize: Any
     mien_derivatives_forward: Any
     mien_derivatives_reverse: Any
+    mien_jacobian_create: Any
+    mien_jacobian_destroy: Any
+    mien_jacobian_pattern: Any
     mien_derivatives_jacobian: Any
     mien_bake_file: Any
     mien_bake_memory: Any

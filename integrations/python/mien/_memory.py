@@ -159,6 +159,14 @@ class DerivativesHandle(_Address, _api.MienDerivatives):
             destroy(self)
 
 
+class JacobianHandle(_Address, _api.MienJacobian):
+    kept: Any  # rig and deformer, whose arrays may be in memory of Python
+
+    def __del__(self, destroy: Any = lib.mien_jacobian_destroy) -> None:
+        if self.value:
+            destroy(self)
+
+
 class FitHandle(_Address, _api.MienFit):
     kept: Any  # rig and deformer
 

@@ -5,38 +5,18 @@ from __future__ import annotations
 import ctypes
 from _thread import allocate_lock
 from contextlib import contextmanager
-from typing import Any, Iterator, NamedTuple, Optional, Union
+from typing import Any, Iterator, Optional
 
 from . import _api
 from ._api import MienError, Point, Stage, Status
 from ._library import lib
-from ._memory import Closable, DerivativesHandle, Floats, Indices, numpy, uint32
+from ._memory import Closable, DerivativesHandle, Floats, JacobianHandle, array_over, numpy, uint32
 from .deformer import Deformer
 from .errors import ArgumentError, BusyError, fail, raises
 from .instance import Instance
 from .rig import Rig
 
 _byref = ctypes.byref
-
-
-class Jacobian(NamedTuple):
-    """The entries of a matrix that are not 0, by column, then by row.
-
-    rows, columns: uint32 (entries,)
-    values:        float32 (entries,)
-    shape:         of the matrix
-    """
-
-    rows: Any
-    columns: Any
-    values: Any
-    shape: Any
-
-    def dense(self) -> Any:
-        """float32 of the shape."""
-        matrix = numpy.zeros(self.shape, "f")
-        matrix[self.rows, self.columns] = self.values
-        return matrix
 
 
 class Derivatives(Closable):
@@ -130,39 +110,87 @@ class Derivatives(Closable):
         return out if shape else out[0]
 
     @raises("mien_derivatives_jacobian")
-    def jacobian(self, of: int = Point.RAW, to: int = Point.JOINTS, mesh: int = 0,
-                 inputs: Any = None, outputs: Any = None) -> Jacobian:
-        """The matrix of the derivatives of the numbers at `to`, its rows, by those at `of`.
+    def jacobian(self, jacobian: Jacobian, wanted: Any = None, out: Any = None) -> Floats:
+        """The entries of a matrix at the pose that was linearized: float32 (entries,).
 
-        inputs, outputs: only these columns, and these rows, which ascend
+        wanted: a boolean per column: entries of the others are not computed
+        out:    float32 (entries,) to write to, of which those entries keep their values; a new array has 0
+                there
         """
-        given = [None if numbers is None else numpy.ascontiguousarray(numbers, "uint32").reshape(-1)
-                 for numbers in (inputs, outputs)]
+        columns = None if wanted is None else numpy.ascontiguousarray(wanted, bool).reshape(-1)
+        if columns is not None and columns.size != jacobian.shape[1]:
+            raise ArgumentError(f"`wanted` takes {jacobian.shape[1]} columns, not {columns.size}")
+        count = jacobian.rows.size
+        if out is None:
+            out = numpy.zeros(count, "f")
+        elif not (isinstance(out, numpy.ndarray) and out.dtype == "f" and out.shape == (count,)
+                  and out.flags.c_contiguous and out.flags.writeable):
+            raise ArgumentError(f"`out` is not a writable float32 array of the shape ({count},)")
         with self._alone() as handle:
-            shape = tuple(self._size(handle, point, mesh) if numbers is None else numbers.size
-                          for point, numbers in ((to, given[1]), (of, given[0])))
-            desc = _api.MienJacobian(
-                inputs=given[0] is not None and given[0].ctypes.data or None,
-                outputs=given[1] is not None and given[1].ctypes.data or None,
-                input_count=0 if given[0] is None else given[0].size,
-                output_count=0 if given[1] is None else given[1].size)
-            found = ctypes.c_size_t()
-
-            def compute() -> None:
-                status = lib.mien_derivatives_jacobian(handle, uint32(of, "of"), uint32(to, "to"),
-                                                       uint32(mesh, "mesh"), _byref(desc), _byref(found))
-                if status:
-                    fail(status, f"from {of!r} to {to!r}")
-            compute()
-            count = found.value
-            rows, columns, values = (numpy.empty(count, kind) for kind in ("uint32", "uint32", "f"))
-            if count:
-                desc.rows = rows.ctypes.data
-                desc.columns = columns.ctypes.data
-                desc.values = values.ctypes.data
-                desc.capacity = count
-                compute()
-        return Jacobian(rows, columns, values, shape)
+            status = lib.mien_derivatives_jacobian(
+                handle, jacobian._open(), None if columns is None else columns.ctypes.data,
+                0 if columns is None else columns.size, out.ctypes.data, count)
+            if status:
+                fail(status, "a matrix for another rig, deformer or LOD, or nothing was linearized")
+        return out
 
     def __repr__(self) -> str:
         return "<mien.Derivatives, closed>" if self.closed else "<mien.Derivatives>"
+
+
+class Jacobian(Closable):
+    """A sparse matrix of derivatives of the numbers at `to`, its rows, by those at `of`: which entries may be
+    other than 0 in some pose. `Derivatives.jacobian()` computes them. Any threads may use one at the same
+    time.
+
+        jacobian = mien.Jacobian(derivatives, to=mien.Point.JOINTS)
+        values = derivatives.jacobian(jacobian)
+        scipy.sparse.coo_matrix((values, (jacobian.rows, jacobian.columns)), jacobian.shape)
+
+    inputs, outputs: only these columns, and these rows, which ascend
+    lod:             of the evaluations
+
+    rows, columns: uint32 (entries,), by column, then by row; read-only
+    shape:         of the matrix
+    directions:    how many directions compute all columns
+    """
+
+    __slots__ = ("rows", "columns", "shape", "directions")
+
+    @raises("mien_jacobian_create", "mien_jacobian_pattern")
+    def __init__(self, derivatives: Derivatives, of: int = Point.RAW, to: int = Point.JOINTS, mesh: int = 0,
+                 lod: int = 0, inputs: Any = None, outputs: Any = None) -> None:
+        given = [None if numbers is None else numpy.ascontiguousarray(numbers, "uint32").reshape(-1)
+                 for numbers in (inputs, outputs)]
+        desc = _api.MienJacobianDesc(
+            from_point=uint32(of, "of"), to_point=uint32(to, "to"), mesh=uint32(mesh, "mesh"),
+            lod=uint32(lod, "lod"),
+            inputs=given[0] is not None and given[0].ctypes.data or None,
+            outputs=given[1] is not None and given[1].ctypes.data or None,
+            input_count=0 if given[0] is None else given[0].size,
+            output_count=0 if given[1] is None else given[1].size)
+        handle, error, pattern = JacobianHandle(), MienError(), _api.MienJacobianPattern()
+        with derivatives._alone() as of_rig:
+            status = lib.mien_jacobian_create(of_rig, _byref(desc), _byref(handle), _byref(error))
+            if status:
+                fail(status, "cannot make a matrix of derivatives", error)
+            handle.kept = of_rig.kept
+        status = lib.mien_jacobian_pattern(handle, _byref(pattern))
+        if status:
+            fail(status, "cannot read the matrix")
+        self._handle = handle
+        self.rows, self.columns = (array_over(handle, view.data, view.count, "I", False)
+                                   for view in (pattern.rows, pattern.columns))
+        self.shape = pattern.row_count, pattern.column_count
+        self.directions = pattern.direction_count
+
+    def dense(self, values: Any) -> Floats:
+        """float32 of the shape."""
+        matrix = numpy.zeros(self.shape, "f")
+        matrix[self.rows, self.columns] = values
+        return matrix
+
+    def __repr__(self) -> str:
+        if self.closed:
+            return "<mien.Jacobian, closed>"
+        return f"<mien.Jacobian {self.shape[0]} x {self.shape[1]}, {self.rows.size} entries>"

@@ -53,12 +53,45 @@ class Products(unittest.TestCase):
             numpy.testing.assert_array_equal(self.derivatives.jvp(u[1], to=to), forward[1])
 
     def test_the_matrix(self):
-        whole = self.derivatives.jacobian()
+        whole = mien.Jacobian(self.derivatives)
         self.assertEqual(whole.shape, (self.derivatives.size(JOINTS), self.derivatives.size(RAW)))
+        self.assertLessEqual(whole.directions, whole.shape[1])
+        self.assertFalse(whole.rows.flags.writeable)
+        values = self.derivatives.jacobian(whole)
         identity = numpy.eye(self.derivatives.size(RAW), dtype="f")
-        numpy.testing.assert_allclose(whole.dense(), self.derivatives.jvp(identity).T, atol=1e-6)
-        part = self.derivatives.jacobian(inputs=[3, 1], outputs=[0, 4, 9])
-        numpy.testing.assert_array_equal(part.dense(), whole.dense()[[0, 4, 9]][:, [3, 1]])
+        numpy.testing.assert_array_equal(whole.dense(values), self.derivatives.jvp(identity).T)
+        part = mien.Jacobian(self.derivatives, inputs=[3, 1], outputs=[0, 4, 9])
+        numpy.testing.assert_array_equal(part.dense(self.derivatives.jacobian(part)),
+                                         whole.dense(values)[[0, 4, 9]][:, [3, 1]])
+        # Of another pose, by derivatives of their own, into an array that is there.
+        other, out = mien.Derivatives(rig_of(), self.deformer), values.copy()
+        other.linearize(posed(3))
+        wanted = numpy.arange(whole.shape[1]) % 3 == 0
+        self.assertIs(other.jacobian(whole, wanted=wanted, out=out), out)
+        moved = wanted[whole.columns]
+        numpy.testing.assert_array_equal(out[moved], other.jacobian(whole)[moved])
+        numpy.testing.assert_array_equal(out[~moved], values[~moved])
+        rows = whole.rows
+        whole.close()
+        self.assertGreater(rows.max(), 0)
+        with self.assertRaises(mien.ClosedError):
+            self.derivatives.jacobian(whole)
+
+    def test_wrong_matrices(self):
+        jacobian = mien.Jacobian(self.derivatives)
+        for wrong in ({"inputs": [10 ** 6]}, {"to": POSITIONS, "mesh": 99}, {"lod": 40}):
+            with self.assertRaises(mien.OutOfRangeError):
+                mien.Jacobian(self.derivatives, **wrong)
+        for wrong in ({"outputs": [4, 4]}, {"of": JOINTS, "to": RAW}):
+            with self.assertRaises(mien.ArgumentError):
+                mien.Jacobian(self.derivatives, **wrong)
+        for wrong in ({"wanted": [True]}, {"out": numpy.zeros(3, "f")}, {"out": [0.0] * jacobian.rows.size}):
+            with self.assertRaises(mien.ArgumentError):
+                self.derivatives.jacobian(jacobian, **wrong)
+        with self.assertRaises(mien.ArgumentError):
+            mien.Derivatives(rig_of(), self.deformer).jacobian(jacobian)
+        with self.assertRaises(mien.Error):
+            mien.Derivatives(rig_of()).jacobian(jacobian)
 
     def test_wrong_arguments(self):
         with self.assertRaisesRegex(mien.ArgumentError, "rows of"):

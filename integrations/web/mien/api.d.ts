@@ -1140,25 +1140,37 @@ export interface DerivativesDesc {
   deformer?: { readonly handle: number };
 }
 
-/** A matrix of derivatives: its entries that are not 0, by column, then by row. */
-export interface Jacobian {
-  /** numbers at `from`, the columns. NULL: all */
+/** Which matrix. */
+export interface JacobianDesc {
+  /** MIEN_POINT_...: of the columns */
+  fromPoint?: Point;
+  /** MIEN_POINT_...: of the rows */
+  toPoint?: Point;
+  /** the mesh of MIEN_POINT_POSITIONS, else 0 */
+  mesh?: number;
+  /** of the evaluations: entries that other LODs add are left out */
+  lod?: number;
+  /** numbers at from_point, one per column. NULL: all */
   inputs?: Uint32Array | readonly number[];
-  /** numbers at `to`, the rows, ascending. NULL: all */
+  /** numbers at to_point, one per row, ascending. NULL: all */
   outputs?: Uint32Array | readonly number[];
   /** 0 if `inputs` is NULL */
   inputCount?: number;
   /** 0 if `outputs` is NULL */
   outputCount?: number;
-  /** places in `outputs`, or numbers at `to` */
-  rows?: Uint32Array | readonly number[];
-  /** places in `inputs`, or numbers at `from` */
-  columns?: Uint32Array | readonly number[];
-  values?: Float32Array | readonly number[];
-  /**
-   * entries that fit rows, columns and values. 0: they may be NULL, and entries are only counted
-   */
-  capacity?: number;
+}
+
+/** The entries of a matrix: by column, then by row. */
+export interface JacobianPattern {
+  /** of each entry: a place in MienJacobianDesc.outputs, or a number at to_point */
+  readonly rows: Uint32Array;
+  /** of each entry: a place in MienJacobianDesc.inputs, or a number at from_point */
+  readonly columns: Uint32Array;
+  /** rows and columns of the matrix, with or without entries */
+  readonly rowCount: number;
+  readonly columnCount: number;
+  /** directions that compute all columns: the colors of a coloring */
+  readonly directionCount: number;
 }
 
 /** How to open a baked file. */
@@ -2984,14 +2996,34 @@ export interface Exports {
    */
   mien_derivatives_reverse(derivatives: number, from: number, to: number, mesh: number, count: number, gradients: number, outputs: number): number;
   /**
-   * Computes the matrix of the derivatives of the numbers at `to` with respect to those at `from`, with
-   * `mesh` as above. `out_count` is the number of entries; at most `capacity` of them are written. Does not
-   * allocate or lock.
-   * Fails with MIEN_ERROR_INVALID_ARGUMENT if `capacity` is too small and not 0, if `from` has no effect on
-   * `to` or nothing was linearized, MIEN_ERROR_INDEX if a point lacks its deformer or mesh, or an input or
-   * output does not exist.
+   * Creates a matrix for derivatives that have the rig and the deformer of `derivatives`, linearized or not.
+   * `derivatives` may be destroyed afterwards. The matrix takes one block of memory: 8 bytes per entry, 4 per
+   * row, 20 per column. More is needed until the call returns: 4 bytes per row, 12 per column, and 8 for each
+   * number on the way (controls, joint values, matrices, results of networks, positions of the mesh).
+   * Destroy with mien_jacobian_destroy().
+   * Fails with MIEN_ERROR_INVALID_ARGUMENT if from_point has no effect on to_point or the outputs do not
+   * ascend, MIEN_ERROR_INDEX if a point lacks its deformer or mesh, or an input or output does not exist,
+   * MIEN_ERROR_LOD if the rig has no such LOD.
    */
-  mien_derivatives_jacobian(derivatives: number, from: number, to: number, mesh: number, jacobian: number, out_count: number): number;
+  mien_jacobian_create(derivatives: number, desc: number, out_jacobian: number, error: number): number;
+  /** Destroys a matrix. NULL is allowed. */
+  mien_jacobian_destroy(jacobian: number): void;
+  /**
+   * Returns the entries. They are the same in all poses, so a solver can order and factor the matrix
+   * symbolically once. The views are valid until the matrix is destroyed.
+   */
+  mien_jacobian_pattern(jacobian: number, out_pattern: number): number;
+  /**
+   * Computes the entries of a matrix at the values that were linearized: `values` gets a float per entry of
+   * the pattern, of which some may be 0. Each is equal to what mien_derivatives_forward() computes for a
+   * direction that is 1 at the number of its column, else 0. `wanted` may be NULL: all columns; otherwise it
+   * has a byte per column, and entries of columns with a 0 are not computed and keep their values. Threads may
+   * use one matrix at the same time, each with derivatives of its own. Does not allocate or lock.
+   * Fails with MIEN_ERROR_MISMATCH if the matrix was created for another rig or deformer, or the values were
+   * linearized at another LOD, MIEN_ERROR_INVALID_ARGUMENT if nothing was linearized, `value_count` is not
+   * the number of entries, or `wanted_count` not that of columns (0 if `wanted` is NULL).
+   */
+  mien_derivatives_jacobian(derivatives: number, jacobian: number, wanted: number, wanted_count: number, values: number, value_count: number): number;
   /**
    * Writes a baked file to memory and returns its size in `out_size`. `deformer` may be NULL. `buffer`
    * may be NULL with capacity 0 to get the size only. Writes nothing if `capacity` is too small;

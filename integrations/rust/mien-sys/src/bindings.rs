@@ -636,6 +636,16 @@ pub struct MienDerivatives {
     _opaque: Opaque,
 }
 
+/// The sparse matrix of the derivatives of chosen numbers at one point, its rows, with respect to
+/// chosen numbers at an earlier one, its columns: which entries may be other than 0 in some pose,
+/// and which columns have no row in common, so that one direction computes them together
+/// (docs/derivatives.md, 9). Never changes.
+#[repr(C)]
+pub struct MienJacobian {
+    _size: [u8; 0],
+    _opaque: Opaque,
+}
+
 /// An open baked file: a rig, and possibly its deformer, as they are in memory. They are used in
 /// place, so that programs can ship without DNA files. A baked file holds all options of its
 /// objects except the instruction set and MienReuse, and works on all machines of one byte order.
@@ -1589,30 +1599,58 @@ impl Default for MienDerivativesDesc {
     }
 }
 
-/// A matrix of derivatives: its entries that are not 0, by column, then by row.
+/// Which matrix.
 #[repr(C)]
 #[derive(Clone, Copy)]
-pub struct MienJacobian {
+pub struct MienJacobianDesc {
     pub struct_size: usize,
-    /// Numbers at `from`, the columns. NULL: all.
+    /// `MIEN_POINT_...`: of the columns.
+    pub from_point: u32,
+    /// `MIEN_POINT_...`: of the rows.
+    pub to_point: u32,
+    /// The mesh of `MIEN_POINT_POSITIONS`, else 0.
+    pub mesh: u32,
+    /// Of the evaluations: entries that other LODs add are left out.
+    pub lod: u32,
+    /// Numbers at `from_point`, one per column. NULL: all.
     pub inputs: *const u32,
-    /// Numbers at `to`, the rows, ascending. NULL: all.
+    /// Numbers at `to_point`, one per row, ascending. NULL: all.
     pub outputs: *const u32,
     /// 0 if `inputs` is NULL.
     pub input_count: usize,
     /// 0 if `outputs` is NULL.
     pub output_count: usize,
-    /// Places in `outputs`, or numbers at `to`.
-    pub rows: *mut u32,
-    /// Places in `inputs`, or numbers at `from`.
-    pub columns: *mut u32,
-    pub values: *mut f32,
-    /// Entries that fit rows, columns and values. 0: they may be NULL, and entries are only
-    /// counted.
-    pub capacity: usize,
+    /// NULL: the heap.
+    pub allocator: *const MienAllocator,
 }
 
-impl Default for MienJacobian {
+impl Default for MienJacobianDesc {
+    /// All zero but `struct_size`: every field has its default.
+    fn default() -> Self {
+        // SAFETY: numbers, pointers and optional functions may be zero.
+        let mut zero: Self = unsafe { zeroed() };
+        zero.struct_size = size_of::<Self>();
+        zero
+    }
+}
+
+/// The entries of a matrix: by column, then by row.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct MienJacobianPattern {
+    pub struct_size: usize,
+    /// Of each entry: a place in MienJacobianDesc.outputs, or a number at `to_point`.
+    pub rows: MienIndex32View,
+    /// Of each entry: a place in MienJacobianDesc.inputs, or a number at `from_point`.
+    pub columns: MienIndex32View,
+    /// Rows and columns of the matrix, with or without entries.
+    pub row_count: usize,
+    pub column_count: usize,
+    /// Directions that compute all columns: the colors of a coloring.
+    pub direction_count: usize,
+}
+
+impl Default for MienJacobianPattern {
     /// All zero but `struct_size`: every field has its default.
     fn default() -> Self {
         // SAFETY: numbers, pointers and optional functions may be zero.
@@ -4397,14 +4435,37 @@ extern "C" {
     /// `MIEN_ERROR_INVALID_ARGUMENT` if `from` has no effect on `to` or nothing was linearized.
     pub fn mien_derivatives_reverse(derivatives: *mut MienDerivatives, from: u32, to: u32, mesh: u32, count: u32, gradients: *const f32, outputs: *mut f32) -> MienStatus;
 
-    /// Computes the matrix of the derivatives of the numbers at `to` with respect to those at
-    /// `from`, with `mesh` as above. `out_count` is the number of entries; at most `capacity` of
-    /// them are written. Does not allocate or lock.
+    /// Creates a matrix for derivatives that have the rig and the deformer of `derivatives`,
+    /// linearized or not. `derivatives` may be destroyed afterwards. The matrix takes one block of
+    /// memory: 8 bytes per entry, 4 per row, 20 per column. More is needed until the call returns:
+    /// 4 bytes per row, 12 per column, and 8 for each number on the way (controls, joint values,
+    /// matrices, results of networks, positions of the mesh). Destroy with
+    /// `mien_jacobian_destroy()`.
     ///
-    /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if `capacity` is too small and not 0, if `from`
-    /// has no effect on `to` or nothing was linearized, `MIEN_ERROR_INDEX` if a point lacks its
-    /// deformer or mesh, or an input or output does not exist.
-    pub fn mien_derivatives_jacobian(derivatives: *mut MienDerivatives, from: u32, to: u32, mesh: u32, jacobian: *const MienJacobian, out_count: *mut usize) -> MienStatus;
+    /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if `from_point` has no effect on `to_point` or the
+    /// outputs do not ascend, `MIEN_ERROR_INDEX` if a point lacks its deformer or mesh, or an
+    /// input or output does not exist, `MIEN_ERROR_LOD` if the rig has no such LOD.
+    pub fn mien_jacobian_create(derivatives: *const MienDerivatives, desc: *const MienJacobianDesc, out_jacobian: *mut *mut MienJacobian, error: *mut MienError) -> MienStatus;
+
+    /// Destroys a matrix. NULL is allowed.
+    pub fn mien_jacobian_destroy(jacobian: *mut MienJacobian);
+
+    /// Returns the entries. They are the same in all poses, so a solver can order and factor the
+    /// matrix symbolically once. The views are valid until the matrix is destroyed.
+    pub fn mien_jacobian_pattern(jacobian: *const MienJacobian, out_pattern: *mut MienJacobianPattern) -> MienStatus;
+
+    /// Computes the entries of a matrix at the values that were linearized: `values` gets a float
+    /// per entry of the pattern, of which some may be 0. Each is equal to what
+    /// `mien_derivatives_forward()` computes for a direction that is 1 at the number of its
+    /// column, else 0. `wanted` may be NULL: all columns; otherwise it has a byte per column, and
+    /// entries of columns with a 0 are not computed and keep their values. Threads may use one
+    /// matrix at the same time, each with derivatives of its own. Does not allocate or lock.
+    ///
+    /// Fails with `MIEN_ERROR_MISMATCH` if the matrix was created for another rig or deformer, or
+    /// the values were linearized at another LOD, `MIEN_ERROR_INVALID_ARGUMENT` if nothing was
+    /// linearized, `value_count` is not the number of entries, or `wanted_count` not that of
+    /// columns (0 if `wanted` is NULL).
+    pub fn mien_derivatives_jacobian(derivatives: *mut MienDerivatives, jacobian: *const MienJacobian, wanted: *const u8, wanted_count: usize, values: *mut f32, value_count: usize) -> MienStatus;
 
     /// Writes a rig and its deformer to a baked file. `deformer` may be NULL. The file is written
     /// under a temporary name and renamed, so that a failure leaves `path` unchanged.

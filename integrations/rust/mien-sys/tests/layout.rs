@@ -78,8 +78,10 @@ fn structs_are_laid_out_as_in_c() {
         MienVertexStream 16 8: data 0 stride 8 format 12;
         MienVertexOutput 64 8: struct_size 0 vertex_capacity 8 positions 16 normals 32 tangents 48;
         MienDerivativesDesc 24 8: struct_size 0 deformer 8 allocator 16;
-        MienJacobian 72 8: struct_size 0 inputs 8 outputs 16 input_count 24 output_count 32 rows 40
-            columns 48 values 56 capacity 64;
+        MienJacobianDesc 64 8: struct_size 0 from_point 8 to_point 12 mesh 16 lod 20 inputs 24
+            outputs 32 input_count 40 output_count 48 allocator 56;
+        MienJacobianPattern 64 8: struct_size 0 rows 8 columns 24 row_count 40 column_count 48
+            direction_count 56;
         MienBakedDesc 24 8: struct_size 0 file_access 8 check 12 allocator 16;
         MienBakedInfo 48 8: struct_size 0 file_bytes 8 memory_bytes 16 rig_bytes 24 deformer_bytes
             32 part_count 40 is_mapped 44;

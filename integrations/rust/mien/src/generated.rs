@@ -2213,9 +2213,18 @@ macro_rules! errors {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `from` has no effect on `to` or nothing was linearized\n\
          - [`Status::INDEX`](crate::Status::INDEX) if a point lacks its deformer or mesh"
     };
+    (mien_jacobian_create) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `from_point` has no effect on `to_point` or the outputs do not ascend\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if a point lacks its deformer or mesh, or an input or output does not exist\n\
+         - [`Status::LOD`](crate::Status::LOD) if the rig has no such LOD\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if memory runs out"
+    };
+    (mien_jacobian_pattern) => {
+        "- none with valid arguments"
+    };
     (mien_derivatives_jacobian) => {
-        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `capacity` is too small and not 0, if `from` has no effect on `to` or nothing was linearized\n\
-         - [`Status::INDEX`](crate::Status::INDEX) if a point lacks its deformer or mesh, or an input or output does not exist"
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if nothing was linearized, `value_count` is not the number of entries, or `wanted_count` not that of columns (0 if `wanted` is NULL)\n\
+         - [`Status::MISMATCH`](crate::Status::MISMATCH) if the matrix was created for another rig or deformer, or the values were linearized at another LOD"
     };
     (mien_bake_file) => {
         "- [`Status::MISMATCH`](crate::Status::MISMATCH) if `deformer` was created for another rig\n\
