@@ -70,6 +70,8 @@ void place(const MienFitDesc& desc, Placer& placer, MienFit& fit) {
   fit.model_controls = placer.array<float>(all);
   fit.changed = placer.array<uint32_t>(all);
   fit.stiffness = placer.array<double>(moving);
+  fit.joint_stiffness = placer.array<double>(moving);
+  fit.point_stiffness = placer.array<double>(moving);
   fit.kept = placer.array<float>(raw);
   fit.start_joints = placer.array<float>(joints);
   fit.matrix = placer.array<double>(moving * moving);

@@ -102,9 +102,11 @@ struct MienFit {
   mien::Span<double> change, response;  // [control] from where the model was made; G times that
   mien::Span<float> model_controls;     // [control] where the model was made
   mien::Span<uint32_t> changed;         // controls with a change
-  mien::Span<double> stiffness;         // [control that may move] diagonal of G
-  mien::Span<float> kept;               // [raw control]
-  mien::Span<float> constraint_rows;    // [row][control or raw control]
+  mien::Span<double> stiffness;         // [control that may move] what moving it alone costs
+  // The same of joint values and of points at the neutral pose, without the weights of a frame.
+  mien::Span<double> joint_stiffness, point_stiffness;
+  mien::Span<float> kept;                       // [raw control]
+  mien::Span<float> constraint_rows;            // [row][control or raw control]
   mien::Span<float> row_models, row_positions;  // kRowsAtOnce of [joint][16]; of [position][3]
   mien::Span<double> row_residuals, row_weights, row_changes;  // [row]
   mien::Span<float> start_joints;    // [joint value] at the start of a frame

@@ -238,8 +238,17 @@ void find_observability(MienFit& fit) {
   }
   list_free_derivatives(fit, count);
   std::fill(fit.matrix.begin(), fit.matrix.end(), 0.0);
-  project_metric(fit, fit.joint_metric.data, 1, count);
-  if (fit.points.count != 0) project_metric(fit, fit.point_metric.data, 1, count);
+  // A control moves things itself, and by what networks and RBF solvers make of it.
+  const auto project = [&](const Span<double>& metric, const Span<double>& stiffness) {
+    for (size_t i = 0; i < count; ++i) stiffness[i] = fit.matrix[i * (count + 1)];
+    project_metric(fit, metric.data, 1, count);
+    for (size_t i = 0; i < count; ++i) {
+      const double own = metric[size_t{fit.controls[i]} * (fit.control_count + 1)];
+      stiffness[i] = std::max(fit.matrix[i * (count + 1)] - stiffness[i], own);
+    }
+  };
+  project(fit.joint_metric, fit.joint_stiffness);
+  if (fit.points.count != 0) project(fit.point_metric, fit.point_stiffness);
   std::fill(fit.observability.begin(), fit.observability.end(), 0.0f);
   double* const m = fit.matrix.data;
   double largest = 0;

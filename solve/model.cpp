@@ -243,10 +243,9 @@ void find_stiffness(const Frame& f) {
   MienFit& fit = f.fit;
   const double points = f.has_points() ? point_factor(fit) : 0;
   for (size_t i = 0; i < fit.controls.count; ++i) {
-    const size_t place = size_t{fit.controls[i]} * (fit.control_count + 1);
     fit.stiffness[i] = 1e-12 + double{f.in.prior_weight} + f.in.smooth_weight +
-                       (f.in.joints ? f.joint_factor() * fit.joint_metric[place] : 0) +
-                       (f.has_points() ? points * fit.point_metric[place] : 0);
+                       (f.in.joints ? f.joint_factor() * fit.joint_stiffness[i] : 0) +
+                       (f.has_points() ? points * fit.point_stiffness[i] : 0);
   }
 }
 

@@ -84,19 +84,19 @@ struct Subject {
   }
 };
 
-/// How many of `count` poses come back.
-size_t count_met(const std::string& name, Subject&& subject, size_t count) {
+/// 99 % of `count` random poses come back, after `first` that are left out.
+void expect_most(const std::string& name, Subject&& subject, size_t first, size_t count) {
   SCOPED_TRACE(name);
   EXPECT_GE(subject.observed.size(), 8u);
-  if (subject.observed.empty()) return 0;
+  if (subject.observed.empty()) return;
   Random random = Random::from_seed(84, 1);
+  for (size_t i = 0; i < first; ++i) static_cast<void>(subject.pose(random));
   size_t met = 0;
   for (size_t i = 0; i < count; ++i) met += subject.meets(subject.pose(random));
   printf("%s: %zu of %zu poses, %zu of %zu controls observed, %zu vertices\n", name.c_str(), met,
          count, subject.observed.size(), size_t{subject.head.character.raw.count},
          subject.points.size());
-  EXPECT_GE(100 * met, 97 * count);
-  return met;
+  EXPECT_GE(100 * met, 99 * count);
 }
 
 /// The skin of the procedural head with its 52 expressions, rigged by libmien-author.
@@ -136,23 +136,18 @@ Subject golden_rig(const std::string& name) {
                  quaternions ? quaternions->integers : std::vector<uint32_t>());
 }
 
-/// `count` poses of each rig: 99 % of all, and 97 % of each rig. In some poses of ml, random networks lead to another
-/// minimum of the cost.
-void expect_all(size_t count) {
+void expect_all(size_t first, size_t count) {
   // Not ml_ext, whose random networks turn joints by up to half a turn, nor body, which has no expressions.
-  size_t met = 0, all = 0;
   for (const char* name : {"small", "small_rot", "ml"}) {
-    met += count_met(name, golden_rig(name), count);
-    all += count;
+    expect_most(name, golden_rig(name), first, count);
   }
-  met += count_met("authored", Subject(author_head()), count);
-  all += count;
-  EXPECT_GE(100 * met, 99 * all);
+  expect_most("authored", Subject(author_head()), first, count);
 }
 
-TEST(Poses, OfGoldenAndAuthoredRigsComeBackFromVertices) { expect_all(40); }
+// Among these are poses of ml whose controls move the mesh through networks alone.
+TEST(Poses, OfGoldenAndAuthoredRigsComeBackFromVertices) { expect_all(60, 40); }
 
-TEST(ManyPoses, OfGoldenAndAuthoredRigsComeBackFromVertices) { expect_all(1000); }
+TEST(ManyPoses, OfGoldenAndAuthoredRigsComeBackFromVertices) { expect_all(0, 1000); }
 
 }  // namespace
 }  // namespace mien
