@@ -8,16 +8,29 @@
 namespace mien {
 
 /// positions[4 * indices[i] + k] += weight * deltas[3 * i + k] for k = 0, 1, 2. Reads one number past
-/// the last delta; the fourth float of a position becomes meaningless. add_target takes floats, add_target_fixed 16-bit
-/// integers, add_target_packed three numbers in 32 bits: 512 + x in the lowest 10, then 512 + y, 512 + z.
+/// the last delta; the fourth float of a position becomes meaningless.
 struct TargetArgs {
-  const void* deltas;  // float, int16_t, or 32 bits at any even address
+  const float* deltas;
   const uint16_t* indices;
   float* positions;
   float weight;
   uint32_t count;
 };
 using AddTargetKernel = void(const TargetArgs& args);
+
+/// The same in groups of four positions, of which one or more have deltas: the lowest 4 bits of a group say which, the
+/// others are its number, positions / 4. The deltas of all groups follow each other. add_target_fixed takes three 16-bit
+/// integers for each, add_target_packed three of 10 bits in 32, at any even address: x in the lowest bits, then y, z, in
+/// two's complement. Writes whole groups; reads up to kDeltaPadding integers past the last delta.
+struct FixedTargetArgs {
+  const uint16_t* groups;
+  const int16_t* deltas;
+  float* positions;
+  float weight;
+  uint32_t count;  // groups
+};
+using AddFixedTargetKernel = void(const FixedTargetArgs& args);
+constexpr uint32_t kGroupPositions = 4, kDeltaPadding = 16;
 
 /// to[i] = from[i] * scale.
 using FloatsFromFixedKernel = void(const int16_t* from, float scale, size_t count, float* to);

@@ -11,14 +11,12 @@
 namespace mien::MIEN_KERNEL_ISA {
 namespace {
 
-/// `delta_at(i)` loads delta i.
-template <class DeltaAt>
-inline void add_deltas(const TargetArgs& given, const DeltaAt& delta_at) {
+void add_target(const TargetArgs& given) {
   const TargetArgs args = given;  // a local copy: no store can alias it
   const Quad weight = broadcast4(args.weight);
   const auto add = [&](size_t i) {
     float* at = args.positions + size_t{args.indices[i]} * 4;
-    store4(at, mul_add4(weight, delta_at(i), load4(at)));
+    store4(at, mul_add4(weight, load4(args.deltas + i * 3), load4(at)));
   };
   size_t i = 0;
   for (; i + 4 <= args.count; i += 4) {
@@ -29,20 +27,29 @@ inline void add_deltas(const TargetArgs& given, const DeltaAt& delta_at) {
   }
   for (; i < args.count; ++i) add(i);
 }
-void add_target(const TargetArgs& args) {
-  const float* const deltas = static_cast<const float*>(args.deltas);
-  add_deltas(args, [=](size_t i) { return load4(deltas + i * 3); });
+
+/// Calls add(four positions, mask, deltas) for each group.
+template <size_t kWordsPerDelta, class Add>
+inline void for_each_group(const FixedTargetArgs& args, const Add& add) {
+  constexpr uint64_t kCounts = 0x4332'3221'3221'2110;  // bits of each mask, 4 bits each
+  const int16_t* deltas = args.deltas;
+  for (size_t i = 0; i < args.count; ++i) {
+    const uint32_t group = args.groups[i], mask = group & 15;
+    add(args.positions + size_t{group >> 4} * 16, mask, deltas);
+    deltas += kWordsPerDelta * (kCounts >> 4 * mask & 15);
+  }
 }
-void add_target_fixed(const TargetArgs& args) {
-  const int16_t* const deltas = static_cast<const int16_t*>(args.deltas);
-  add_deltas(args, [=](size_t i) { return load4(deltas + i * 3); });
+void add_target_fixed(const FixedTargetArgs& args) {
+  const SparseWeight weight = sparse_weight(args.weight);
+  for_each_group<3>(args, [=](float* positions, uint32_t mask, const int16_t* deltas) {
+    add_sparse4(positions, mask, deltas, weight);
+  });
 }
-void add_target_packed(const TargetArgs& args) {
-  const uint16_t* const deltas = static_cast<const uint16_t*>(args.deltas);
-  // A field among zeros converts exactly; all of this is exact.
-  alignas(16) static constexpr float kUnits[4] = {1, 0x1p-10f, 0x1p-20f, 0};
-  const Quad units = load4(kUnits), bias = broadcast4(512);
-  add_deltas(args, [=](size_t i) { return mul_sub4(load_fields4(deltas + i * 2), units, bias); });
+void add_target_packed(const FixedTargetArgs& args) {
+  const SparseWeight weight = sparse_weight(args.weight * 0x1p-22f);
+  for_each_group<2>(args, [=](float* positions, uint32_t mask, const int16_t* deltas) {
+    add_sparse_fields4(positions, mask, deltas, weight);
+  });
 }
 
 void floats_from_fixed(const int16_t* from, float scale, size_t count, float* to) {

@@ -52,8 +52,8 @@
   KERNEL(joint_locals, JointLocalsKernel)               \
   KERNEL(joint_tree, JointTreeKernel)                   \
   KERNEL(add_target, AddTargetKernel)                   \
-  KERNEL(add_target_fixed, AddTargetKernel)             \
-  KERNEL(add_target_packed, AddTargetKernel)            \
+  KERNEL(add_target_fixed, AddFixedTargetKernel)        \
+  KERNEL(add_target_packed, AddFixedTargetKernel)       \
   KERNEL(floats_from_fixed, FloatsFromFixedKernel)      \
   KERNEL(skin_positions, SkinPositionsKernel)           \
   KERNEL(skin_transposed, SkinTransposedKernel)         \

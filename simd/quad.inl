@@ -6,8 +6,10 @@
 // |------------------------|----------------------------------------------------------------------|
 // | load4, store4, store3  | from and to any address; store3 writes the first three; load4 also   |
 // |                        | converts 16-bit integers                                             |
-// | load_fields4           | 32 bits from any even address: in lane k bits 10 * k to 10 * k + 9,  |
-// |                        | the others 0, as a float; the last lane is 0                         |
+// | add_sparse4            | to four quads: a weight times three 16-bit integers for each quad    |
+// |                        | whose bit of a mask is set                                           |
+// | add_sparse_fields4     | the same with three fields of 10 bits in 32, and a weight 2^-22 times|
+// |                        | as large                                                             |
 // | load_lanes4            | load4 for lane4: one load, not one for each lane                     |
 // | broadcast4             | the same float in each lane                                          |
 // | + - *                  | rounded once each, never fused                                       |
@@ -59,12 +61,6 @@ inline Quad load_big_endian4(const uint8_t* from) {
 }
 [[gnu::always_inline]] inline Quad load4(const int16_t* from) {
   return lanes4([&](int i) { return static_cast<float>(from[i]); });
-}
-[[gnu::always_inline]] inline Quad load_fields4(const uint16_t* from) {
-  uint32_t bits;
-  __builtin_memcpy(&bits, from, sizeof(bits));
-  return {{static_cast<float>(bits & 0x3FFu), static_cast<float>(bits & 0xFFC00u),
-           static_cast<float>(bits & 0x3FF00000u), 0}};
 }
 [[gnu::always_inline]] inline Quad load_lanes4(const float* from) { return load4(from); }
 [[gnu::always_inline]] inline void store4(float* to, const Quad& q) {
@@ -163,12 +159,6 @@ inline Quad join_bits4(Quad low, Quad high, int n) {
 #if defined(MIEN_KERNEL_NEON)
 
 inline Quad load4(const int16_t* from) { return vcvtq_f32_s32(vmovl_s16(vld1_s16(from))); }
-inline Quad load_fields4(const uint16_t* from) {
-  uint32_t bits;
-  __builtin_memcpy(&bits, from, sizeof(bits));
-  const uint32_t masks[4] = {0x3FF, 0xFFC00, 0x3FF00000, 0};
-  return vcvtq_f32_u32(vandq_u32(vdupq_n_u32(bits), vld1q_u32(masks)));
-}
 inline void store3(float* to, Quad q) {
   vst1_f32(to, vget_low_f32(q));
   vst1q_lane_f32(to + 2, q, 2);
@@ -216,12 +206,6 @@ inline Quad load4(const int16_t* from) {
 #else
   return _mm_cvtepi32_ps(_mm_cvtepi16_epi32(narrow));
 #endif
-}
-inline Quad load_fields4(const uint16_t* from) {
-  int32_t bits;
-  __builtin_memcpy(&bits, from, sizeof(bits));
-  return _mm_cvtepi32_ps(
-      _mm_and_si128(_mm_set1_epi32(bits), _mm_setr_epi32(0x3FF, 0xFFC00, 0x3FF00000, 0)));
 }
 inline void store3(float* to, Quad q) {
   _mm_storel_pi(reinterpret_cast<__m64*>(to), q);
@@ -311,6 +295,174 @@ inline void columns4(const ColumnVec* m, Quad* columns) {
 #endif
 }
 
+#endif
+
+// Four sparse quads. A field of 10 bits is shifted to the top of its lane, so it is 2^22 times as large, which its weight makes
+// up for: both exact. Quads without numbers get zeros, because branches would be mispredicted.
+
+#if defined(MIEN_KERNEL_SCALAR) || defined(MIEN_KERNEL_SSE2)
+using SparseWeight = Quad;
+inline SparseWeight sparse_weight(float weight) { return broadcast4(weight); }
+inline void add_sparse4(float* quads, uint32_t mask, const int16_t* from, SparseWeight weight) {
+  for (; mask != 0; mask &= mask - 1, from += 3) {
+    float* at = quads + static_cast<size_t>(__builtin_ctz(mask)) * 4;
+    store4(at, mul_add4(weight, load4(from), load4(at)));
+  }
+}
+inline void add_sparse_fields4(float* quads, uint32_t mask, const int16_t* from,
+                               SparseWeight weight) {
+  for (; mask != 0; mask &= mask - 1, from += 2) {
+    uint32_t bits;
+    __builtin_memcpy(&bits, from, sizeof(bits));
+    const auto top = [](uint32_t field) {
+      return static_cast<float>(static_cast<int32_t>(field & ~0u << 22));
+    };
+    const float numbers[4] = {top(bits << 22), top(bits << 12), top(bits << 2), 0};
+    float* at = quads + static_cast<size_t>(__builtin_ctz(mask)) * 4;
+    store4(at, mul_add4(weight, load4(numbers), load4(at)));
+  }
+}
+#else
+
+/// For each mask of four quads, the place of each byte of the quads among the numbers that are stored, `kBytes` for
+/// each quad whose bit is set; 0x80 elsewhere, which shuffles make 0. `kLaneBytes` is what a lane of a quad takes.
+template <uint32_t kBytes, uint32_t kLaneBytes>
+struct SparsePlaces {
+  alignas(64) uint8_t of_mask[16][16 * kLaneBytes] = {};
+  constexpr SparsePlaces() {
+    for (uint32_t mask = 0; mask < 16; ++mask) {
+      uint32_t next = 0;
+      for (uint32_t k = 0; k < 4; ++k) {
+        const bool present = (mask >> k & 1) != 0;
+        for (uint32_t b = 0; b < 4 * kLaneBytes; ++b) {
+          const bool stored = present && b < kBytes;
+          of_mask[mask][k * 4 * kLaneBytes + b] = static_cast<uint8_t>(stored ? next + b : 0x80);
+        }
+        if (present) next += kBytes;
+      }
+    }
+  }
+};
+
+#if defined(MIEN_KERNEL_AVX2) || defined(MIEN_KERNEL_AVX512)
+inline __m128i load_places(const uint8_t* places) {
+  return _mm_load_si128(reinterpret_cast<const __m128i*>(places));
+}
+inline __m128i load_words(const int16_t* words) {
+  return _mm_loadu_si128(reinterpret_cast<const __m128i*>(words));
+}
+#endif
+
+#if defined(MIEN_KERNEL_AVX512)
+using SparseWeight = __m512;
+inline SparseWeight sparse_weight(float weight) { return _mm512_set1_ps(weight); }
+inline void add_integers(float* at, __m512i numbers, SparseWeight weight) {
+  _mm512_storeu_ps(at, _mm512_fmadd_ps(weight, _mm512_cvtepi32_ps(numbers), _mm512_loadu_ps(at)));
+}
+inline void add_sparse4(float* quads, uint32_t mask, const int16_t* from, SparseWeight weight) {
+  struct Lanes {
+    alignas(32) uint16_t place[16][16] = {};
+    uint16_t stored[16] = {};
+    constexpr Lanes() {
+      for (uint32_t four = 0; four < 16; ++four) {
+        uint32_t next = 0;
+        for (uint32_t lane = 0; lane < 16; ++lane) {
+          if ((four >> lane / 4 & 1) == 0 || lane % 4 == 3) continue;
+          place[four][lane] = static_cast<uint16_t>(next++);
+          stored[four] = static_cast<uint16_t>(stored[four] | 1u << lane);
+        }
+      }
+    }
+  };
+  static constexpr Lanes kLanes;
+  const __m256i spread = _mm256_maskz_permutexvar_epi16(
+      kLanes.stored[mask], _mm256_load_si256(reinterpret_cast<const __m256i*>(kLanes.place[mask])),
+      _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from)));
+  add_integers(quads, _mm512_cvtepi16_epi32(spread), weight);
+}
+inline void add_sparse_fields4(float* quads, uint32_t mask, const int16_t* from,
+                               SparseWeight weight) {
+  static constexpr SparsePlaces<4, 1> kPlaces;
+  const __m512i lanes = _mm512_setr_epi32(0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3);
+  const __m512i shifts = _mm512_broadcast_i32x4(_mm_setr_epi32(22, 12, 2, 32));
+  const __m512i top = _mm512_set1_epi32(-(1 << 22));
+  // The instruction that expands is microcode on some CPUs.
+  const __m128i packed = _mm_shuffle_epi8(load_words(from), load_places(kPlaces.of_mask[mask]));
+  const __m512i spread = _mm512_permutexvar_epi32(lanes, _mm512_castsi128_si512(packed));
+  add_integers(quads, _mm512_and_si512(_mm512_sllv_epi32(spread, shifts), top), weight);
+}
+#elif defined(MIEN_KERNEL_AVX2)
+using SparseWeight = __m256;
+inline SparseWeight sparse_weight(float weight) { return _mm256_set1_ps(weight); }
+inline void add_integers(float* at, __m256i numbers, SparseWeight weight) {
+  _mm256_storeu_ps(at, _mm256_fmadd_ps(weight, _mm256_cvtepi32_ps(numbers), _mm256_loadu_ps(at)));
+}
+inline void add_sparse4(float* quads, uint32_t mask, const int16_t* from, SparseWeight weight) {
+  static constexpr SparsePlaces<6, 2> kPlaces;
+  // The first two quads; the others begin where the numbers of the first two end.
+  const uint32_t low = mask & 3, high = mask >> 2;
+  const int16_t* const rest = from + 3 * static_cast<size_t>(__builtin_popcount(low));
+  const uint8_t* const places = kPlaces.of_mask[0];
+  const __m128i first = _mm_shuffle_epi8(load_words(from), load_places(places + low * 32));
+  const __m128i second = _mm_shuffle_epi8(load_words(rest), load_places(places + high * 32));
+  add_integers(quads, _mm256_cvtepi16_epi32(first), weight);
+  add_integers(quads + 8, _mm256_cvtepi16_epi32(second), weight);
+}
+inline void add_sparse_fields4(float* quads, uint32_t mask, const int16_t* from,
+                               SparseWeight weight) {
+  static constexpr SparsePlaces<4, 1> kPlaces;
+  const __m256i low = _mm256_setr_epi32(0, 0, 0, 0, 1, 1, 1, 1);
+  const __m256i high = _mm256_setr_epi32(2, 2, 2, 2, 3, 3, 3, 3);
+  const __m256i shifts = _mm256_setr_epi32(22, 12, 2, 32, 22, 12, 2, 32);
+  const __m256i top = _mm256_set1_epi32(-(1 << 22));
+  const __m256i packed = _mm256_castsi128_si256(
+      _mm_shuffle_epi8(load_words(from), load_places(kPlaces.of_mask[mask])));
+  const auto fields = [=](__m256i lanes) {
+    const __m256i spread = _mm256_permutevar8x32_epi32(packed, lanes);
+    return _mm256_and_si256(_mm256_sllv_epi32(spread, shifts), top);
+  };
+  add_integers(quads, fields(low), weight);
+  add_integers(quads + 8, fields(high), weight);
+}
+#elif defined(MIEN_KERNEL_NEON)
+using SparseWeight = Quad;
+inline SparseWeight sparse_weight(float weight) { return broadcast4(weight); }
+inline void add_integers(float* at, int32x4_t numbers, SparseWeight weight) {
+  store4(at, mul_add4(weight, Quad(vcvtq_f32_s32(numbers)), load4(at)));
+}
+inline uint8x16_t load_words(const int16_t* words) {
+  return vreinterpretq_u8_s16(vld1q_s16(words));
+}
+inline void add_sparse4(float* quads, uint32_t mask, const int16_t* from, SparseWeight weight) {
+  static constexpr SparsePlaces<6, 2> kPlaces;
+  const uint32_t low = mask & 3, high = mask >> 2;
+  const int16_t* const rest = from + 3 * static_cast<size_t>(__builtin_popcount(low));
+  const auto spread = [](const int16_t* numbers, uint32_t two) {
+    return vreinterpretq_s16_u8(vqtbl1q_u8(load_words(numbers), vld1q_u8(kPlaces.of_mask[two])));
+  };
+  const int16x8_t first = spread(from, low), second = spread(rest, high);
+  add_integers(quads, vmovl_s16(vget_low_s16(first)), weight);
+  add_integers(quads + 4, vmovl_s16(vget_high_s16(first)), weight);
+  add_integers(quads + 8, vmovl_s16(vget_low_s16(second)), weight);
+  add_integers(quads + 12, vmovl_s16(vget_high_s16(second)), weight);
+}
+inline void add_sparse_fields4(float* quads, uint32_t mask, const int16_t* from,
+                               SparseWeight weight) {
+  static constexpr SparsePlaces<4, 1> kPlaces;
+  const int32_t shift_by[4] = {22, 12, 2, 32};
+  const int32x4_t shifts = vld1q_s32(shift_by);
+  const uint32x4_t top = vdupq_n_u32(~0u << 22);
+  const auto add = [=](float* at, uint32x4_t spread) {
+    add_integers(at, vreinterpretq_s32_u32(vandq_u32(vshlq_u32(spread, shifts), top)), weight);
+  };
+  const uint32x4_t packed =
+      vreinterpretq_u32_u8(vqtbl1q_u8(load_words(from), vld1q_u8(kPlaces.of_mask[mask])));
+  add(quads, vdupq_laneq_u32(packed, 0));
+  add(quads + 4, vdupq_laneq_u32(packed, 1));
+  add(quads + 8, vdupq_laneq_u32(packed, 2));
+  add(quads + 12, vdupq_laneq_u32(packed, 3));
+}
+#endif
 #endif
 
 inline Vec squared_lengths(const float* quads) {

@@ -9,9 +9,9 @@ namespace mien {
 namespace {
 
 /// To be raised whenever the list of numbers or arrays, or the meaning of one, changes.
-constexpr uint32_t kDeformerPartVersion = 4;
+constexpr uint32_t kDeformerPartVersion = 5;
 
-static_assert(sizeof(SkinRun) == 24 && sizeof(TargetRun) == 16 && sizeof(FixedRun) == 8,
+static_assert(sizeof(SkinRun) == 24 && sizeof(TargetRun) == 16 && sizeof(FixedRun) == 12,
               "no padding");
 
 /// Indices and counts first, which are checked when the deformer is opened; then values, of which

@@ -115,22 +115,43 @@ bool check_skin(const DeformerChecker& c, const DeformMesh& mesh) {
   return c.ok(lists_all_positions(mesh), "order of positions");
 }
 
+/// A run of a block of `positions` in 16-bit storage begins at `word`, which moves to its end. Its groups ascend, and
+/// have as many bits as the run has deltas, none of positions that the block lacks.
+bool check_fixed_run(const DeformMesh& mesh, const TargetRun& run, uint32_t positions,
+                     uint64_t& word) {
+  const FixedRun& fixed = mesh.fixed_run_of(run);
+  const uint64_t first_delta = uint64_t{fixed.first_word()} + fixed.groups;
+  const uint64_t end = first_delta + uint64_t{run.count} * fixed.words_per_delta();
+  if (fixed.first_word() != word || end + kDeltaPadding > mesh.fixed_deltas.count) return false;
+  uint32_t count = 0, next = 0;
+  for (; word != first_delta; ++word) {
+    const uint32_t group = static_cast<uint16_t>(mesh.fixed_deltas[word]), mask = group & 15;
+    if (mask == 0 || group >> 4 < next) return false;
+    next = (group >> 4) + 1;
+    if ((group >> 4) * kGroupPositions + highest_bit(mask) >= positions) return false;
+    count += bit_count(mask);
+  }
+  word = end;
+  return count == run.count;
+}
+
 /// In each block, runs of ascending targets, whose deltas follow each other.
 bool check_targets(const DeformerChecker& c, const DeformMesh& mesh) {
   const uint32_t blocks = mesh.block_count();
-  const bool fixed = c.deformer.half_storage && mesh.delta_count <= kMaxFixedDeltas;
+  const bool fixed = c.deformer.half_storage && mesh.deltas.empty();
   if (!c.ok(is_runs(mesh.first_target_run, blocks, mesh.target_runs.count) &&
                 mesh.first_target_run.count == size_t{blocks} + 1 &&
                 mesh.first_target_run[blocks] == mesh.target_runs.count &&
-                mesh.delta_indices.count == mesh.delta_count &&
+                mesh.delta_indices.count == (fixed ? 0 : mesh.delta_count) &&
                 mesh.deltas.count == (fixed ? 0 : mesh.delta_count * 3 + 1) &&
-                mesh.fixed_deltas.empty() != fixed &&
+                (fixed || mesh.fixed_deltas.empty()) &&
                 mesh.fixed_runs.count == (fixed ? mesh.target_runs.count : 0),
             "blend shape targets")) {
     return false;
   }
   uint64_t delta = 0, word = 0;
   for (uint32_t b = 0; b < blocks; ++b) {
+    const uint32_t count = std::min(kBlockPositions, mesh.position_count - b * kBlockPositions);
     const uint64_t first_delta = delta;
     uint64_t next_target = 0;
     for (uint32_t i = mesh.first_target_run[b]; i < mesh.first_target_run[b + 1]; ++i) {
@@ -141,20 +162,17 @@ bool check_targets(const DeformerChecker& c, const DeformMesh& mesh) {
       delta += run.count;
       if (!c.ok(good && delta <= mesh.delta_count, "runs of blend shape targets")) return false;
       if (!fixed) continue;
-      const FixedRun& numbers = mesh.fixed_run_of(run);
-      const bool follows = numbers.first_word() == word;
-      word += run.count * uint64_t{numbers.words_per_delta()};
-      if (!c.ok(follows && word < mesh.fixed_deltas.count, "numbers of blend shape targets")) {
+      if (!c.ok(check_fixed_run(mesh, run, count, word), "numbers of blend shape targets")) {
         return false;
       }
     }
-    const uint32_t count = std::min(kBlockPositions, mesh.position_count - b * kBlockPositions);
-    if (!c.ok(below(mesh.delta_indices.slice(first_delta, delta - first_delta), count),
+    if (!c.ok(fixed || below(mesh.delta_indices.slice(first_delta, delta - first_delta), count),
               "positions of blend shape targets")) {
       return false;
     }
   }
-  return c.ok(delta == mesh.delta_count && (!fixed || word + 1 == mesh.fixed_deltas.count),
+  const uint64_t padded = word == 0 ? 0 : word + kDeltaPadding;
+  return c.ok(delta == mesh.delta_count && (!fixed || mesh.fixed_deltas.count == padded),
               "blend shape targets");
 }
 

@@ -41,37 +41,26 @@ const float* neutral_positions(const DeformMesh& mesh, uint32_t block, float* sc
 
 void add_target_run(const KernelTable& kernels, const DeformMesh& mesh, const TargetRun& run,
                     float weight, float* positions) {
-  TargetArgs args;
-  args.indices = mesh.delta_indices.data + run.first_delta;
-  args.positions = positions;
-  args.count = run.count;
-  const size_t first = size_t{run.first_delta} * 3;
   if (mesh.fixed_deltas.empty()) {
-    args.deltas = mesh.deltas.data + first;
-    args.weight = weight;
-    kernels.add_target(args);
-  } else {
-    const FixedRun& fixed = mesh.fixed_run_of(run);
-    args.deltas = mesh.fixed_deltas.data + fixed.first_word();
-    args.weight = weight * fixed.scale;
-    fixed.is_packed() ? kernels.add_target_packed(args) : kernels.add_target_fixed(args);
-  }
-}
-
-void read_delta(const DeformMesh& mesh, const TargetRun& run, uint32_t i, float* xyz) {
-  if (mesh.fixed_deltas.empty()) {
-    const float* delta = mesh.deltas.data + (size_t{run.first_delta} + i) * 3;
-    std::copy(delta, delta + 3, xyz);
-    return;
+    return kernels.add_target({mesh.deltas.data + size_t{run.first_delta} * 3,
+                               mesh.delta_indices.data + run.first_delta, positions, weight,
+                               run.count});
   }
   const FixedRun& fixed = mesh.fixed_run_of(run);
-  const int16_t* words = mesh.fixed_deltas.data + fixed.first_word() + i * fixed.words_per_delta();
+  const int16_t* const words = mesh.fixed_deltas.data;
+  const FixedTargetArgs args = {reinterpret_cast<const uint16_t*>(words + fixed.first_word()),
+                                words + fixed.first_delta(), positions, weight * fixed.scale,
+                                fixed.groups};
+  fixed.is_packed() ? kernels.add_target_packed(args) : kernels.add_target_fixed(args);
+}
+
+void read_fixed_delta(const FixedRun& run, const int16_t* words, float* xyz) {
   uint32_t packed;
   memcpy(&packed, words, sizeof(packed));
   for (int k = 0; k < 3; ++k) {
-    const int number =
-        fixed.is_packed() ? static_cast<int>(packed >> 10 * k & 1023) - 512 : words[k];
-    xyz[k] = static_cast<float>(number) * fixed.scale;
+    const int32_t number =
+        run.is_packed() ? static_cast<int32_t>(packed << (22 - 10 * k)) >> 22 : words[k];
+    xyz[k] = static_cast<float>(number) * run.scale;
   }
 }
 
@@ -98,14 +87,10 @@ void write_target(const DeformMesh& mesh, uint32_t target, float* out) {
     const TargetRun* const end = mesh.target_runs.data + mesh.first_target_run[block + 1];
     for (const TargetRun* run = std::lower_bound(begin, end, target, is_before);
          run != end && run->target == target; ++run) {
-      for (uint32_t i = 0; i < run->count; ++i) {
-        const uint32_t sorted_index =
-            block * kBlockPositions + mesh.delta_indices[size_t{run->first_delta} + i];
-        float* at = out + size_t{mesh.position_of(sorted_index)} * 3;
-        float delta[3];
-        read_delta(mesh, *run, i, delta);
+      for_each_delta(mesh, *run, [&](uint32_t index, const float* delta) {
+        float* at = out + size_t{mesh.position_of(block * kBlockPositions + index)} * 3;
         for (int k = 0; k < 3; ++k) at[k] += delta[k];
-      }
+      });
     }
   }
 }

@@ -9,8 +9,10 @@
 // has 16 bits. A *sorted index* is an index into this order; all other position indices are those of the file.
 #pragma once
 
+#include "runtime/base/bits.h"
 #include "runtime/base/index_list.h"
 #include "runtime/pose/skeleton.h"
+#include "simd/deform_kernels.h"
 #include "simd/isa.h"
 
 namespace mien {
@@ -43,20 +45,22 @@ struct TargetRun {
   uint32_t first_delta, count;
 };
 
-/// Beside a target run in 16-bit storage: numbers in units of a scale, three 16-bit ones for each delta, or, if it is
-/// packed, three of 10 bits in 32: 512 + x in the lowest bits, then 512 + y, 512 + z.
+/// Beside a target run in 16-bit storage: groups that say which positions have deltas, then the deltas in units of a
+/// scale, three 16-bit integers each, or, if the run is packed, three of 10 bits in 32. See FixedTargetArgs.
 struct FixedRun {
   float scale;
   uint32_t place;  // 2 * the first 16-bit word, + 1 if packed
+  uint32_t groups;
 
   size_t first_word() const { return place / 2; }
+  size_t first_delta() const { return first_word() + groups; }
   bool is_packed() const { return place % 2 != 0; }
   size_t words_per_delta() const { return is_packed() ? 2 : 3; }
 };
 
 /// Weights of meshes with more influences per position, and deltas of meshes with more of them, keep 32 bits in 16-bit
 /// storage, too.
-constexpr uint32_t kMaxFixedInfluences = 64, kMaxFixedDeltas = 1 << 29;
+constexpr uint32_t kMaxFixedInfluences = 64, kMaxFixedDeltas = 1 << 28;
 
 /// One mesh. Kernels load four floats to get x y z, so arrays of x y z end with one more float ("+ 1").
 struct DeformMesh {
@@ -87,9 +91,9 @@ struct DeformMesh {
   Span<uint32_t> first_target_run;  // [block], + 1
   Span<TargetRun> target_runs;
   Span<float> deltas;            // [delta] x y z, + 1; or
-  Span<int16_t> fixed_deltas;    // as fixed_runs say, + 1
+  Span<int16_t> fixed_deltas;    // as fixed_runs say, + kDeltaPadding
   Span<FixedRun> fixed_runs;     // [target run], beside fixed_deltas
-  Span<uint16_t> delta_indices;  // [delta] sorted index, minus that of the block
+  Span<uint16_t> delta_indices;  // [delta] sorted index, minus that of the block; beside deltas
 
   // Normals. A face has four positions; a triangle repeats the last. Its area vector
   // (p2 - p0) x (p3 - p1) / 2 points out of the mesh.
@@ -156,8 +160,32 @@ const float* neutral_positions(const DeformMesh& mesh, uint32_t block, float* sc
 void add_target_run(const KernelTable& kernels, const DeformMesh& mesh, const TargetRun& run,
                     float weight, float* positions);
 
-/// Delta i of a run: x y z.
-void read_delta(const DeformMesh& mesh, const TargetRun& run, uint32_t i, float* xyz);
+/// A delta of a run in 16-bit storage, as it is stored: x y z.
+void read_fixed_delta(const FixedRun& run, const int16_t* words, float* xyz);
+
+/// Calls f(sorted index minus that of the block, x y z) for each delta of a run.
+template <class F>
+void for_each_delta(const DeformMesh& mesh, const TargetRun& run, F&& f) {
+  if (mesh.fixed_deltas.empty()) {
+    for (uint32_t i = run.first_delta; i < run.first_delta + run.count; ++i) {
+      f(uint32_t{mesh.delta_indices[i]},
+        static_cast<const float*>(mesh.deltas.data + size_t{i} * 3));
+    }
+    return;
+  }
+  const FixedRun& fixed = mesh.fixed_run_of(run);
+  const int16_t* group = mesh.fixed_deltas.data + fixed.first_word();
+  const int16_t* delta = mesh.fixed_deltas.data + fixed.first_delta();
+  for (uint32_t g = 0; g < fixed.groups; ++g) {
+    const uint32_t of_group = static_cast<uint16_t>(group[g]);
+    for (uint32_t mask = of_group & 15; mask != 0; mask &= mask - 1) {
+      float xyz[3];
+      read_fixed_delta(fixed, delta, xyz);
+      f((of_group >> 4) * kGroupPositions + lowest_bit(mask), static_cast<const float*>(xyz));
+      delta += fixed.words_per_delta();
+    }
+  }
+}
 
 /// to[i] = from[i] * scale.
 void expand_fixed(const KernelTable& kernels, const int16_t* from, float scale, size_t count,

@@ -16,6 +16,7 @@ struct ChosenDelta {
   uint32_t block, target, channel;
   uint32_t run, place;  // run of targets, place in it
   uint16_t index;       // in the block
+  float delta[3];
 };
 
 struct SubsetPlan {
@@ -27,17 +28,23 @@ struct SubsetPlan {
 };
 
 template <class F>
-void for_each_delta(const DeformMesh& mesh, const SubsetPlan& plan, F&& f) {
+void for_each_chosen(const DeformMesh& mesh, const SubsetPlan& plan, F&& f) {
   for (uint32_t block = 0; block < mesh.block_count(); ++block) {
     for (uint32_t r = mesh.first_target_run[block]; r < mesh.first_target_run[block + 1]; ++r) {
       const TargetRun& run = mesh.target_runs[r];
-      for (uint32_t i = 0; i < run.count; ++i) {
-        const uint32_t at = plan.places[size_t{block} * kBlockPositions +
-                                        mesh.delta_indices[size_t{run.first_delta} + i]];
-        if (at == kNotChosen) continue;
-        f(ChosenDelta{at / kBlockPositions, run.target, run.channel, r, i,
-                      static_cast<uint16_t>(at % kBlockPositions)});
-      }
+      uint32_t place = 0;
+      for_each_delta(mesh, run, [&](uint32_t index, const float* delta) {
+        const uint32_t at = plan.places[size_t{block} * kBlockPositions + index];
+        ++place;
+        if (at == kNotChosen) return;
+        f(ChosenDelta{at / kBlockPositions,
+                      run.target,
+                      run.channel,
+                      r,
+                      place,
+                      static_cast<uint16_t>(at % kBlockPositions),
+                      {delta[0], delta[1], delta[2]}});
+      });
     }
   }
 }
@@ -81,13 +88,13 @@ bool plan_subset(const DeformMesh& mesh, Span<const uint32_t> positions, Arena& 
     influences = run.influences;
   }
   size_t deltas = 0;
-  if (mesh.target_count != 0) for_each_delta(mesh, plan, [&](const ChosenDelta&) { ++deltas; });
+  if (mesh.target_count != 0) for_each_chosen(mesh, plan, [&](const ChosenDelta&) { ++deltas; });
   plan.deltas = scratch.array<ChosenDelta>(deltas + 1);
   if (!plan.deltas.data) return false;
   plan.deltas = plan.deltas.first(deltas);
   deltas = 0;
   if (mesh.target_count != 0) {
-    for_each_delta(mesh, plan, [&](const ChosenDelta& d) { plan.deltas[deltas++] = d; });
+    for_each_chosen(mesh, plan, [&](const ChosenDelta& d) { plan.deltas[deltas++] = d; });
   }
   std::sort(plan.deltas.begin(), plan.deltas.end(), [](const ChosenDelta& a, const ChosenDelta& b) {
     return a.block != b.block     ? a.block < b.block
@@ -154,7 +161,7 @@ void fill_subset_targets(const DeformMesh& from, const SubsetPlan& plan, DeformM
     }
     ++mesh.target_runs[runs - 1].count;
     mesh.delta_indices[d] = source.index;
-    read_delta(from, from.target_runs[source.run], source.place, mesh.deltas.data + size_t{d} * 3);
+    std::copy(source.delta, source.delta + 3, mesh.deltas.data + size_t{d} * 3);
   }
   for (; block < mesh.block_count(); ++block) mesh.first_target_run[block + 1] = runs;
 }

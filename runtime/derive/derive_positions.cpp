@@ -179,14 +179,11 @@ void pull_positions(Derivatives& d, uint32_t mesh_index, uint32_t lane, uint32_t
     });
     if (!shapes) continue;
     for_each_target(mesh, block, [&](const TargetRun& run) {
-      const uint16_t* indices = mesh.delta_indices.data + run.first_delta;
       float sum = 0;
-      for (uint32_t i = 0; i < run.count; ++i) {
-        const float* g = d.shaped_change.data + size_t{indices[i]} * 4;
-        float delta[3];
-        read_delta(mesh, run, i, delta);
+      for_each_delta(mesh, run, [&](uint32_t index, const float* delta) {
+        const float* g = d.shaped_change.data + size_t{index} * 4;
         sum += delta[0] * g[0] + delta[1] * g[1] + delta[2] * g[2];
-      }
+      });
       d.weights[size_t{run.channel} * lanes + lane] += sum;
     });
   }

@@ -401,6 +401,14 @@ TEST(CheckBakedDeformer, NumbersOfTargets) {
   expect(Status::kBakedStructure, [](DeformMesh& m) { m.fixed_runs[0].place += 2; });
   expect(Status::kBakedStructure, [](DeformMesh& m) { m.fixed_runs[0].place ^= 1; });
   expect(Status::kBakedStructure, [](DeformMesh& m) { m.fixed_runs[0].place = ~0u; });
+  expect(Status::kBakedStructure, [](DeformMesh& m) { ++m.fixed_runs[0].groups; });
+  expect(Status::kBakedStructure, [](DeformMesh& m) { m.fixed_runs[0].groups = ~0u; });
+  expect(Status::kBakedStructure, [](DeformMesh& m) { ++m.target_runs[0].count; });
+  // The first group: no position, one more position, one that the mesh lacks.
+  expect(Status::kBakedStructure, [](DeformMesh& m) { m.fixed_deltas[0] &= ~15; });
+  expect(Status::kBakedStructure, [](DeformMesh& m) { m.fixed_deltas[0] ^= 8; });
+  expect(Status::kBakedStructure, [](DeformMesh& m) { m.fixed_deltas[0] |= 127 << 4; });
+  expect(Status::kBakedStructure, [](DeformMesh& m) { m.fixed_deltas[0] |= -0x8000; });
   expect(Status::kBakedStructure, [](DeformMesh& m) { --m.fixed_runs.count; });
   expect(Status::kBakedStructure, [](DeformMesh& m) { --m.fixed_deltas.count; });
 }

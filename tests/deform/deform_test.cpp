@@ -219,13 +219,17 @@ TEST(Deform, TargetsOfOneChannelAddUp) {
     mesh.blend_shape_targets =
         list<BlendShapeTarget>(arena, {mesh.blend_shape_targets[0], twice, twice});
   });
-  Deformed d(file);
-  DeformValues values = no_values(d.rig.get());
-  values.channels[0] = 0.5f;
-  d.update(values);
-  d.deform(0);
-  EXPECT_FLOAT_EQ(d.positions(0)[4 * 3], 7);  // two targets, half of 1 + 2 + 4 each
-  EXPECT_FLOAT_EQ(d.positions(0)[1 * 3 + 1], -0.25f);
+  for (const uint32_t storage : {MIEN_STORAGE_32_BIT, MIEN_STORAGE_16_BIT}) {
+    MienDeformerDesc desc = {};
+    desc.storage = storage;
+    Deformed d(file, desc);
+    DeformValues values = no_values(d.rig.get());
+    values.channels[0] = 0.5f;
+    d.update(values);
+    d.deform(0);
+    EXPECT_FLOAT_EQ(d.positions(0)[4 * 3], 7);  // two targets, half of 1 + 2 + 4 each
+    EXPECT_NEAR(d.positions(0)[1 * 3 + 1], -0.25f, storage == MIEN_STORAGE_32_BIT ? 0 : 1e-4);
+  }
 }
 
 // Weights -----------------------------------------------------------------------------------------
@@ -394,7 +398,7 @@ TEST(Deform, SmallDeltasArePacked) {
   const DeformMesh& arrays = capi::object(d.deformer.get())->meshes[0];
   ASSERT_EQ(arrays.fixed_runs.count, 4u);
   for (uint32_t r = 0; r < 4; ++r) EXPECT_EQ(arrays.fixed_runs[r].is_packed(), r % 2 == 1) << r;
-  EXPECT_EQ(arrays.fixed_deltas.count, (6u + 4u) * 2 + 1);
+  EXPECT_EQ(arrays.fixed_deltas.count, (1 + 6u + 1 + 4u) * 2 + kDeltaPadding);
   const MienMesh mesh = mesh_of(d.deformer.get(), 0);
   std::vector<float> rounded(mesh.position_count * size_t{3}), exact = rounded;
   for (uint32_t t = 0; t < 4; ++t) {

@@ -236,28 +236,41 @@ struct MeshPart {
     for (size_t i = 0; i < rounded.count; ++i) {
       EXPECT_EQ(rounded.data[i], float(numbers_of[i]) * kScale);
     }
-    std::vector<uint16_t> at;
-    for (uint32_t i = 0; i < count; ++i) at.push_back(static_cast<uint16_t>(i * 7 % kPositions));
-    Aligned result(kPositions * 4, nullptr);
+    // Ascending positions, of which groups of four have one to four.
+    std::vector<uint16_t> at, groups;
+    for (uint32_t p = 0; at.size() < count; ++p) {
+      if (p % 7 == 2 || p % 5 == 3 || p / 4 % 6 == 4) continue;
+      at.push_back(static_cast<uint16_t>(p));
+      if (groups.empty() || groups.back() >> 4 != p / 4) {
+        groups.push_back(static_cast<uint16_t>(p / 4 << 4));
+      }
+      groups.back() = static_cast<uint16_t>(groups.back() | 1u << p % 4);
+    }
+    Aligned result((kPositions * 4 + 15) / 16 * 16, nullptr);
     std::copy(positions.data, positions.data + kPositions * 4, result.data);
-    if (fixed && packed) {
-      std::vector<uint16_t> words(1);  // the kernel takes any even address
-      for (size_t i = 0; i + 3 <= numbers_of.size(); i += 3) {
+    std::vector<int16_t> words(1);  // the kernels take any even address
+    for (size_t i = 0; i < size_t{count} * 3; i += 3) {
+      if (packed) {
         uint32_t bits = 0;
         for (int k = 0; k < 3; ++k) {
-          bits |= static_cast<uint32_t>(numbers_of[i + size_t(k)] + 512) << 10 * k;
+          bits |= (static_cast<uint32_t>(numbers_of[i + size_t(k)]) & 1023) << 10 * k;
         }
         words.resize(words.size() + 2);
         memcpy(words.data() + words.size() - 2, &bits, sizeof(bits));
+      } else {
+        words.insert(words.end(), numbers_of.data() + i, numbers_of.data() + i + 3);
       }
-      kernels.add_target_packed({words.data() + 1, at.data(), result.data, 0.7f * kScale, count});
-    } else if (fixed) {
-      kernels.add_target_fixed({numbers_of.data(), at.data(), result.data, 0.7f * kScale, count});
+    }
+    words.resize(words.size() + kDeltaPadding, -1);
+    const FixedTargetArgs args = {groups.data(), words.data() + 1, result.data, 0.7f * kScale,
+                                  static_cast<uint32_t>(groups.size())};
+    if (fixed) {
+      packed ? kernels.add_target_packed(args) : kernels.add_target_fixed(args);
     } else {
       kernels.add_target({rounded.data, at.data(), result.data, 0.7f, count});
     }
     for (uint32_t i = 0; i < kPositions; ++i) result.data[i * 4 + 3] = 0;
-    return {result.data, result.data + result.count};
+    return {result.data, result.data + kPositions * 4};
   }
   std::vector<float> with_target(const KernelTable& kernels, uint32_t count) {
     std::vector<uint16_t> at;

@@ -51,7 +51,7 @@ void place_mesh(const Mesh& source, const MeshPlan& plan, const DeformOptions& o
   mesh.max_influences = plan.max_influences;
   mesh.delta_count = plan.delta_count;
   place_skin(plan, options.half_storage, placer, mesh);
-  place_targets(plan, options.half_storage, placer, mesh);
+  place_targets(plan, placer, mesh);
   place_surface(plan, options, placer, mesh);
 }
 

@@ -26,6 +26,12 @@ struct DeformOptions {
 Status compile_deformer(const dna::DnaView& view, const Rig& rig, const DeformOptions& options,
                         const Allocator& allocator, Deformer*& out, Error& error);
 
+/// What the runs of targets of a block take in 16-bit storage.
+struct FixedBlock {
+  uint32_t runs = 0, deltas = 0;
+  size_t words = 0;
+};
+
 /// The sorted order and the counts of a mesh, in scratch memory.
 struct MeshPlan {
   Span<uint64_t>
@@ -36,8 +42,10 @@ struct MeshPlan {
   uint32_t max_influences = 0;
   float max_weight = 0;  // in magnitude
   size_t target_run_count = 0, delta_count = 0;
-  size_t fixed_words = 0;    // of deltas in 16-bit storage
-  float largest_packed = 0;  // runs of smaller numbers are packed
+  bool fixed_targets = false;  // deltas are integers; then also:
+  size_t fixed_words = 0;      // of masks and deltas
+  float largest_packed = 0;    // runs of smaller numbers are packed
+  Span<FixedBlock> fixed_blocks;
   size_t triangle_count = 0, face_count = 0, hard_count = 0;
   Span<Vec3> directions;  // [position] outward recomputed neutral normal
   Span<uint8_t> hard;     // [position] 1: it has vertices on hard edges
@@ -83,8 +91,12 @@ void place_skin(const MeshPlan& plan, bool half_storage, Placer& placer, DeformM
 void fill_skin(const MeshSource& source, const MeshPlan& plan, DeformMesh& mesh);
 
 Status plan_targets(const MeshSource& source, MeshPlan& plan);
-void place_targets(const MeshPlan& plan, bool half_storage, Placer& placer, DeformMesh& mesh);
+void place_targets(const MeshPlan& plan, Placer& placer, DeformMesh& mesh);
 Status fill_targets(const MeshSource& source, const MeshPlan& plan, DeformMesh& mesh);
+
+// In 16-bit storage, for plan_targets() and fill_targets():
+Status plan_fixed_targets(const MeshSource& source, MeshPlan& plan);
+Status fill_fixed_targets(const MeshSource& source, const MeshPlan& plan, DeformMesh& mesh);
 
 Status plan_surface(const MeshSource& source, MeshPlan& plan);
 void place_surface(const MeshPlan& plan, const DeformOptions& options, Placer& placer,
