@@ -58,6 +58,7 @@ struct World {
   Owned<MienDna> tiny{mien_dna_close};  // with layers that lower versions lack
   Owned<MienRig> rig{mien_rig_destroy};
   Owned<MienDeformer> deformer{mien_deformer_destroy};
+  Owned<MienDerivatives> derivatives{mien_derivatives_destroy};
   Owned<MienBaked> baked{mien_baked_close};
   Owned<MienRig> baked_rig{mien_rig_destroy};
   Owned<MienClip> clip{mien_clip_close};
@@ -119,6 +120,9 @@ struct World {
     done(mien_rig_create(dna.object, &of_rig, &rig.object, nullptr));
     const auto of_deformer = desc<MienDeformerDesc>();
     done(mien_deformer_create(dna.object, rig.object, &of_deformer, &deformer.object, nullptr));
+    auto of_derivatives = desc<MienDerivativesDesc>();
+    of_derivatives.deformer = deformer.object;
+    done(mien_derivatives_create(rig.object, &of_derivatives, &derivatives.object, nullptr));
     dna_bytes = write_dna(dna.object);
     Arena arena(default_allocator());
     tiny_bytes = dna::written(dna::tiny_rig(arena));
@@ -290,6 +294,9 @@ std::vector<Call> calls_of_rigs(const World& w) {
   copied.file_access = MIEN_FILE_READ;
   auto of_derivatives = w.desc<MienDerivativesDesc>();
   of_derivatives.deformer = w.deformer.object;
+  auto of_jacobian = w.desc<MienJacobianDesc>();
+  of_jacobian.from_point = MIEN_POINT_RAW;
+  of_jacobian.to_point = MIEN_POINT_POSITIONS;
   auto sums = w.desc<MienRigDesc>();
   sums.reuse = MIEN_REUSE_SUMS;
   auto baked_sums = w.desc<MienBakedRigDesc>();
@@ -312,6 +319,8 @@ std::vector<Call> calls_of_rigs(const World& w) {
              mien_deformer_instance_create, w.deformer.object)},
       {"mien_derivatives_create",
        makes(mien_derivatives_destroy, of_derivatives, mien_derivatives_create, w.rig.object)},
+      {"mien_jacobian_create", makes(mien_jacobian_destroy, of_jacobian, mien_jacobian_create,
+                                     static_cast<const MienDerivatives*>(w.derivatives.object))},
       {"mien_bake_file",
        calls(mien_bake_file, w.rig.object, w.deformer.object, w.written_file.c_str())},
       {"mien_baked_open_file",
