@@ -119,17 +119,17 @@ constexpr uint32_t kMaxRunRows = 8;
 ///
 ///     to[outputs[i] + r] = finished sums[rows[i] + r]
 ///
-/// Runs of four rows or more come first and fill whole words of the set. Returns false if one of these values
-/// is not finite; what is written in its place is undefined.
+/// Runs of n rows are in words first_words[n - 1] to first_words[n] - 1. Returns false if a value of any row is
+/// not finite; then nothing is written.
 struct FinishRunsArgs {
-  const float* sums;        // [packed row]
-  const float* scales;      // [packed row], or null
-  const uint64_t* runs;     // bit i % 64 of word i / 64
-  const uint32_t* rows;     // [run] its first packed row
-  const uint8_t* overlaps;  // [run] of n >= 4 rows n - 4, else n - 1
-  const uint16_t* outputs;  // [run] where the first row goes
+  const float* sums;            // [packed row], 64-byte aligned
+  const float* scales;          // [packed row], 64-byte aligned, or null
+  const uint64_t* runs;         // bit i % 64 of word i / 64
+  const uint32_t* rows;         // [run] its first packed row
+  const uint16_t* outputs;      // [run] where the first row goes
+  const uint32_t* first_words;  // [kMaxRunRows + 1]
   float* to;
-  uint32_t four_words, word_count;  // words of runs of four rows or more, of all
+  size_t row_count;  // packed rows, a multiple of 16
 };
 using FinishRunsKernel = bool(const FinishRunsArgs& args);
 

@@ -279,54 +279,72 @@ inline void for_each_in_word(uint64_t bits, F&& f) {
   for (; bits != 0; bits &= bits - 1) f(static_cast<size_t>(__builtin_ctzll(bits)));
 }
 
+/// Whether all sums, times their scales if any, are finite.
 template <bool kScaled>
-inline bool finish_runs_by(const FinishRunsArgs& args) {
+inline bool are_finite(const float* sums, const float* scales, size_t count) {
+  // NaN in a lane of a value that is not finite.
+  const auto at = [&](size_t i) {
+    Vec sum = load(sums + i);
+    if constexpr (kScaled) sum = sum * load(scales + i);
+    return sum - sum;
+  };
+  // Four chains hide the latency of additions.
+  Vec a = broadcast(0.0f), b = a, c = a, d = a;
+  size_t i = 0;
+  for (; i + 4 * kWidth <= count; i += 4 * kWidth) {
+    a = a + at(i);
+    b = b + at(i + kWidth);
+    c = c + at(i + 2 * kWidth);
+    d = d + at(i + 3 * kWidth);
+  }
+  for (; i < count; i += kWidth) a = a + at(i);
+  return different_lanes((a + b) + (c + d), broadcast(0.0f)) == 0;
+}
+
+/// Finishes and writes the runs of kRows rows.
+template <bool kScaled, size_t kRows>
+inline void write_runs(const FinishRunsArgs& args) {
   // Local copies, because the compiler must assume that writes alias `args`.
   const float *const sums = args.sums, *const scales = args.scales;
-  const uint32_t four_words = args.four_words, word_count = args.word_count;
-  const uint64_t* const runs = args.runs;
   const uint32_t* const rows = args.rows;
-  const uint8_t* const overlaps = args.overlaps;
   const uint16_t* const outputs = args.outputs;
   float* const to = args.to;
   const Quad zero = broadcast4(0.0f);
-  // NaN after a value that is not finite. Each run adds to one of these once, because runs wait for it.
-  Quad none = zero;
-  float none_of_few = 0.0f;
-  const auto sum4 = [&](size_t row) {
-    const Quad sum = load4(sums + row);
-    if constexpr (kScaled) return sum * load4(scales + row);
-    return sum;
+  const auto write4 = [&](size_t row, float* out) {
+    Quad sum = load4(sums + row);
+    if constexpr (kScaled) sum = sum * load4(scales + row);
+    store4(out, sum + zero);
   };
-  const auto sum1 = [&](size_t row) { return kScaled ? sums[row] * scales[row] : sums[row]; };
-  // Without branches on the length: the first four rows and the last four, which may be the same.
-  for (size_t w = 0; w < four_words; ++w) {
-    for_each_in_word(runs[w], [&](size_t i) {
-      const size_t run = w * 64 + i, row = rows[run], last = overlaps[run];
-      const Quad a = sum4(row), b = sum4(row + last);
-      none = none + ((a - a) + (b - b));
-      float* const out = to + outputs[run];
-      store4(out, a + zero);
-      store4(out + last, b + zero);
+  const auto write1 = [&](size_t row, float* out) {
+    *out = (kScaled ? sums[row] * scales[row] : sums[row]) + 0.0f;
+  };
+  for (uint32_t w = args.first_words[kRows - 1]; w < args.first_words[kRows]; ++w) {
+    for_each_in_word(args.runs[w], [&](size_t i) {
+      const size_t row = rows[size_t{w} * 64 + i];
+      float* const out = to + outputs[size_t{w} * 64 + i];
+      if constexpr (kRows >= 4) {
+        write4(row, out);
+        // The last four; some of them twice.
+        if constexpr (kRows > 4) write4(row + kRows - 4, out + kRows - 4);
+      } else {
+        write1(row, out);
+        if constexpr (kRows > 1) write1(row + 1, out + 1);
+        if constexpr (kRows > 2) write1(row + 2, out + 2);
+      }
     });
   }
-  // Of up to three, the first, the middle and the last one.
-  for (size_t w = four_words; w < word_count; ++w) {
-    for_each_in_word(runs[w], [&](size_t i) {
-      const size_t run = w * 64 + i, row = rows[run], last = overlaps[run], middle = last / 2;
-      const float a = sum1(row), b = sum1(row + middle), c = sum1(row + last);
-      none_of_few += ((a - a) + (b - b)) + (c - c);
-      float* const out = to + outputs[run];
-      out[0] = a + 0.0f;
-      out[middle] = b + 0.0f;
-      out[last] = c + 0.0f;
-    });
-  }
-  return different_lanes4(none + broadcast4(none_of_few), zero) == 0;
+}
+
+template <bool kScaled, size_t... R>
+inline bool finish_runs_by(const FinishRunsArgs& args, std::index_sequence<R...>) {
+  if (!are_finite<kScaled>(args.sums, args.scales, args.row_count)) return false;
+  (write_runs<kScaled, R + 1>(args), ...);
+  return true;
 }
 
 bool finish_runs(const FinishRunsArgs& args) {
-  return args.scales ? finish_runs_by<true>(args) : finish_runs_by<false>(args);
+  const auto lengths = std::make_index_sequence<kMaxRunRows>();
+  return args.scales ? finish_runs_by<true>(args, lengths) : finish_runs_by<false>(args, lengths);
 }
 
 // Lanes are characters here, and the 8 rows of a block row are sums in registers. With 32 registers there are

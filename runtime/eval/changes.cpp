@@ -137,17 +137,17 @@ bool evaluate_changed_psds(const Rig& rig, Instance& instance, uint32_t lod) {
       psds.outputs.data,      psds.weights.data,   psds.first_input.data, psds.inputs.data,
       instance.controls.data, changes.listed.data, changes.listed.data,   0};
   Uses uses = 0;
+  const bool nested = rig.changes->nested_psds;
   for (size_t w = 0; w < changes.entries.count;) {
-    // A word at a time, or, where correctives read each other, one entry.
-    for (args.count = 0; changes.entries[w] != 0;) {
-      const size_t entry = w * 64 + lowest_bit(changes.entries[w]);
-      changes.entries[w] &= changes.entries[w] - 1;
-      if (entry < count) changes.listed[args.count++] = static_cast<uint16_t>(entry);
-      if (rig.changes->nested_psds && args.count != 0) break;
-    }
-    if (args.count == 0) {
-      ++w;
-      continue;
+    // All of them at once, or, where correctives read each other, one after the other.
+    for (args.count = 0; w < changes.entries.count; ++w) {
+      uint64_t& bits = changes.entries[w];
+      while (bits != 0 && !(nested && args.count != 0)) {
+        const size_t entry = w * 64 + lowest_bit(bits);
+        bits &= bits - 1;
+        if (entry < count) changes.listed[args.count++] = static_cast<uint16_t>(entry);
+      }
+      if (nested && args.count != 0) break;
     }
     const uint32_t changed = rig.kernels->psd_list(args);
     for (const uint16_t entry : changes.listed.first(changed)) {
@@ -196,11 +196,12 @@ float animated_map(const Rig& rig, const Span<uint32_t>& rows, uint32_t row_coun
   uint32_t next = 0;
   for (const uint32_t r : rows) {
     if (r >= row_count) break;
-    if (r < next) continue;
     const float input = controls[table.inputs[r]];
-    if (!(table.from[r] <= input && input <= table.to[r])) continue;
-    sum += table.slope[r] * input + table.cut[r];
-    next = table.run_ends[r];
+    // Without branches, which would be mispredicted.
+    const bool counts = (r >= next) & (table.from[r] <= input) & (input <= table.to[r]);
+    const float added = sum + (table.slope[r] * input + table.cut[r]);
+    sum = counts ? added : sum;
+    next = counts ? table.run_ends[r] : next;
   }
   return sum > 0.0f ? (sum < 1.0f ? sum : 1.0f) : 0.0f;
 }
@@ -276,7 +277,8 @@ void mark_turned(const Rig& rig, const Changes& changes, const uint16_t* outputs
   const uint32_t first = rig.joint_value_count();
   clear_set(changes.turned);
   for_each_marked(changes.runs, [&](size_t run) {
-    const uint32_t length = runs.overlaps[run] + (run < size_t{runs.four_words} * 64 ? 4u : 1u);
+    uint32_t length = 1;
+    while (run >= size_t{runs.first_words[length]} * 64) ++length;
     for (uint32_t r = 0; r < length; ++r) {
       if (outputs[run] + r >= first) mark_one(changes.turned, (outputs[run] + r - first) / 3u);
     }
@@ -329,11 +331,10 @@ bool add_changed_columns(const Rig& rig, Instance& instance, uint32_t lod) {
   finish.scales = joints.scales.empty() ? nullptr : joints.scales.data;
   finish.runs = changes.runs.data;
   finish.rows = runs.rows.data;
-  finish.overlaps = runs.overlaps.data;
   finish.outputs = runs.outputs.data + size_t{lod} * runs.word_count * 64;
   finish.to = instance.joints_and_angles.data;
-  finish.four_words = runs.four_words;
-  finish.word_count = runs.word_count;
+  finish.first_words = runs.first_words;
+  finish.row_count = changes.sums.count;
   if (!rig.kernels->finish_runs(finish)) {
     drop_sums(instance);
     return false;

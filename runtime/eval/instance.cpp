@@ -21,7 +21,7 @@ void place_changes(const Rig& rig, Placer& placer, Instance& instance) {
   changes.sums = placer.array<float>(block_rows * kJointBlockRows, kBlockAlignment);
   changes.summed = placer.array<float>(rig.control_count, kBlockAlignment);
   changes.entries = placer.array<uint64_t>(bit_words(rig.psds.outputs.count));
-  changes.listed = placer.array<uint16_t>(64);
+  changes.listed = placer.array<uint16_t>(rig.psds.outputs.count / 4 + 1);
   changes.map_outputs = placer.array<uint64_t>(bit_words(rig.map_count));
   changes.runs = placer.array<uint64_t>(rig.changes->runs.word_count);
   changes.turned = placer.array<uint64_t>(rig.quaternion_outputs ? bit_words(rig.joint_count) : 0);

@@ -21,7 +21,7 @@ struct Changes {
   Span<float> summed;     // [control] the values that they are the sums for
 
   Span<uint64_t> entries;      // scratch: correctives to compute; zeros outside of calls
-  Span<uint16_t> listed;       // scratch: those of a word
+  Span<uint16_t> listed;       // scratch: a list of them
   Span<uint64_t> map_outputs;  // scratch
   Span<uint64_t> runs;         // scratch: of RowRuns
   Span<uint64_t> turned;       // scratch: joints whose angles changed

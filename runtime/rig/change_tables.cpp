@@ -119,21 +119,22 @@ bool joins_next(const Rig& rig, const PackedRows& rows, size_t row) {
 }
 
 void find_runs(const Rig& rig, PackedRows& rows, RowRuns& runs) {
-  size_t fours = 0, others = 0;
+  size_t counts[kMaxRunRows + 1] = {};  // [rows]
   for (size_t row = 0, end; row < rows.count; row = end) {
     end = row + 1;
     if (!is_written(rig, rows, row)) continue;
     while (end < row + kMaxRunRows && joins_next(rig, rows, end - 1)) ++end;
     rows.lengths[row] = static_cast<uint8_t>(end - row);
-    ++(end - row >= 4 ? fours : others);
+    ++counts[end - row];
   }
-  runs.four_words = static_cast<uint32_t>(bit_words(fours));
-  runs.word_count = runs.four_words + static_cast<uint32_t>(bit_words(others));
+  for (uint32_t n = 1; n <= kMaxRunRows; ++n) {
+    runs.first_words[n] = runs.first_words[n - 1] + static_cast<uint32_t>(bit_words(counts[n]));
+  }
+  runs.word_count = runs.first_words[kMaxRunRows];
 }
 
 void place_runs(const Rig& rig, uint32_t word_count, Placer& placer, RowRuns& runs) {
   runs.rows = placer.array<uint32_t>(size_t{word_count} * 64);
-  runs.overlaps = placer.array<uint8_t>(size_t{word_count} * 64);
   runs.outputs = placer.array<uint16_t>(size_t{rig.lod_count} * word_count * 64);
   runs.at_lod = placer.array<uint64_t>(size_t{rig.lod_count} * word_count);
   runs.of_column = placer.array<uint64_t>(rig.joints.columns.count * word_count);
@@ -142,14 +143,14 @@ void place_runs(const Rig& rig, uint32_t word_count, Placer& placer, RowRuns& ru
 void mark_bit(uint64_t* words, size_t i) { words[i / 64] |= uint64_t{1} << i % 64; }
 
 void fill_runs(const Rig& rig, const PackedRows& rows, RowRuns& runs) {
-  uint32_t next_four = 0, next_other = runs.four_words * 64;
+  uint32_t next[kMaxRunRows + 1] = {};  // [rows] run
+  for (uint32_t n = 1; n <= kMaxRunRows; ++n) next[n] = runs.first_words[n - 1] * 64;
   std::fill(rows.runs.begin(), rows.runs.end(), kNoRun);
   for (size_t row = 0; row < rows.count; ++row) {
     const uint32_t length = rows.lengths[row];
     if (length == 0) continue;
-    const uint32_t run = length >= 4 ? next_four++ : next_other++;
+    const uint32_t run = next[length]++;
     runs.rows[run] = static_cast<uint32_t>(row);
-    runs.overlaps[run] = static_cast<uint8_t>(length >= 4 ? length - 4 : length - 1);
     std::fill_n(rows.runs.begin() + row, length, run);
     for (uint32_t lod = 0; lod < rig.lod_count; ++lod) {
       const uint16_t output = rows.outputs[lod * rows.count + row];
@@ -213,8 +214,8 @@ const ChangeTables* create_change_tables(const Rig& rig, const Allocator& alloca
     tables->single_channels &= channels[channel] == 0;
     channels[channel] = 1;
   }
+  std::copy_n(runs.first_words, kMaxRunRows + 1, tables->runs.first_words);
   tables->runs.word_count = runs.word_count;
-  tables->runs.four_words = runs.four_words;
   fill_runs(rig, rows, tables->runs);
   fill_column_runs(joints, rows, tables->runs);
   return tables;

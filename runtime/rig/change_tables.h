@@ -28,12 +28,12 @@ constexpr size_t bit_words(size_t count) { return (count + 63) / 64; }
 /// run, to neighboring joint values or angles, or none. Rows that others overwrite at a LOD count as not
 /// written.
 struct RowRuns {
-  uint32_t four_words = 0, word_count = 0;  // of a set of runs
-  Span<uint32_t> rows;                      // [run] its first packed row
-  Span<uint8_t> overlaps;                   // [run] that of FinishRunsArgs
-  Span<uint16_t> outputs;                   // [lod][run] where that row goes
-  Span<uint64_t> at_lod;                    // [lod][word]: the LOD writes it
-  Span<uint64_t> of_column;                 // [column][word]: the column has a value in it
+  uint32_t first_words[kMaxRunRows + 1] = {};  // those of FinishRunsArgs
+  uint32_t word_count = 0;                     // of a set of runs
+  Span<uint32_t> rows;                         // [run] its first packed row
+  Span<uint16_t> outputs;                      // [lod][run] where that row goes
+  Span<uint64_t> at_lod;                       // [lod][word]: the LOD writes it
+  Span<uint64_t> of_column;                    // [column][word]: the column has a value in it
 };
 
 struct ChangeTables : Object {

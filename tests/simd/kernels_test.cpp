@@ -629,65 +629,70 @@ TEST(FinishSumsKernel, ScalesAndSaturates) {
 }
 
 TEST(FinishRunsKernel, WritesTheRunsOfTheSet) {
-  // Two words of runs of each length, with other rows between them.
+  // Two words of runs of each length, the shortest first, with other rows between them.
   constexpr uint32_t kRuns = 2 * kMaxRunRows * 64, kRows = kRuns * (kMaxRunRows + 1);
+  static_assert(kRows % 16 == 0, "whole vectors");
   constexpr float kUntouched = 12345.0f, kLargest = std::numeric_limits<float>::max();
-  std::vector<float> sums(kRows), scales(kRows, 0.25f);
+  alignas(64) float sums[kRows], scales[kRows];
+  std::fill(scales, scales + kRows, 0.25f);
   std::vector<uint32_t> rows(kRuns);
   std::vector<uint16_t> outputs(kRuns);
   std::vector<uint64_t> words(kRuns / 64);
-  std::vector<bool> in_set(kRows);
-  const auto length = [](uint32_t run) { return kMaxRunRows - run / 128; };
+  uint32_t first_words[kMaxRunRows + 1];
+  for (uint32_t n = 0; n <= kMaxRunRows; ++n) first_words[n] = 2 * n;
+  const auto length = [](uint32_t run) { return run / 128 + 1; };
   for (uint32_t i = 0; i < kRows; ++i) sums[i] = i % 5 ? static_cast<float>(i) - 200 : -0.0f;
   for (uint32_t i = 0; i < kRuns; ++i) {
     const uint32_t last = kRows - kMaxRunRows + i % 2;
-    rows[i] = i == kRuns - 1 ? kRows - 1 : i * 37 * (kMaxRunRows + 1) % last;
+    rows[i] = i == 127 ? kRows - 1 : i * 37 * (kMaxRunRows + 1) % last;
     outputs[i] = static_cast<uint16_t>(i * 613 % kRuns * (kMaxRunRows + 1));
-    if (i % 3 != 0 && i != kRuns - 1) continue;
-    words[i / 64] |= uint64_t{1} << i % 64;
-    std::fill_n(in_set.begin() + rows[i], length(i), true);
+    // One of each three, and all of every third word.
+    if (i % 3 == 0 || i / 64 % 3 == 1) words[i / 64] |= uint64_t{1} << i % 64;
   }
+  const auto in_set = [&](uint32_t run) { return words[run / 64] >> run % 64 & 1; };
   FinishRunsArgs args = {};
+  args.sums = sums;
   args.runs = words.data();
   args.rows = rows.data();
   args.outputs = outputs.data();
-  args.four_words = 2 * (kMaxRunRows - 3);
-  args.word_count = kRuns / 64;
-  std::vector<uint8_t> overlaps(kRuns);
-  for (uint32_t i = 0; i < kRuns; ++i) {
-    overlaps[i] = static_cast<uint8_t>(length(i) < 4 ? length(i) - 1 : length(i) - 4);
-  }
-  args.overlaps = overlaps.data();
+  args.first_words = first_words;
+  args.row_count = kRows;
   for (const KernelTable* kernels : present_kernels()) {
     SCOPED_TRACE(kernels->name);
     for (const float* scale :
-         {static_cast<const float*>(nullptr), static_cast<const float*>(scales.data())}) {
+         {static_cast<const float*>(nullptr), static_cast<const float*>(scales)}) {
       std::vector<float> written(kRuns * (kMaxRunRows + 1), kUntouched), expected = written;
       for (uint32_t i = 0; i < kRuns; ++i) {
-        if (i % 3 != 0 && i != kRuns - 1) continue;
+        if (!in_set(i)) continue;
         for (uint32_t r = 0; r < length(i); ++r) {
           const size_t row = rows[i] + r;
           expected[outputs[i] + r] = sums[row] * (scale ? scale[row] : 1) + 0.0f;
         }
       }
-      args.sums = sums.data();
       args.scales = scale;
       args.to = written.data();
       EXPECT_TRUE(kernels->finish_runs(args));
       for (size_t i = 0; i < written.size(); ++i) {
         ASSERT_EQ(bits_of(written[i]), bits_of(expected[i])) << i;
       }
-      for (uint32_t row = 0; row < kRows; row += row < 100 ? 1 : 97) {
+      for (uint32_t row = 0; row < kRows; row += row < 100 || row + 100 > kRows ? 1 : 97) {
         const float before = sums[row];
         for (const float value : {std::numeric_limits<float>::infinity(), std::nanf("")}) {
           sums[row] = value;
-          EXPECT_EQ(kernels->finish_runs(args), !in_set[row]) << row;
+          EXPECT_FALSE(kernels->finish_runs(args)) << row;
         }
         sums[row] = -kLargest;
         EXPECT_TRUE(kernels->finish_runs(args));
         sums[row] = before;
       }
     }
+  }
+  // A sum may be finite, and not its value.
+  sums[7] = kLargest;
+  scales[7] = 2;
+  args.scales = scales;
+  for (const KernelTable* kernels : present_kernels()) {
+    EXPECT_FALSE(kernels->finish_runs(args)) << kernels->name;
   }
 }
 
