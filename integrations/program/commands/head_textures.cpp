@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "integrations/program/commands/head_textures.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 
 #include "integrations/program/io/materials.h"
 #include "integrations/program/io/output.h"
+#include "integrations/program/render/hair_texture.h"
 #include "integrations/program/render/png.h"
 #include "integrations/program/render/skin_texture.h"
 #include "integrations/program/scene/posed_scene.h"
@@ -33,6 +36,35 @@ render::SkinLayout head_layout(uint64_t seed) {
   return layout;
 }
 
+size_t mesh_named(const PosedScene& scene, const std::string& name) {
+  size_t i = 0;
+  while (i < scene.meshes.size() && scene.meshes[i].name != name) ++i;
+  if (i == scene.meshes.size() || scene.meshes[i].colors.empty()) {
+    fail(kInternal, "cannot make textures", scene.shown, "there is no " + name + " with colors",
+         "");
+  }
+  return i;
+}
+
+/// The gray texture times the color of the hair, which the first vertex of such a mesh has.
+SurfaceMaterial hair_material(const char* name, const std::vector<uint8_t>& colors,
+                              const std::string& texture) {
+  const render::Color c = {colors[0], colors[1], colors[2]};
+  const math::Vec3 linear = render::to_linear(c);
+  SurfaceMaterial material;
+  material.name = name;
+  // The grays are about 0.75, which is half of the light.
+  const auto lighter = [](float share) {
+    return std::min(std::round(share * 2 * 1000) / 1000.0, 1.0);
+  };
+  material.color = {lighter(linear.x), lighter(linear.y), lighter(linear.z), 1};
+  material.roughness = 0.6;
+  material.alpha_cutoff = 0.4;
+  material.has_color = material.has_roughness = true;
+  material.textures[size_t(TextureKind::kBaseColor)] = texture;
+  return material;
+}
+
 }  // namespace
 
 void write_head_textures(Dna dna, uint64_t seed, const std::string& path, const std::string& folder,
@@ -44,11 +76,7 @@ void write_head_textures(Dna dna, uint64_t seed, const std::string& path, const 
   PosedScene scene = open_scene(std::move(file), session);
   pose_scene(scene, Frame{});
   const std::vector<render::Surface> surfaces = scene.surfaces();
-  size_t head = 0;
-  while (head < scene.meshes.size() && scene.meshes[head].name != "head_lod0_mesh") ++head;
-  if (head == scene.meshes.size() || !surfaces[head].colors) {
-    fail(kInternal, "cannot make textures", path, "there is no head with colors", "");
-  }
+  const size_t head = mesh_named(scene, "head_lod0_mesh");
   const render::SkinMaps maps =
       render::make_skin_maps(surfaces[head], head_layout(seed), kSkinWidth, kSkinHeight);
 
@@ -67,8 +95,20 @@ void write_head_textures(Dna dna, uint64_t seed, const std::string& path, const 
   }
   Materials materials;
   materials.list.push_back(skin);
+  const render::HairMap hair = render::make_hair_map();
+  const std::string hair_path = out.file("hair.png");
+  outputs.push_back(std::make_unique<Output>(hair_path));
+  outputs.back()->write(render::to_gray_png(hair.gray, hair.alpha));
+  for (const char* name : {"hair", "brows", "lashes"}) {
+    const size_t mesh = mesh_named(scene, std::string(name) + "_lod0_mesh");
+    materials.list.push_back(hair_material(name, scene.meshes[mesh].colors, hair_path));
+  }
   for (uint32_t lod = 0; lod < info.lod_count; ++lod) {
-    materials.of_mesh["head_lod" + std::to_string(lod) + "_mesh"] = 0;
+    const std::string of_lod = "_lod" + std::to_string(lod) + "_mesh";
+    materials.of_mesh["head" + of_lod] = 0;
+    for (size_t m = 1; m < materials.list.size(); ++m) {
+      materials.of_mesh[materials.list[m].name + of_lod] = m;
+    }
   }
   outputs.push_back(std::make_unique<Output>(materials_path(path)));
   outputs.back()->write(materials_json(materials, fs::path(path).parent_path().string()));

@@ -599,7 +599,12 @@ json material_json(const Material& material) {
   }
   result["pbrMetallicRoughness"] = std::move(surface);
   if (material.normal_image != kNone) result["normalTexture"]["index"] = material.normal_image;
-  if (material.color[3] < 1 || material.see_through) result["alphaMode"] = "BLEND";
+  if (material.alpha_cutoff > 0) {
+    result["alphaMode"] = "MASK";
+    result["alphaCutoff"] = material.alpha_cutoff;
+  } else if (material.color[3] < 1 || material.see_through) {
+    result["alphaMode"] = "BLEND";
+  }
   if (material.double_sided) result["doubleSided"] = true;
   return result;
 }

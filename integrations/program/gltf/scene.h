@@ -93,6 +93,8 @@ struct Material {
   double roughness = 1;                        // times the texture
   bool double_sided = false;
   bool see_through = false;  // by the alpha of its texture
+  double alpha_cutoff =
+      0;  // where that is at least this, it hides all, elsewhere nothing; 0: it blends
   uint32_t color_image = kNone, normal_image = kNone, roughness_image = kNone;
 
   bool has_textures() const {

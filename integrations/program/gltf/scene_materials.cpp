@@ -50,8 +50,9 @@ uint32_t image_number(const std::string& path, const ImageOptions& options, Know
 
 bool same(const Material& a, const Material& b) {
   return a.color == b.color && a.roughness == b.roughness && a.double_sided == b.double_sided &&
-         a.see_through == b.see_through && a.color_image == b.color_image &&
-         a.normal_image == b.normal_image && a.roughness_image == b.roughness_image;
+         a.see_through == b.see_through && a.alpha_cutoff == b.alpha_cutoff &&
+         a.color_image == b.color_image && a.normal_image == b.normal_image &&
+         a.roughness_image == b.roughness_image;
 }
 
 uint32_t material_number(const Material& material, Scene& scene) {
@@ -105,6 +106,10 @@ std::vector<std::string> apply_materials(const cli::Materials& materials,
       if (material.color_image != kNone) {
         if (!from->has_color) material.color = {1, 1, 1, 1};
         material.see_through = known.at(from->texture(cli::TextureKind::kBaseColor)).has_alpha;
+        if (from->alpha_cutoff > 0 && material.see_through) {
+          material.alpha_cutoff = from->alpha_cutoff;
+          material.double_sided = true;
+        }
         mesh.colors.clear();
       }
       if (material.roughness_image != kNone && !from->has_roughness) material.roughness = 1;

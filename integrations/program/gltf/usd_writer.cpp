@@ -367,7 +367,7 @@ std::vector<UsdTexture> textures_of(const Material& material) {
 }
 
 void write_texture(const UsdTexture& texture, const Image& image, const std::string& path,
-                   UsdText& text) {
+                   bool with_alpha, UsdText& text) {
   text.begin_prim("Shader", texture.name);
   text.line("uniform token info:id = \"UsdUVTexture\"");
   text.line("asset inputs:file = " + asset_path(image.path));
@@ -379,6 +379,7 @@ void write_texture(const UsdTexture& texture, const Image& image, const std::str
   text.value("float4 inputs:scale", texture.scale);
   text.value("float4 inputs:bias", texture.bias);
   text.line(texture.output);
+  if (with_alpha) text.line("float outputs:a");
   text.end_prim();
 }
 
@@ -414,13 +415,21 @@ void write_material(const Material& material, const std::vector<Image>& images, 
     text.value("float inputs:roughness", material.roughness);
   }
   text.line("float inputs:metallic = 0");
-  text.value("float inputs:opacity", material.color[3]);
+  if (material.see_through) {
+    text.line("float inputs:opacity.connect = <" + path + "/BaseColor.outputs:a>");
+  } else {
+    text.value("float inputs:opacity", material.color[3]);
+  }
+  if (material.alpha_cutoff > 0) {
+    text.value("float inputs:opacityThreshold", material.alpha_cutoff);
+  }
   text.line("token outputs:surface");
   text.end_prim();
   if (colors) write_primvar_reader("Colors", "float3", "displayColor", text);
   if (!textures.empty()) write_primvar_reader("TextureCoordinates", "float2", "st", text);
   for (const UsdTexture& texture : textures) {
-    write_texture(texture, images[texture.image], path, text);
+    write_texture(texture, images[texture.image], path, texture.is_color && material.see_through,
+                  text);
   }
   text.end_prim();
 }

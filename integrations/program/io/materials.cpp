@@ -82,10 +82,13 @@ SurfaceMaterial material_of(const Json& object, const std::string& where, const 
     } else if (key == "roughness") {
       material.roughness = share_of(value, place);
       material.has_roughness = true;
+    } else if (key == "alpha_cutoff") {
+      material.alpha_cutoff = share_of(value, place);
     } else if (key == "textures") {
       read_textures(value, place, folder, material);
     } else {
-      wrong_materials(place, "a material has name, base_color, roughness and textures");
+      wrong_materials(place,
+                      "a material has name, base_color, roughness, alpha_cutoff and textures");
     }
   }
   if (material.name.empty()) wrong_materials(where, "it has no name");
@@ -178,6 +181,7 @@ std::string materials_json(const Materials& materials, const std::string& folder
     nlohmann::ordered_json object = {{"name", material.name}};
     if (material.has_color) object["base_color"] = material.color;
     if (material.has_roughness) object["roughness"] = material.roughness;
+    if (material.alpha_cutoff > 0) object["alpha_cutoff"] = material.alpha_cutoff;
     for (const TextureKind kind : kKinds) {
       const std::string& path = material.texture(kind);
       if (!path.empty()) object["textures"][texture_kind_name(kind)] = relative_path(path, folder);

@@ -3,11 +3,14 @@
 // file beside it, head.materials.json for head.dna:
 //
 //     {"materials": [{"name": "skin", "base_color": [1, 1, 1, 1], "roughness": 0.5,
-//                     "textures": {"base_color": "skin.png", "normal": "skin_n.png", "roughness": "skin_r.png"}}],
-//      "meshes": {"head_lod0_mesh": "skin"}}
+//                     "textures": {"base_color": "skin.png", "normal": "skin_n.png", "roughness": "skin_r.png"}},
+//                    {"name": "hair", "alpha_cutoff": 0.4, "textures": {"base_color": "hair.png"}}],
+//      "meshes": {"head_lod0_mesh": "skin", "hair_lod0_mesh": "hair"}}
 //
 // Paths of textures are relative to this file. Colors are linear red, green, blue, alpha; colors and roughness are
-// multiplied by their textures, of which base colors are sRGB. Everything but the name may be left out.
+// multiplied by their textures, of which base colors are sRGB. A texture with alpha is transparent; with an
+// alpha_cutoff, as cards of hair have it, it hides all where its alpha is at least that, and nothing elsewhere, and the
+// mesh is seen from both sides. Everything but the name may be left out.
 #pragma once
 
 #include <array>
@@ -28,6 +31,7 @@ struct SurfaceMaterial {
   std::string name;
   std::array<double, 4> color = {1, 1, 1, 1};
   double roughness = 0.5;
+  double alpha_cutoff = 0;                          // 0: the alpha of a texture blends
   bool has_color = false, has_roughness = false;    // were given; else the mesh's own hold
   std::array<std::string, kTextureKinds> textures;  // paths by kind, from here; empty: none
 

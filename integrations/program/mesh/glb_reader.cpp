@@ -340,6 +340,10 @@ uint32_t Glb::material_number(const Json& primitive) {
   surface.roughness = 1;
   surface.has_color = surface.has_roughness = true;
   read_texture_of(from, "normalTexture", TextureKind::kNormal, material);
+  if (text(from, "alphaMode") == "MASK") {
+    surface.alpha_cutoff =
+        from.contains("alphaCutoff") ? share(from["alphaCutoff"], "the cutoff of a material") : 0.5;
+  }
   const auto pbr = from.find("pbrMetallicRoughness");
   if (pbr != from.end() && pbr->is_object()) {
     const Json& color = list(*pbr, "baseColorFactor");

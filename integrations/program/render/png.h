@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "integrations/program/render/image.h"
 
@@ -11,5 +13,8 @@ namespace mien::render {
 /// zlib. Throws std::bad_alloc if memory is short, std::runtime_error with libpng's own words
 /// otherwise.
 std::string to_png(const Image& image);
+
+/// The same with an alpha for each pixel, of an image of which only the red is used: gray and alpha, 8 bits each.
+std::string to_gray_png(const Image& gray, const std::vector<uint8_t>& alpha);
 
 }  // namespace mien::render

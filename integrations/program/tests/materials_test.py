@@ -8,6 +8,7 @@ Textures are small PNG files made here.
 """
 import json
 import os
+import re
 import struct
 import sys
 import zlib
@@ -72,8 +73,10 @@ class GeneratedHead(MaterialsTest):
     def test_textures_of_the_skin(self):
         self.ok("demo-head", "-o", path("made.dna"), "--textures", path("made"), "-q")
         sidecar = json.loads(read("made.materials.json"))
-        self.assertEqual(sidecar["meshes"], {"head_lod%d_mesh" % lod: "skin" for lod in range(8)})
-        skin, = sidecar["materials"]
+        parts = {"head": "skin", "hair": "hair", "brows": "brows", "lashes": "lashes"}
+        self.assertEqual(sidecar["meshes"],
+                         {"%s_lod%d_mesh" % (part, lod): name for part, name in parts.items() for lod in range(8)})
+        skin, *hairs = sidecar["materials"]
         self.assertEqual(skin["textures"], {"base_color": "made/skin_basecolor.png", "normal": "made/skin_normal.png",
                                             "roughness": "made/skin_roughness.png"})
         for kind, size in (("basecolor", (1280, 640)), ("normal", (1280, 640)), ("roughness", (640, 320))):
@@ -95,6 +98,32 @@ class GeneratedHead(MaterialsTest):
         material, attributes = self.material(glb, "head_lod4_mesh")
         self.assertEqual(self.image(glb, material, "normalTexture"), read("made/skin_normal.png"))
         self.assertNotIn("COLOR_0", attributes)
+        # Hair, brows and lashes share an image of gray and alpha, each with the color of its hairs, and are cut out.
+        self.assertEqual(struct.unpack(">IIBB", read("made/hair.png")[16:26]), (512, 640, 8, 4))
+        for hair in hairs:
+            self.assertEqual(hair["textures"], {"base_color": "made/hair.png"})
+            self.assertEqual(hair["base_color"][3], 1)
+            self.assertLess(hair["base_color"][2], hair["base_color"][0], "brown")
+            material, attributes = self.material(glb, hair["name"] + "_lod4_mesh")
+            self.assertEqual((material["alphaMode"], material["alphaCutoff"], material["doubleSided"]),
+                             ("MASK", hair["alpha_cutoff"], True))
+            self.assertEqual(material["pbrMetallicRoughness"]["baseColorFactor"], hair["base_color"])
+            self.assertNotIn("COLOR_0", attributes)
+        self.assertNotIn("alphaMode", self.material(glb, "head_lod4_mesh")[0])
+        self.assertEqual(sum("hair" in image.get("name", "") for image in glb.json["images"]), 1)
+        # Drawn, there is skin between the hairs of the brows: more of it than between the strips without a texture.
+        dark = {}
+        for name in ("plain", "made"):
+            self.ok("render", path(name + ".dna"), "-o", path("brow.png"), "--meshes", "brows*", "--size", "192",
+                    "--background", "light", "--force", "-q")
+            picture = Picture(read("brow.png"))
+            dark[name] = sum(max(picture.at(x, y)) < 110 for x in range(192) for y in range(192))
+        self.assertGreater(dark["made"], 40)
+        self.assertLess(dark["made"], 0.85 * dark["plain"])
+        self.ok("export", path("made.dna"), "-o", path("made.usda"), "--lod", "4", "-q")
+        text = read("made.usda").decode()
+        self.assertEqual(text.count("float inputs:opacityThreshold = 0.4"), 3)
+        self.assertEqual(len(re.findall(r"float inputs:opacity.connect = <.*/BaseColor.outputs:a>", text)), 3)
         self.fails(USAGE, "demo-head", "-o", "-", "--textures", path("made"), says="--textures")
 
 
@@ -172,6 +201,17 @@ class Sidecar(MaterialsTest):
         self.ok("render", path("tiny.dna"), "-o", path("drawn.png"), "--size", "160", "--force")
         return Picture(read("drawn.png"))
 
+    def test_cutouts_come_back_from_a_glb(self):
+        self.sidecar({"materials": [{"name": "hair", "alpha_cutoff": 0.25,
+                                     "textures": {"base_color": "cut.png"}}], "meshes": {MESH: "hair"}})
+        write("cut.png", png((200, 20, 20, 128)))
+        self.ok("export", path("tiny.dna"), "-o", path("cut.glb"), "--force")
+        material, _ = self.material(Glb(read("cut.glb")), MESH)
+        self.assertEqual((material["alphaMode"], material["alphaCutoff"]), ("MASK", 0.25))
+        self.ok("author", path("cut.glb"), "-o", path("cut.dna"), "--confidence", "0", "--force", "-q")
+        back, = [m for m in json.loads(read("cut.materials.json"))["materials"] if m["name"] == "hair"]
+        self.assertEqual(back["alpha_cutoff"], 0.25)
+
     def test_images_show_the_textures(self):
         plain = self.draw(base_color=png((128, 128, 128)))
         red = self.draw(base_color=RED)
@@ -224,6 +264,7 @@ class Sidecar(MaterialsTest):
                  ({"materials": [{"name": "a", "base_color": [1, 1, 1]}]}, "four"),
                  ({"materials": [{"name": "a", "base_color": [1, 1, 1, 2]}]}, "0 to 1"),
                  ({"materials": [{"name": "a", "roughness": "x"}]}, "0 to 1"),
+                 ({"materials": [{"name": "a", "alpha_cutoff": 2}]}, "0 to 1"),
                  ({"materials": [{"name": "a", "textures": {"gloss": "x"}}]}, "gloss"),
                  ({"materials": [{"name": "a", "textures": {"normal": "x" * 4096}}]}, "4095"),
                  ({"materials": [{"name": "a"}], "meshes": {MESH: "b"}}, "no such material"),

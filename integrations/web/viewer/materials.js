@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Materials of the meshes of a rig, out of the file that `mien author` writes beside it: head.materials.json.
-import { LinearSRGBColorSpace, MeshStandardMaterial, RepeatWrapping, SRGBColorSpace, Texture } from "three";
+import { DoubleSide, LinearSRGBColorSpace, MeshStandardMaterial, RepeatWrapping, SRGBColorSpace, Texture } from "three";
 
 // What each texture of the file is to three.js.
 const MAPS = { base_color: "map", normal: "normalMap", roughness: "roughnessMap" };
@@ -46,6 +46,11 @@ export class Materials {
       made.transparent = made.opacity < 1;
     }
     if (typeof given.roughness === "number") made.roughness = given.roughness;
+    if (given.alpha_cutoff > 0) { // cards of hair: soft edges by the samples of a pixel
+      made.alphaTest = given.alpha_cutoff;
+      made.alphaToCoverage = true;
+      made.side = DoubleSide;
+    }
     for (const [kind, slot] of Object.entries(MAPS)) {
       const image = this.#textures.get(given.textures?.[kind]);
       if (!image) continue;

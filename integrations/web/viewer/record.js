@@ -146,6 +146,10 @@ export async function exportGlb(model) {
     });
     const { color, roughness = 0.6, metalness = 0, vertexColors, transparent, opacity, side } = mesh.material;
     const material = new MeshStandardMaterial({ color, roughness, metalness, vertexColors, transparent, opacity, side });
+    if (mesh.material.alphaTest > 0) { // without its texture a card of hair would be a sheet
+      geometry.setAttribute("uv", mesh.geometry.attributes.uv);
+      material.setValues({ map: mesh.material.map, alphaTest: mesh.material.alphaTest });
+    }
     const made = new Mesh(geometry, material);
     made.name = mesh.name;
     if (moving.length) {

@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 #include <png.h>
 
+#include "integrations/program/render/hair_texture.h"
 #include "integrations/program/render/label.h"
 #include "integrations/program/render/png.h"
+#include "integrations/program/render/texture.h"
 
 namespace mien::render {
 namespace {
@@ -45,6 +47,48 @@ TEST(Png, ComesBackAsItWas) {
     EXPECT_EQ(back.height, height);
     EXPECT_EQ(back.pixels, image.pixels);
     EXPECT_EQ(to_png(image), bytes);
+  }
+}
+
+TEST(Png, GrayAndAlphaComeBackAsTheyWere) {
+  const Image gray(3, 2, {90, 90, 90});
+  const std::vector<uint8_t> alpha = {0, 1, 2, 128, 254, 255};
+  std::vector<uint8_t> back_alpha;
+  const Image back = read_png(to_gray_png(gray, alpha), back_alpha);
+  EXPECT_EQ(back.pixels, gray.pixels);
+  EXPECT_EQ(back_alpha, alpha);
+}
+
+/// Share of a part of the texture, in pixels from the lower left corner, that is opaque.
+double covered(const HairMap& map, int left, int low, int width, int height) {
+  int opaque = 0;
+  for (int y = low; y < low + height; ++y) {
+    for (int x = left; x < left + width; ++x) {
+      const int row = map.gray.height - 1 - y;
+      opaque += map.alpha[size_t(row * map.gray.width + x)] >= 102;
+    }
+  }
+  return double(opaque) / (width * height);
+}
+
+TEST(HairMap, HairsTaperAndStayInTheirLanes) {
+  const HairMap map = make_hair_map();
+  ASSERT_EQ(map.gray.width, 512);
+  ASSERT_EQ(map.gray.height, 640);
+  EXPECT_EQ(make_hair_map().alpha, map.alpha);
+  EXPECT_EQ(covered(map, 320, 384, 64, 256), 1);  // dense
+  for (int lane = 0; lane < 5;
+       ++lane) {  // locks: full from the root to the middle, thin at the tips
+    EXPECT_GT(covered(map, 64 * lane + 16, 420, 32, 60), 0.8) << lane;
+    EXPECT_LT(covered(map, 64 * lane, 620, 64, 20), 0.35) << lane;
+  }
+  EXPECT_LT(covered(map, 0, 128, 256, 24), 0.5 * covered(map, 0, 256, 256, 128));
+  for (int lane = 0; lane < 16; ++lane) {  // lashes, brows, lashes
+    const bool lash = lane < 4 || lane >= 12;
+    const double root = covered(map, 32 * lane, lash ? 0 : 40, 32, 24);
+    EXPECT_GT(root, 0.2) << lane;
+    EXPECT_LT(root, 0.8) << lane;
+    EXPECT_LT(covered(map, 32 * lane, 116, 32, 12), 0.15) << lane;
   }
 }
 
