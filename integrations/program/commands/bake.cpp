@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "integrations/program/commands/bake_images.h"
 #include "integrations/program/commands/options.h"
 #include "integrations/program/io/bound_clip.h"
 #include "integrations/program/io/clip_file.h"
@@ -18,7 +19,7 @@ struct BakeOptions {
   std::string rig;
   OutputFile output;
   bool no_geometry = false;
-  std::string tolerance, report;
+  std::string tolerance, report, pictures;
   std::vector<std::string> regions, clips;
   LoadOptions load;
   RigOptions evaluation;
@@ -126,7 +127,15 @@ void bake_reduced(const BakeOptions& options, const MienRigDesc& desc, const Rig
   if (!session.quiet) {
     std::fputs(reduction_text(reduced, unit).c_str(), stderr);
   }
+  std::string image;
+  if (!options.pictures.empty()) image = draw_reduction(reduced, options.rig, session);
   write_baked(reduced.rig.get(), reduced.deformer.get(), options.output.path, session);
+  if (!image.empty()) {
+    const OutputFolder folder(options.pictures);
+    Output drawn(folder.file("distance.png"));
+    drawn.write(image);
+    drawn.commit();
+  }
   if (options.report.empty()) return;
   const std::string json = reduction_json(reduced, unit);
   Output report(options.report);
@@ -148,6 +157,15 @@ void run(const BakeOptions& options, const Session& session) {
     }
     refuse_missing_folder(options.report);
     refuse_replacing({options.report, options.output.force}, {options.rig, options.output.path});
+  }
+  if (!options.pictures.empty()) {
+    if (options.tolerance.empty()) {
+      fail_usage("--pictures", "there is nothing to draw without --tolerance", "add --tolerance");
+    }
+    if (options.rig == "-") {
+      fail_usage("RIG -", "the rig is read again for pictures", "put it in a file");
+    }
+    refuse_missing_folder(options.pictures);
   }
   if (!options.tolerance.empty()) {
     parse_tolerances(options, false);
@@ -204,6 +222,10 @@ Command add_bake_command(CLI::App& app, const Session& session) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   bake->add_option("--report", options->report, "Write what --tolerance did as JSON")
       ->type_name("R.json");
+  bake->add_option("--pictures", options->pictures,
+                   "With --tolerance: draw how far positions of LOD 0 moved as a PNG\nfile in this "
+                   "folder")
+      ->type_name("DIR");
   add_load_options(*bake, options->load);
   add_rig_options(*bake, options->evaluation, false);
   bake->footer(

@@ -80,6 +80,41 @@ struct Farthest {
   double square = 0;
   uint32_t mesh = 0, position = 0;
 };
+
+/// Raises each of `largest` to the square of the distance of its position.
+void add_distances(const MienFloatView& before, const MienFloatView& after,
+                   std::vector<float>& largest) {
+  largest.resize(before.count / 3);
+  for (size_t p = 0; p < largest.size(); ++p) {
+    float square = 0;
+    for (size_t i = 3 * p; i < 3 * p + 3; ++i) {
+      square += (after.data[i] - before.data[i]) * (after.data[i] - before.data[i]);
+    }
+    largest[p] = std::max(largest[p], square);
+  }
+}
+
+/// Squares of distances -> distances, and those of the worst pose of LOD 0.
+void finish_map(Character& original, Character& reduced, const ProofPoses& poses, size_t worst,
+                ProofMap& map) {
+  for (Character* character : {&original, &reduced}) {
+    poses.set(worst, character->raw());
+    character->evaluate(0);
+  }
+  const MienMutableFloatView raw = original.raw();
+  map.raw.assign(raw.data, raw.data + raw.count);
+  map.in_worst_pose.resize(map.largest.size());
+  const MienIndex16View meshes = original.meshes_of(0);
+  for (size_t m = 0; m < meshes.count; ++m) {
+    const uint32_t mesh = meshes.data[m];
+    add_distances(original.deformed(mesh), reduced.deformed(mesh), map.in_worst_pose[mesh]);
+  }
+  for (auto* distances : {&map.in_worst_pose, &map.largest}) {
+    for (std::vector<float>& of_mesh : *distances) {
+      for (float& distance : of_mesh) distance = std::sqrt(distance);
+    }
+  }
+}
 }  // namespace
 
 Proof prove(Character& original, Character& reduced, const Tolerances& tolerances, double limit,
@@ -90,6 +125,7 @@ Proof prove(Character& original, Character& reduced, const Tolerances& tolerance
   proof.pose_count = poses.count();
   proof.lods.resize(lod_count);
   proof.regions.resize(tolerances.regions.size() + 1);
+  proof.map.largest.resize(rig_count(original.rig.get(), MIEN_KIND_MESH));
   std::vector<double> squares(lod_count);
   std::vector<uint64_t> compared(lod_count);
   size_t worst = 0;
@@ -118,6 +154,7 @@ Proof prove(Character& original, Character& reduced, const Tolerances& tolerance
           Farthest& of_region = farthest[tolerances.region_at(meshes.data[m], position)];
           if (square > of_region.square) of_region = {square, meshes.data[m], position};
         }
+        if (lod == 0) add_distances(before, after, proof.map.largest[meshes.data[m]]);
         squares[lod] += sum;
         compared[lod] += before.count / 3;
       }
@@ -147,6 +184,7 @@ Proof prove(Character& original, Character& reduced, const Tolerances& tolerance
     if (compared[lod]) proof.lods[lod].rms = std::sqrt(squares[lod] / double(compared[lod]));
   }
   proof.worst_pose = poses.describe(worst);
+  if (lod_count != 0) finish_map(original, reduced, poses, proof.lods[0].pose, proof.map);
   return proof;
 }
 

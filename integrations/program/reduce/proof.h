@@ -22,8 +22,15 @@ struct RegionProof {
   std::string shown_pose;
 };
 
+/// Distances at LOD 0, for images: [mesh][position] in the unit of the file. Meshes of other LODs have none.
+struct ProofMap {
+  std::vector<float> raw;  // controls of the worst pose
+  std::vector<std::vector<float>> in_worst_pose, largest;
+};
+
 struct Proof {
   size_t pose_count = 0;
+  ProofMap map;
   std::vector<LodProof> lods;
   std::vector<RegionProof> regions;  // those without a region, then each region
   std::string worst_pose;            // of all LODs, in shares of their tolerances

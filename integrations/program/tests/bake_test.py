@@ -6,6 +6,7 @@
 """
 import json
 import os
+import struct
 import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..", "tests", "support"))
@@ -118,6 +119,18 @@ class Bake(ProgramTest):
         for region, tolerance in zip(report["regions"], (0.005, 0.03)):
             self.assertAlmostEqual(region["tolerance"], tolerance)
             self.assertLessEqual(region["worst"], region["tolerance"])
+
+    def test_pictures(self):
+        self.ok("bake", path("ml.dna"), "-o", path("drawn.rig"), "--tolerance", "0.5mm", "--pictures", path("drawn"))
+        self.ok("bake", path("ml.dna"), "-o", path("plain.rig"), "--tolerance", "0.5mm")
+        self.assertEqual(read("drawn.rig"), read("plain.rig"))
+        image = read("drawn/distance.png")
+        self.assertEqual(image[:8], b"\x89PNG\r\n\x1a\n")
+        self.assertEqual(struct.unpack(">I", image[16:20]), (1464,))
+        bake = ["bake", path("ml.dna"), "-o", path("out.rig")]
+        self.fails(USAGE, *bake, "--pictures", path("drawn"), says="add --tolerance")
+        self.fails(USAGE, "bake", "-", "-o", path("out.rig"), "--tolerance", "1mm", "--pictures", path("drawn"),
+                   says="put it in a file")
 
     def test_tolerance_refusals(self):
         bake = ["bake", path("ml.dna"), "-o", path("none.rig")]

@@ -71,6 +71,9 @@ TEST(Proof, FindsTheOnePositionThatDiffers) {
   EXPECT_GE(proof.lods[0].worst, 0.2499);
   EXPECT_GT(proof.lods[0].rms, 0);
   EXPECT_LT(proof.lods[0].rms, proof.lods[0].worst / 2);
+  EXPECT_NEAR(proof.map.largest[0][5], proof.lods[0].worst, 1e-5);
+  EXPECT_NEAR(proof.map.in_worst_pose[0][5], proof.lods[0].worst, 1e-5);
+  EXPECT_LT(proof.map.largest[0][6], 1e-5f);
   double share = 0;
   for (uint32_t lod = 0; lod < 3; ++lod) {
     share = std::max(share, proof.lods[lod].worst / (lod == 0 ? 1 : 0.5));
