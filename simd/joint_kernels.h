@@ -119,8 +119,8 @@ constexpr uint32_t kMaxRunRows = 8;
 ///
 ///     to[outputs[i] + r] = finished sums[rows[i] + r]
 ///
-/// Runs of n rows are in words first_words[n - 1] to first_words[n] - 1. Returns false if a value of any row is
-/// not finite; then nothing is written.
+/// Runs of n rows are in words first_words[n - 1] to first_words[n] - 1. Returns false, and writes nothing, if a
+/// value of any row is not finite, or if their totals overflow.
 struct FinishRunsArgs {
   const float* sums;            // [packed row], 64-byte aligned
   const float* scales;          // [packed row], 64-byte aligned, or null

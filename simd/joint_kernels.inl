@@ -279,17 +279,17 @@ inline void for_each_in_word(uint64_t bits, F&& f) {
   for (; bits != 0; bits &= bits - 1) f(static_cast<size_t>(__builtin_ctzll(bits)));
 }
 
-/// Whether all sums, times their scales if any, are finite.
+/// Whether all sums, times their scales if any, are finite, and so are their totals.
 template <bool kScaled>
 inline bool are_finite(const float* sums, const float* scales, size_t count) {
-  // NaN in a lane of a value that is not finite.
   const auto at = [&](size_t i) {
-    Vec sum = load(sums + i);
-    if constexpr (kScaled) sum = sum * load(scales + i);
-    return sum - sum;
+    const Vec sum = load(sums + i);
+    if constexpr (kScaled) return sum * load(scales + i);
+    return sum;
   };
-  // Four chains hide the latency of additions.
-  Vec a = broadcast(0.0f), b = a, c = a, d = a;
+  // A total stays infinite or NaN after a value that is. Four of them hide the latency of additions.
+  const Vec zero = broadcast(0.0f);
+  Vec a = zero, b = zero, c = zero, d = zero;
   size_t i = 0;
   for (; i + 4 * kWidth <= count; i += 4 * kWidth) {
     a = a + at(i);
@@ -298,7 +298,8 @@ inline bool are_finite(const float* sums, const float* scales, size_t count) {
     d = d + at(i + 3 * kWidth);
   }
   for (; i < count; i += kWidth) a = a + at(i);
-  return different_lanes((a + b) + (c + d), broadcast(0.0f)) == 0;
+  const Vec total = (a + b) + (c + d);
+  return different_lanes(total - total, zero) == 0;
 }
 
 /// Finishes and writes the runs of kRows rows.
