@@ -15,6 +15,7 @@ namespace {
 
 constexpr float kObserved =
     0.05f;  // a control that the vertices determine: mien_fit_observability()
+constexpr double kExplained = 0.01;  // cm: a residual of exact targets that needs no other start
 
 /// A rig with a mesh, all vertices of which are targets.
 struct Subject {
@@ -23,27 +24,36 @@ struct Subject {
   std::vector<MienSolvePoint> points;
   std::vector<uint32_t> observed;  // raw controls
   std::vector<float> initial;
+  double full_turn = 360;
 
   /// `held` are raw controls that do not move.
   explicit Subject(DnaHandle dna, const std::vector<uint32_t>& held = {}) : head(std::move(dna)) {
+    MienRigInfo info = sized<MienRigInfo>();
+    EXPECT_EQ(mien_rig_info(head.rig.get(), &info), MIEN_OK);
+    if (info.rotation_unit == MIEN_ROTATION_UNIT_RADIANS) full_turn = 2 * std::acos(-1.0);
     initial.assign(head.character.raw.begin(), head.character.raw.end());
     points = every(mesh_of(head.deformer.get(), 0).position_count, 1);
-    MienFitDesc desc = sized<MienFitDesc>();
-    desc.deformer = head.deformer.get();
-    desc.points = points.data();
-    desc.point_count = points.size();
     std::vector<uint32_t> controls;
     for (uint32_t c = 0; c < head.character.raw.count; ++c) {
       if (std::find(held.begin(), held.end(), c) == held.end()) controls.push_back(c);
     }
-    desc.controls = controls.data();
-    desc.control_count = controls.size();
-    fit = create_fit(head.rig, desc);
+    fit = fit_of(controls);
     std::vector<float> values(head.character.raw.count);
     EXPECT_EQ(mien_fit_observability(fit.get(), values.data(), values.size()), MIEN_OK);
     for (uint32_t c = 0; c < values.size(); ++c) {
       if (values[c] > kObserved) observed.push_back(c);
     }
+  }
+
+  /// Only these controls may move.
+  FitHandle fit_of(const std::vector<uint32_t>& controls) const {
+    MienFitDesc desc = sized<MienFitDesc>();
+    desc.deformer = head.deformer.get();
+    desc.points = points.data();
+    desc.point_count = points.size();
+    desc.controls = controls.data();
+    desc.control_count = controls.size();
+    return create_fit(head.rig, desc);
   }
 
   /// 8 to 25 of the observed controls, or as many as there are.
@@ -66,11 +76,20 @@ struct Subject {
     std::vector<float> found(raw.size());
     MienFitResult result = mien_fit_result_default();
     EXPECT_EQ(mien_fit_solve(fit.get(), &frame, found.data(), &result), MIEN_OK);
+    if (result.point_residual > kExplained) {
+      // Another minimum of the cost: one more start.
+      std::vector<float> start = initial;
+      for (const uint32_t c : observed) start[c] = 0.25f;
+      frame.start = start.data();
+      EXPECT_EQ(mien_fit_solve(fit.get(), &frame, found.data(), &result), MIEN_OK);
+    }
     const std::vector<float> solved = head.joints(found);
     double range = 0, joint_error = 0, control_error = 0;
     for (size_t i = 0; i < joints.size(); ++i) {
       range = std::fmax(range, std::fabs(joints[i]));
-      joint_error = std::fmax(joint_error, std::fabs(double{solved[i]} - joints[i]));
+      double error = double{solved[i]} - joints[i];
+      if (i % 9 / 3 == 1) error = std::remainder(error, full_turn);
+      joint_error = std::fmax(joint_error, std::fabs(error));
     }
     for (const uint32_t c : observed) {
       control_error = std::fmax(control_error, std::fabs(double{found[c]} - raw[c]));
@@ -136,11 +155,20 @@ Subject golden_rig(const std::string& name) {
                  quaternions ? quaternions->integers : std::vector<uint32_t>());
 }
 
+/// In ml_ext, random networks turn 30 joints by any angle, and only 17 of 90 controls are determined. These alone may
+/// move there: with all, steps that the vertices hardly determine are too long, and 100 iterations do not suffice.
+Subject determined_rig(const std::string& name) {
+  Subject subject = golden_rig(name);
+  subject.fit = subject.fit_of(subject.observed);
+  return subject;
+}
+
 void expect_all(size_t first, size_t count) {
-  // Not ml_ext, whose random networks turn joints by up to half a turn, nor body, which has no expressions.
+  // Not body: docs/solving.md, Random poses.
   for (const char* name : {"small", "small_rot", "ml"}) {
     expect_most(name, golden_rig(name), first, count);
   }
+  expect_most("ml_ext", determined_rig("ml_ext"), first, count);
   expect_most("authored", Subject(author_head()), first, count);
 }
 
