@@ -46,9 +46,8 @@ export class Materials {
       made.transparent = made.opacity < 1;
     }
     if (typeof given.roughness === "number") made.roughness = given.roughness;
-    if (given.alpha_cutoff > 0) { // cards of hair: soft edges by the samples of a pixel
+    if (given.alpha_cutoff > 0) { // cards of hair
       made.alphaTest = given.alpha_cutoff;
-      made.alphaToCoverage = true;
       made.side = DoubleSide;
     }
     for (const [kind, slot] of Object.entries(MAPS)) {
