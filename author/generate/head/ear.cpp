@@ -51,13 +51,13 @@ double inside_ear(double back, double up) {
     double amount, back, up, wide, high;
   };
   static constexpr Part kParts[] = {
-      {-0.52, -0.02, -0.50, 0.52, 0.74},  // concha
+      {-0.60, -0.02, -0.50, 0.50, 0.72},  // concha
       {-0.22, 0.00, 0.42, 0.36, 0.34},    // its upper part, the cymba
-      {0.26, 0.66, -0.35, 0.17, 0.80},    // antihelix
-      {0.20, 0.46, 0.75, 0.20, 0.34},     // where it parts
-      {0.16, 0.55, 1.30, 0.16, 0.36},     // its upper leg
-      {0.16, 0.10, 0.98, 0.40, 0.13},     // its lower leg
-      {-0.10, 0.18, 1.42, 0.24, 0.30},    // the fossa between them
+      {0.32, 0.66, -0.35, 0.17, 0.80},    // antihelix
+      {0.24, 0.46, 0.75, 0.20, 0.34},     // where it parts
+      {0.20, 0.55, 1.30, 0.16, 0.36},     // its upper leg
+      {0.20, 0.10, 0.98, 0.40, 0.13},     // its lower leg
+      {-0.18, 0.18, 1.42, 0.24, 0.30},    // the fossa between them
       {0.26, -0.46, 0.06, 0.46, 0.11},    // crus of the helix
       {0.32, -0.66, -0.46, 0.20, 0.34},   // tragus
       {-0.20, -0.42, -1.02, 0.14, 0.22},  // the notch below it
@@ -92,7 +92,7 @@ void SkinMaker::make_ear() {
   if (out_.failed()) return;
 
   const Color skin = form_.person().skin, red = redder(skin, 0.45);
-  const Color rosy = mix(skin, red, 0.45), deep = redder(mix(skin, {0, 0, 0}, 0.35), 0.5);
+  const Color rosy = mix(skin, red, 0.32), deep = redder(mix(skin, {0, 0, 0}, 0.35), 0.5);
   double middle_u = 0, middle_v = 0;
   for (uint32_t k = 0; k < ring_size_; ++k) {
     middle_u += out_.vertices[ring_[k]].u / ring_size_;
@@ -103,8 +103,11 @@ void SkinMaker::make_ear() {
   const auto place = [&](uint32_t k, const double(&step)[3], uint32_t r) {
     const auto [s, c] = turn(k);
     const double low = smooth_step(0.2, -1, s);
+    // In front there is no rim: the ear runs on into the cheek.
+    const double in_front = smooth_step(-0.1, -0.75, c) * smooth_step(0.75, 0.35, s);
+    const double share = std::min(step[0], mix(step[0], 0.95 - 0.02 * r, in_front));
     // The bowl is in front of the middle, and low.
-    const double inner = 1 - smooth_step(0.25, 0.85, step[0]);
+    const double inner = 1 - smooth_step(0.25, 0.85, share);
     // The lobe is round.
     const double round = 1 + 0.35 * bump(s, 0, -0.92, 0, 0.25, 1);
     const double p =
@@ -113,24 +116,24 @@ void SkinMaker::make_ear() {
     // The rim fades towards the lobe and where the ear grows out of the head.
     const double rim = mix(1, 0.25, std::max(smooth_step(-0.3, -0.9, s), smooth_step(-0.4, -1, c)));
     double height = step[1] * (step[1] > 0 ? rim : 1);
-    // In front the rim ends in the cheek, above the plane of the ear.
-    const double in_front = smooth_step(-0.1, -0.75, c) * smooth_step(0.75, 0.35, s);
     if (lod_ < 3) {
       const double inside =
-          inside_ear(p * step[0], q * step[0]) + 0.25 * smooth_step(-0.30, -0.80, p * step[0]);
+          inside_ear(p * share, q * share) + 0.25 * smooth_step(-0.30, -0.80, p * share);
       height =
           mix(height, inside,
               mix(smooth_step(0.86, 0.83, step[0]), smooth_step(0.99, 0.87, step[0]), in_front));
     }
     const double size = ear_.size;
     const Vertex& from = out_.vertices[root[k]];
-    Vec3 at = ear_.origin + ear_.back * (p * step[0] * size) + ear_.up * (q * step[0] * size) +
+    Vec3 at = ear_.origin + ear_.back * (p * share * size) + ear_.up * (q * share * size) +
               ear_.outward * (height * size);
     const double least = step[2] * (step[2] > 0 ? mix(1, 0.1, in_front) : 1);
     at.x = std::max(at.x, from.closed.x + least * size);
     const double left = 1 - (r + 1.0) / (rings + 1);
     const double shade = smooth_step(-0.02, -0.40, height) * (r > rings / 2);
-    return plain(at, mix(mix(from.color, rosy, std::min(1.0, 0.4 * (r + 1))), deep, 0.55 * shade),
+    return plain(at,
+                 mix(mix(from.color, rosy, std::min(1.0, mix(0.4, 0.12, in_front) * (r + 1))), deep,
+                     0.55 * shade),
                  mix(middle_u, from.u, left), mix(middle_v, from.v, left), Carrier::kSkin);
   };
   for (uint32_t r = 0; r < rings; ++r) {

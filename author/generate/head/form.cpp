@@ -92,8 +92,8 @@ double inside_jaw(double y, double z) {
   const double before = (z - 0.9) + 0.14 * (y + 7.3);
   const double both = std::min(below * 0.92, before);
   // The angle of the jaw is round.
-  const double h = std::max(0.0, 1 - std::abs(below * 0.92 - before) / 1.6);
-  return both - 0.4 * h * h;
+  const double h = std::max(0.0, 1 - std::abs(below * 0.92 - before) / 2.8);
+  return both - 0.7 * h * h;
 }
 
 }  // namespace
@@ -109,7 +109,7 @@ Form::Section Form::section(double y, double cosine) const {
                                         {-13.6, 4.95}, {-10.5, 4.9},  {-7.5, 5.3},   {-4.5, 6.1},
                                         {-1.5, 6.85},  {0.6, 7.15}};
   if (y < 0.6)
-    s.half_width = mix(s.half_width, interpolate(y, kNape), smooth_step(0.30, -0.45, cosine));
+    s.half_width = mix(s.half_width, interpolate(y, kNape), smooth_step(0.65, -0.45, cosine));
   const Person& p = person_;
   s.half_width *= 1 + 0.10 * p.weight * bump(0, y, 0, -6.8, 1, 4.5);
   s.half_width *= mix(1, p.jaw, bump(0, y, 0, -8.2, 1, 3.2));
@@ -135,7 +135,7 @@ double Form::mouth_line(double x) const {
 
 double Form::lip_height(double x, int which) const {
   const double s = std::min(std::abs(x) / (1.04 * kMouthHalfWidth), 1.0), end = 1 - s * s;
-  const double full = mix(1, person_.lips, 0.5);
+  const double full = mix(1, person_.lips, 0.5) * (1 - 0.18 * which * person_.lip_share);
   if (which < 0)
     return full * (0.80 * exact_pow(end, 0.54) - 0.05 * bump(s, 0, 0, 0, 0.30, 1) * end);
   const double bow = 0.57 + 0.11 * bump(s, 0, 0.24, 0, 0.20, 1) - 0.06 * bump(s, 0, 0, 0, 0.11, 1);
@@ -187,7 +187,8 @@ double Form::nose(double x, double y) const {
   const auto at = [row](int column) {
     return interpolate(row, kRows[0], kRows[0] + column, 5, kCount);
   };
-  const double t = at_x / at(2);
+  const double bridge = mix(1, p.bridge, smooth_step(-2.6, -1.4, y) * smooth_step(2.4, 0.8, y));
+  const double t = at_x / (at(2) * bridge);
   // Its foot is round: the dome goes to 0 a little outside.
   const double left = 1 - t * t, above = 0.5 * (left + std::sqrt(left * left + 0.006));
   double z = 0;
@@ -196,11 +197,13 @@ double Form::nose(double x, double y) const {
     z = at(1) * exact_pow(above, at(3)) * blunt * smooth_step(1.4, 1.0, t);
   }
   // The tip is a ball of its own, as are the wings; a furrow runs around each wing from the tip to the cheek.
-  z += 0.16 * bump(at_x, row, 0, -3.02, 0.62, 0.55);
+  const double ball = 1 + 0.16 * p.tip;
+  z += (0.16 + 0.10 * p.tip) * bump(at_x, row, 0, -3.02, 0.62 * ball, 0.55 * ball);
   const double dx = at_x - 1.30, dy = y + 3.50, apart = std::sqrt(dx * dx + 0.8 * dy * dy) - 0.52;
-  z += 0.36 * bump(dx, dy, 0, 0, 0.33, 0.38);
-  z -= 0.54 * bump(apart, 0, 0, 0, 0.14, 1) * smooth_step(-0.50, 0.05, dy) *
-       mix(0.25, 1, smooth_step(-0.45, 0.15, dx)) * smooth_step(1.10, 0.85, t);
+  z += (0.36 + 0.10 * p.tip) * bump(dx, dy, 0, 0, 0.33, 0.38);
+  z -= 0.34 * bump(apart, 0, 0, 0, 0.17, 1) * smooth_step(-0.50, 0.05, dy) *
+       smooth_step(0.85, 0.40, dy) * mix(0.25, 1, smooth_step(-0.45, 0.15, dx)) *
+       smooth_step(1.15, 0.70, t);
   return p.nose * z;
 }
 
@@ -212,10 +215,10 @@ double Form::relief(double x, double y) const {
   };
   const double wing = p.nose_width;
   const Bump bumps[] = {
-      {-0.42, 3.1, 0.25, 1.8, 1.25},                   // sockets
+      {-0.42 - p.sockets, 3.1, 0.25, 1.8, 1.25},       // sockets
       {-0.22, 1.60, 0.35, 0.60, 0.95},                 // inner corners of the eyes
       {0.26, 3.3, 1.45, 1.30, 0.55},                   // below the brow
-      {0.30, 3.8, 1.80, 1.5, 0.75},                    // skin that hangs over the crease
+      {0.30 + p.hood, 3.8, 1.80, 1.5, 0.75},           // skin that hangs over the crease
       {0.20 + p.brow_ridge, 1.9, 2.75, 1.5, 0.75},     // brow ridge, inner half
       {0.30 + p.brow_ridge, 4.3, 2.85, 1.3, 0.80},     // and above the outer corner of the eye
       {0.10 + 0.5 * p.brow_ridge, 0, 2.5, 1.1, 0.8},   // glabella
@@ -226,8 +229,8 @@ double Form::relief(double x, double y) const {
       {-0.02 - 0.22 * p.cheek, 4.5, -5.0, 1.4, 1.5},    // hollow of the cheek
       {0.50 + 0.74 * p.muzzle, 0, -5.7, 2.6, 1.9},      // muzzle
       {-0.06 - 0.24 * p.age, 2.25, -4.35, 0.30, 0.85},  // from nose to mouth
-      {-0.28, 2.60, -6.05, 0.32, 0.38},                 // corners of the mouth
-      {0.06, 3.2, -6.3, 0.7, 0.9},                      // and the muscles that meet beside them
+      {-0.40, 2.50, -6.00, 0.36, 0.24},                 // corners of the mouth
+      {0.08, 3.2, -6.2, 0.7, 0.9},                      // and the muscles that meet beside them
       {0.45 * p.weight, 4.3, -5.2, 1.6, 1.9},           // fat of the cheeks
       {0.30 * p.weight, 3.0, -8.6, 1.8, 1.2},           // and of the jaw
       {p.nose_hump, 0, -0.7, 0.7, 0.8},                 // bridge of the nose: convex or hollow
@@ -235,10 +238,11 @@ double Form::relief(double x, double y) const {
       {0.09, 0.42, -4.95, 0.18, 0.55},                  // its edges
       {0.10 * p.age, 3.2, -1.35, 1.1, 0.35},            // below the eyes
       {-0.30 * p.age, 4.6, -4.0, 1.2, 1.2},             // cheeks sink
-      {0.35 * p.age, 3.6, -8.3, 1.3, 1.0},              // jowls
+      {0.28 * p.age, 3.6, -8.4, 1.5, 1.2},              // jowls
       {-0.34, 0, -7.70, 1.5, 0.50},                     // fold above the chin
       {0.26 + 0.62 * p.chin, 0, -9.25, 1.25, 0.95},     // chin
       {0.10, 0.75, -9.35, 0.6, 0.6},                    // its two tubercles
+      {-p.cleft, 0, -9.25, 0.26, 0.75},                 // and the cleft between them
       {-0.16, 2.3, -9.0, 0.7, 1.0},                     // beside it, before the jowl
       {0.22, 1.7, 5.6, 1.7, 1.5},                       // frontal eminences
       {-0.10, 0, 4.3, 1.6, 0.7},                        // between them and the brow ridge
@@ -255,11 +259,11 @@ double Form::side_relief(double z, double y) const {
   };
   const double lean = 0.5 * person_.cheek;
   const Bump bumps[] = {
-      {0.13 + 0.4 * lean, 2.8, -1.2, 2.3, 1.30},  // arch of the cheekbone
-      {-0.02 - 0.3 * lean, 2.9, -4.3, 2.0, 1.4},  // below it
-      {0.24, 0.5, -7.0, 1.6, 1.5},                // angle of the jaw, with the muscle on it
-      {-0.22, 3.8, 2.5, 1.9, 1.5},                // temple
-      {0.16, 5.3, 4.4, 1.0, 1.6},                 // line from the brow up, where the forehead turns
+      {0.13 + 0.4 * lean, 2.8, -1.2, 2.3, 1.30},    // arch of the cheekbone
+      {-0.02 - 0.3 * lean, 2.9, -4.3, 2.0, 1.4},    // below it
+      {0.24 + person_.angle, 0.5, -7.0, 1.7, 1.9},  // angle of the jaw, with the muscle on it
+      {-0.22, 3.8, 2.5, 1.9, 1.5},                  // temple
+      {0.16, 5.3, 4.4, 1.0, 1.6},  // line from the brow up, where the forehead turns
   };
   double x = 0;
   for (const Bump& b : bumps) x += b.amount * bump(z, y, b.z, b.y, b.sz, b.sy);
@@ -275,7 +279,8 @@ double Form::lips(double x, double y) const {
   const double height = lip_height(x, which), q = std::abs(d) / height;
   if (q >= 1) return 0;
   const double end = std::sqrt(1 - s * s);
-  return (which > 0 ? 0.30 : 0.40) * person_.lips * end * 2.6 * std::sqrt(q) * (1 - q) -
+  return (which > 0 ? 0.30 : 0.40) * (1 - 0.25 * which * person_.lip_share) * person_.lips * end *
+             2.6 * std::sqrt(q) * (1 - q) -
          0.08 * end * (1 - q);
 }
 
@@ -333,7 +338,7 @@ FacePoint Form::face(double angle, double row, Side side) const {
   // Rows rise towards the back around the jaw, so that its edge runs up to the ear.
   const auto lift_at = [c = cosine](double at_row) {
     return 2.6 * smooth_step(0.98, -0.05, c) * smooth_step(-0.65, 0.05, c) *
-               bump(0, at_row, 0, -10.2, 1, 3.3) -
+               bump(0, at_row, 0, -10.2, 1, 4.2) -
            0.9 * smooth_step(0.2, -0.9, c) * bump(0, at_row, 0, -9, 1, 3);
   };
   p.y = y + lift_at(y);
@@ -350,9 +355,9 @@ FacePoint Form::face(double angle, double row, Side side) const {
   p.x += standing_out * smooth_step(0.35, 0.9, sine);
   // Below and behind the jaw the neck is narrower.
   if (p.y < 0) {
-    const double neck = smooth_step(0.7, -1.9, inside_jaw(p.y, p.z)) * smooth_step(-5, -0.5, p.z) *
+    const double neck = smooth_step(1.3, -2.6, inside_jaw(p.y, p.z)) * smooth_step(-5, -0.5, p.z) *
                         smooth_step(-1.8, -5.5, p.y) * smooth_step(-15.5, -12.0, p.y);
-    p.x *= 1 - 0.12 * neck;
+    p.x *= 1 - 0.10 * neck;
   }
   // Below the chin fat fills the angle to the neck.
   p.z += 0.9 * std::max(0.0, person_.weight) * bump(p.x, p.y, 0, -11.8, 3.2, 1.3) *
@@ -360,8 +365,8 @@ FacePoint Form::face(double angle, double row, Side side) const {
   // The muscle from behind the ear to the breast bone, and the larynx.
   if (cosine > -0.1 && p.y < -8 && p.y > -17) {
     const double down = (-5.0 - p.y) / 11.2;
-    const double muscle = 0.50 * bump(p.x, 0, mix(5.1, 0.8, down), 0, 0.70, 1) *
-                          smooth_step(0.40, 0.65, down) * smooth_step(1.06, 0.90, down);
+    const double muscle = 0.46 * bump(p.x, 0, mix(5.1, 0.8, down), 0, 0.95, 1) *
+                          smooth_step(0.25, 0.60, down) * smooth_step(1.08, 0.86, down);
     p.x += muscle * sine;
     p.z += muscle * cosine + 0.20 * bump(p.x, p.y, 0, -13.3, 0.8, 1.1) -
            0.30 * bump(p.x, p.y, 0, -15.9, 0.55, 0.55);
@@ -376,11 +381,18 @@ FacePoint Form::face(double angle, double row, Side side) const {
     p.z += (ridge - hollow) * smooth_step(0, 0.3, cosine);
     p.y += 0.4 * ridge;
   }
+  const Vec3 look = p;
+  // Long and short noses, their tips turned up or down; broad and narrow mouths.
+  const double base = smooth_step(-0.4, -3.3, y) * smooth_step(-5.5, -4.3, y) *
+                      smooth_step(3.6, 2.0, look.x) * front_mask;
+  p.y -= base * (person_.nose_drop + person_.tip_drop * bump(look.x, y, 0, -3.0, 1.0, 0.9));
+  p.x *= 1 + (person_.mouth_width - 1) * smooth_step(5.4, 2.6, look.x) * front_mask *
+                 smooth_step(-4.5, -5.6, look.y) * smooth_step(-8.8, -7.2, look.y);
   // Long and short chins; high and low skulls.
-  p.y -= person_.chin_drop * smooth_step(-7.3, -9.6, y) * smooth_step(-16.0, -11.5, y);
+  p.y -= person_.chin_drop * smooth_step(-7.0, -9.9, y) * smooth_step(-16.0, -11.5, y);
   p.y = raised(p.y);
   // The bust is cut along an arch: deep at the breast bone, high at the shoulders.
-  p.y += 0.006 * p.x * p.x * smooth_step(-17.5, kBottomY, y);
+  p.y += 0.016 * p.x * p.x * smooth_step(-17.5, kBottomY, y);
   // The collar of a shirt.
   const double cloth = 0.20 * smooth_step(-0.10, 0.12, kCollarY - row) *
                        mix(0.7, 1, bump(0, row, 0, kCollarY - 0.35, 1, 0.3));
@@ -406,6 +418,7 @@ FacePoint Form::face(double angle, double row, Side side) const {
 
   FacePoint out;
   out.closed = p;
+  out.look = {look.x, look.y, p.z};
   if (std::abs(s) >= 1 || front_mask <= 0) return out;
   // Lids: full turn at the edge, none from the crease on.
   const double line = lid_line(p.x);
@@ -436,9 +449,9 @@ Color Form::skin_color(Vec3 p, double row, double lid) const {
   Color c = skin;
   // Blood shows at cheeks, nose, chin and ears; the forehead is paler.
   const double red =
-      0.13 * bump(x, p.y, 4.0, -2.6, 1.9, 1.5) + 0.22 * bump(x, p.y, 0, -3.2, 1.2, 0.8) +
-      0.10 * bump(x, p.y, 0, -9.4, 1.6, 0.9) + 0.16 * bump(x, p.y, 3.2, -0.6, 1.6, 0.55) +
-      0.10 * bump(x, p.y, 3.2, 1.3, 1.7, 0.7) + 0.16 * bump(x, p.y, 1.3, -3.7, 0.5, 0.5);
+      0.06 * bump(x, p.y, 4.0, -2.6, 2.2, 1.8) + 0.14 * bump(x, p.y, 0, -3.2, 1.2, 0.8) +
+      0.05 * bump(x, p.y, 0, -9.4, 1.6, 0.9) + 0.12 * bump(x, p.y, 3.2, -0.6, 1.6, 0.55) +
+      0.10 * bump(x, p.y, 3.2, 1.3, 1.7, 0.7) + 0.12 * bump(x, p.y, 1.3, -3.7, 0.5, 0.5);
   c = mix(c, blush, std::min(red, 0.8) * in_front);
   // Lips.
   if (x < 1.06 * kMouthHalfWidth && p.z > 4) {
@@ -450,6 +463,9 @@ Color Form::skin_color(Vec3 p, double row, double lid) const {
     c = mix(c, person_.lip, inside * smooth_step(1.04, 0.80, x / kMouthHalfWidth));
     c = mix(c, mix(person_.lip, {60, 16, 20}, 0.5), 0.7 * inside * bump(0, d, 0, 0, 1, 0.05));
   }
+  // Little light comes into the corners of the mouth.
+  c = mix(c, mix(skin, {64, 22, 22}, 0.6),
+          0.42 * bump(x, p.y, kMouthHalfWidth, mouth_line(p.x), 0.22, 0.11));
   // Edges of the upper lids are dark with lashes.
   if (lid > 0) {
     const double open = upper_opening(p.x);

@@ -42,6 +42,14 @@ struct Person {
   double weight = 0;                                   // -1 lean ... 1 heavy
   double nose_hump = 0, brow_height = 0;               // cm
   double chin_drop = 0, forehead = 0, brow_ridge = 0;  // cm: longer, farther in front
+  double nose_drop = 0, tip_drop = 0;                  // cm: base and tip of the nose, lower
+  double bridge = 1, mouth_width = 1;                  // breadths
+  double tip = 0;        // -1 a fine tip of the nose with small wings ... 1 a round one
+  double lip_share = 0;  // -1 a full upper lip ... 1 a full lower lip
+  double hood = 0;       // cm: skin that hangs over the crease of the upper lid
+  double sockets = 0;    // cm: deeper
+  double angle = 0;      // cm: angles of the jaw, farther out
+  double cleft = 0;      // cm: depth of the cleft in the chin
   double eye_tilt = 0;   // radians by which the outer corner is higher
   double age = 1.0 / 6;  // 0 ... 1: 20 ... 80 years
   HairStyle style = HairStyle::kParted;
@@ -51,7 +59,7 @@ Person make_person(uint64_t seed);
 
 // Landmarks -------------------------------------------------------------------------------------
 
-constexpr Vec3 kEye = {3.2, 0.3, 6.8};  // center of the left eyeball
+constexpr Vec3 kEye = {3.1, 0.3, 6.8};  // center of the left eyeball
 constexpr double kEyeRadius = 1.60;
 constexpr double kLidRadius = 1.78;          // outside of the lids
 constexpr double kEyeHalfWidth = 1.52;       // of the opening between the lids
@@ -66,6 +74,7 @@ constexpr double kJawOpenAngle = 22;  // degrees
 /// A place on the face, before the neutral pose opens the lids.
 struct FacePoint {
   Vec3 closed;
+  Vec3 look;       // the same with nose, mouth and chin where the designed person has them
   double lid = 0;  // radians that the neutral pose turns it: upper lid > 0, lower lid < 0
 };
 
@@ -112,7 +121,7 @@ class Form {
   double upper_opening(double x) const;
   double lower_opening(double x) const;
 
-  Color skin_color(Vec3 closed, double row, double lid) const;
+  Color skin_color(Vec3 look, double row, double lid) const;
 
  private:
   struct Section {

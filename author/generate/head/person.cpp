@@ -15,8 +15,9 @@ using author::mix;
 
 namespace {
 
-/// -1 ... 1, 0 for seed 0. Steps by the square roots of primes (Richtmyer's sequence), which spreads seeds
-/// evenly: with random numbers, some of a few dozen persons would look alike.
+/// -1 ... 1, 0 for seed 0; rather near the ends than near the middle, where all would look like seed 0. Steps by the
+/// square roots of primes (Richtmyer's sequence), which spreads seeds evenly: with random numbers, some of a few
+/// dozen persons would look alike.
 double axis(uint64_t seed, uint32_t i) {
   static constexpr uint64_t kRoots[] = {
       5167115440072839076u,  4354685564936845355u,  14946468407256161813u, 6620516959819538809u,
@@ -24,9 +25,12 @@ double axis(uint64_t seed, uint32_t i) {
       11912009170470909681u, 5840696475078001361u,  11170449401992604703u, 14680500436340154072u,
       7105036623409894663u,  10473403895298186519u, 1526699215303891257u,  10282925794625328401u,
       15784041429090275239u, 12564921287827708315u, 3419155146083754954u,  7861075802853663213u,
-      10035097865011968310u, 16384295103918246975u};
+      10035097865011968310u, 16384295103918246975u, 2037139971618630136u,  8005538875866918670u,
+      15658662624704411955u, 920042818334365536u,   2746564595990239432u,  6347163684422533404u,
+      8122221483861433410u,  11624138536635782868u, 4970063267203923202u,  8218451384177679172u};
   const uint64_t place = seed * kRoots[i] + (uint64_t{1} << 63);
-  return static_cast<double>(place >> 11) * (2.0 / 9007199254740992.0) - 1;
+  const double even = static_cast<double>(place >> 11) * (2.0 / 9007199254740992.0) - 1;
+  return even * (1.5 - 0.5 * even * even);
 }
 
 }  // namespace
@@ -53,7 +57,7 @@ Person make_person(uint64_t seed) {
   p.length += by(0.135);
   p.height += by(0.125);
   p.jaw += by(0.16) + 0.05 * p.sex;
-  p.chin_drop += by(1.0) + 0.25 * p.sex - 0.30;
+  p.chin_drop += by(1.0) + 0.25 * p.sex + 0.05;
   p.face += by(0.08);
   p.neck += by(0.06) + 0.08 * p.sex + 0.07 * p.weight;
   p.nose += by(0.24) + 0.05 * p.sex;
@@ -64,11 +68,21 @@ Person make_person(uint64_t seed) {
   p.lips += by(0.46) - 0.10 * p.sex;
   p.brow_ridge += by(0.10) + 0.14 * p.sex;
   p.muzzle += by(0.25);
-  p.eyes += by(0.12) - 0.03 * p.sex;
+  p.eyes += by(0.16) - 0.03 * p.sex;
   p.eye_tilt += by(0.09);
   p.ear += by(0.14);
   p.nose_hump += by(0.22);
   p.brow_height += by(0.24) - 0.12 * p.sex;
+  p.nose_drop += by(0.36) - 0.43;
+  p.tip += by(1);
+  p.mouth_width += by(0.12) + 0.03 * p.sex;
+  p.bridge += by(0.28) + 0.05 * p.sex;
+  p.tip_drop += by(0.30) + 0.06 * p.sex;
+  p.hood += by(0.25);
+  p.lip_share += by(1);
+  p.sockets += by(0.18) + 0.05 * p.sex;
+  p.angle += by(0.28) + 0.12 * p.sex;
+  p.cleft = std::max(0.0, by(0.30) - 0.14);
   if (seed != 0) {
     Random random = Random::from_seed(seed, 1);
     p.age = random.between(0, 1);

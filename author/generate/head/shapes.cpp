@@ -52,16 +52,21 @@ struct Window {
   }
 };
 
-/// The fold from the wing of the nose past the corner of the mouth; `beside` it, towards the cheek.
+/// The fold from the wing of the nose past the corner of the mouth to the side of the chin; `beside` it, towards
+/// the cheek.
 struct Fold {
   Vec3 look;
   double at(double beside) const {
-    constexpr double kFromX = 1.75, kFromY = -3.0, kToX = 3.15, kToY = -5.7;
-    const double dx = kToX - kFromX, dy = kToY - kFromY, size = std::sqrt(dx * dx + dy * dy);
-    const double along = ((look.x - kFromX) * dx + (look.y - kFromY) * dy) / (size * size);
-    const double across = ((look.y - kFromY) * dx - (look.x - kFromX) * dy) / size - beside;
+    constexpr double kWingX = 1.75, kWingY = -3.0, kCornerX = 3.20, kCornerY = -5.8, kEndY = -7.6;
+    const double down = (look.y - kWingY) / (kCornerY - kWingY);
+    // Straight from the wing to beside the corner; below it bends back.
+    const double past = std::max(0.0, down - 0.8);
+    const double line = mix(kWingX, kCornerX, down) - 1.1 * past * past;
+    constexpr double kLean = 0.89;  // cosine of the angle between the line and the vertical
+    const double across = (look.x - line) * kLean - beside;
     const double wide = beside > 0 ? 0.48 : 0.26;
-    return bump(across, along, 0, 0.5, wide, 0.52);
+    return bump(across, 0, 0, 0, wide, 1) * smooth_step(kWingY + 0.7, kWingY - 0.6, look.y) *
+           smooth_step(kEndY, kCornerY, look.y);
   }
 };
 
@@ -297,8 +302,8 @@ Vec3 Shapes::both_sides(Motion motion, const Vertex& v) const {
     case Motion::kPucker:
       add(narrow, {-0.43 * look.x, 0, 0});
       // Thinner towards the corners, so that the lips are round and not a box.
-      add(bump(look.x, line, 2.4, 0, 1.0, 1.0), {0, -0.40 * line, 0});
-      add(bump(look.x, line, 2.5, 0, 0.9, 1.0), {0, 0, 0.42});
+      add(bump(look.x, line, 1.9, 0, 0.8, 1.0), {0, -0.38 * line, 0});
+      add(bump(look.x, line, 2.5, 0, 0.9, 0.9), {0, 0, 0.50});
       add(lips, {0, -0.08 * line, 0.46});
       add(bump(look.x, line, 0, 0, 1.9, 1.1), {0, 0.36 * line * apart, 0.55});
       add(bump(look.x, line, 0, 0, 1.1, 0.8), {0, 0.16 * line, 0.32});

@@ -118,14 +118,14 @@ Vertex SkinMaker::skin_vertex(Place place, Side lid, Side lip) const {
   const FacePoint at = form_.face(place.angle, place.y, lid);
   Vertex v;
   v.closed = at.closed;
-  v.look = v.closed;
+  v.look = at.look;
   v.lid = at.lid;
   v.side = lip;
   v.position = turn_lid(v.closed, v.lid);
   v.u = 0.5 + 0.5 * place.angle / kPi;
   // The slit between the lids is open in the texture, too: their edges are there.
   v.v = row_v(place.y) + kLidV * std::min(std::max(v.lid / 0.5, -1.0), 1.0);
-  v.color = form_.skin_color(v.closed, place.y, v.lid);
+  v.color = form_.skin_color(v.look, place.y, v.lid);
   v.color = mix(v.color, form_.person().hair, 0.6 * scalp(form_, place.angle, place.y));
   if (!grid_.nostril) {
     v.color = mix(v.color, {58, 24, 22},

@@ -210,16 +210,19 @@ void add_tongue(const Form& form, uint32_t lod, HalfMesh& out) {
     const double y =
         kMouthY - 1.55 + 1.05 * exact_sine(kPi * clamp01(0.12 + 0.62 * t)) * (1 - 0.25 * t);
     // Broad at the back, narrower from the middle on, round at the tip.
-    const double end = clamp01((t - 0.70) / 0.30), taper = std::sqrt(1 - 0.98 * end * end);
-    const double half = mix(1.66, 1.30, smooth_step(0.2, 0.9, t)) * taper;
-    const double thick = 0.52 * mix(1.25, 0.62, t) * std::sqrt(taper);
+    const double end = clamp01((t - 0.52) / 0.48), taper = std::sqrt(1 - 0.985 * end * end * end);
+    const double half = mix(1.70, 1.30, smooth_step(0.15, 0.8, t)) * taper;
+    const double thick = mix(0.74, 0.34, smooth_step(0.15, 0.9, t)) * std::sqrt(taper);
     for (uint32_t k = 0; k < around; ++k) {
       const auto [s, c] = exact_sine_cosine(kPi * (static_cast<double>(k) / (around - 1) - 0.5));
       // A furrow along the middle, which ends before the tip; sides that curl up a little.
-      const double top = std::max(s, 0.0), furrow = bump(c, 0, 0, 0, 0.30, 1) * top;
-      const double rise = 0.16 * bump(c, 0, 0.86, 0, 0.22, 1) * top - 0.20 * furrow;
-      Vec3 at = {half * exact_pow(std::max(c, 0.0), 0.7),
-                 y + thick * s + rise * smooth_step(0.98, 0.60, t), z};
+      const double top = std::max(s, 0.0), furrow = bump(c, 0, 0, 0, 0.24, 1) * top;
+      const double rise =
+          0.13 * bump(c, 0, 0.52, 0, 0.30, 1) * top - 0.17 * furrow * smooth_step(0.05, 0.30, t);
+      // Papillae make it uneven, except at the border.
+      const double papilla = 0.016 * scatter(row * 64 + k + 7) * top * smooth_step(0.95, 0.7, c);
+      Vec3 at = {half * exact_pow(std::max(c, 0.0), 0.88),
+                 y + thick * s + papilla + rise * smooth_step(1.0, 0.72, t), z};
       if (k == 0 || k == around - 1) at.x = 0;
       // Papillae: pale and uneven above, smooth and redder at the border and below.
       Color color = mix({198, 96, 98}, {120, 44, 50}, 0.8 * (1 - t));

@@ -27,7 +27,8 @@ constexpr float row_v(double y) { return float(0.06 + 0.94 * (y + 22.0) / 34.6);
 render::SkinLayout head_layout(uint64_t seed) {
   render::SkinLayout layout;
   layout.inner_below = row_v(-22);
-  layout.cloth_below = row_v(-17.6);
+  layout.cloth_below = row_v(-17.5);
+  layout.collar = row_v(0.45f) - row_v(0), layout.hem = 0.03f;
   layout.skin_u = 0.5f, layout.skin_v = row_v(5);
   layout.lips_low_u = 0.41f, layout.lips_high_u = 0.59f;
   layout.lips_low_v = row_v(-7.3), layout.lips_high_v = row_v(-4.9);

@@ -92,6 +92,7 @@ class SkinMap {
   void draw(const uint32_t* corners);
   void spread();
   float lips_at(float u, float v, const Texel& texel) const;
+  Vec3 color_at(int x, int y, float v) const;
 
   struct Detail {
     float height;  // cm
@@ -179,7 +180,7 @@ SkinMap::Detail SkinMap::detail(float u, float v, const Texel& texel) const {
   if (v < layout_.cloth_below) {
     // Threads would be finer than a pixel of most pictures, and make patterns of their own there.
     const float fine = noise(p * 9);
-    return {0.006f * fine + 0.004f * noise(p * 3),
+    return {layout_.hem + 0.006f * fine + 0.004f * noise(p * 3),
             Vec3{1, 1, 1} * (1 + 0.03f * fine + 0.04f * noise(p * 2)), 0.92f};
   }
   const float lips = lips_at(u, v, texel), skin = 1 - lips;
@@ -197,7 +198,7 @@ SkinMap::Detail SkinMap::detail(float u, float v, const Texel& texel) const {
   const float shade = 1 +
                       skin * (0.030f * pigment + 0.020f * coarse + 0.018f * fine - 0.045f * pore) +
                       lips * (0.10f * fold - 0.05f);
-  d.tint = Vec3{1, 1 - 0.030f * blood, 1 - 0.034f * blood - 0.012f * pigment} * shade;
+  d.tint = Vec3{1, 1 - 0.018f * blood, 1 - 0.020f * blood - 0.010f * pigment} * shade;
   if (layout_.freckles > 0 && v > layout_.freckles_low_v && v < layout_.freckles_high_v) {
     const float middle =
         (v - layout_.freckles_low_v) / (layout_.freckles_high_v - layout_.freckles_low_v);
@@ -209,6 +210,15 @@ SkinMap::Detail SkinMap::detail(float u, float v, const Texel& texel) const {
   d.height *= saturate((texel.color.y / reference_.y - 0.35f) / 0.4f);
   d.roughness = (0.50f + 0.05f * coarse + 0.10f * pore) * skin + (0.36f + 0.08f * fold) * lips;
   return d;
+}
+
+/// Vertices are too far apart for the edge of the collar: up to it the cloth is as it is below, from there on the skin
+/// as it is above.
+Vec3 SkinMap::color_at(int x, int y, float v) const {
+  const float above = v - layout_.cloth_below;
+  if (std::fabs(above) >= layout_.collar) return at(x, y).color;
+  const float from = layout_.cloth_below + std::copysign(layout_.collar, above);
+  return at(x, int((1 - from) * float(height_))).color;
 }
 
 SkinMaps SkinMap::make() const {
@@ -224,7 +234,7 @@ SkinMaps SkinMap::make() const {
       const float u = (float(x) + 0.5f) / float(width_), v = 1 - (float(y) + 0.5f) / float(height_);
       const Detail d = detail(u, v, texel);
       heights[size_t(y) * size_t(width_) + size_t(x)] = d.height;
-      const Vec3 color = texel.color * d.tint;
+      const Vec3 color = color_at(x, y, v) * d.tint;
       maps.base_color.set(x, y, {byte(color.x), byte(color.y), byte(color.z)});
       const uint8_t rough = byte(255 * d.roughness);
       if (x % 2 == 0 && y % 2 == 0) maps.roughness.set(x / 2, y / 2, {rough, rough, rough});

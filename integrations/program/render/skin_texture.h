@@ -12,6 +12,8 @@ namespace mien::render {
 struct SkinLayout {
   float inner_below = 0;  // v below which the inside of the mouth is: wet, without pores
   float cloth_below = 0;  // and v below which a shirt is
+  float collar = 0;       // how far from there, in v, colors of vertices blend skin and shirt
+  float hem = 0;          // cm: thickness of the shirt
   // Lips are what is redder than the skin at `skin`, in the box from `lips_low` to `lips_high`.
   float skin_u = 0, skin_v = 0;
   float lips_low_u = 0, lips_low_v = 0, lips_high_u = 0, lips_high_v = 0;

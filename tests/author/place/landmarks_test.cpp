@@ -70,7 +70,7 @@ TEST(Landmarks, OfAGeneratedHeadAreWhereItHasThem) {
     EXPECT_TRUE(head[kind].known && !head[kind].given) << int(kind);
     EXPECT_GT(head[kind].confidence, 0.6) << int(kind);
   }
-  EXPECT_NEAR(head[Kind::kNose].at.y, -3.4, 0.4);
+  EXPECT_NEAR(head[Kind::kNose].at.y, -2.7, 0.4);
   EXPECT_NEAR(head[Kind::kLipUpper].at.y, -6.1, 0.3);
   EXPECT_NEAR(head[Kind::kLipLower].at.y, -6.1, 0.3);
   EXPECT_NEAR(head[Kind::kMouthLeft].at.x, 2.5, 0.4);
