@@ -30,17 +30,11 @@ void SkinMaker::place_ear() {
   ear_.outward = {cosine, 0, sine};
   ear_.up = unit({0.10, 1, -0.16});
   ear_.origin = {form_.face(0.53 * kPi, 0.0, Side::kAbove).closed.x + 0.10, -0.75, -0.8};
-  // The same rows and columns for every person, with room for the largest ear.
-  constexpr double kTop = 2.05, kBottom = -3.45;
-  for (uint32_t r = 0; r < rows_; ++r) {
-    if (heights_[r] < kBottom) ear_block_.low = r;
-    if (heights_[r] < 0.5 * (kBottom + kTop)) ear_block_.middle = r;
-    if (heights_[r] < kTop) ear_block_.high = r + 1;
-  }
-  ear_block_.middle = std::max(ear_block_.middle, ear_block_.low + 1);
-  ear_block_.high = std::max(ear_block_.high, ear_block_.middle + 1);
-  ear_block_.left = eye_.right + grid_.columns[3] * 7 / 10;
-  ear_block_.right = eye_.right + grid_.columns[3] + (grid_.columns[4] > 6 ? 1 : 0);
+}
+
+Place SkinMaker::ear_place(uint32_t k, bool inner) const {
+  const auto [s, c] = exact_sine_cosine(kPi + 2 * kPi * k / ring_size_);
+  return ear_root(s, c, inner || lod_ >= 6 ? 1 : 1.14);
 }
 
 namespace {
@@ -84,11 +78,8 @@ void SkinMaker::make_ear() {
   const double(*path)[3] = lod_ < 3 ? kFine : lod_ < 6 ? kPlain : kPlainest;
   const uint32_t rings = lod_ < 3 ? 12 : lod_ < 6 ? 4 : 2;
   const auto turn = [&](uint32_t k) { return exact_sine_cosine(kPi + 2 * kPi * k / ring_size_); };
-  make_rings(ear_block_, {lod_ < 3 ? 2u : 1u, lod_ < 6 ? 1u : 0u}, 0.5,
-             [&](uint32_t k, bool inner) {
-               const auto [s, c] = turn(k);
-               return ear_root(s, c, inner || lod_ >= 6 ? 1 : 1.14);
-             });
+  make_rings(ear_ring_, lod_ < 6 ? 1 : 0, Layout::Hole::kOther,
+             [this](uint32_t k, bool inner) { return ear_place(k, inner); });
   if (out_.failed()) return;
 
   const Color skin = form_.person().skin, red = redder(skin, 0.45);

@@ -57,6 +57,8 @@ class Growing {
   uint32_t count() const { return count_; }
   Span<T> span() const { return items_.first(count_); }
   bool failed() const { return failed_; }
+  void fail() { failed_ = true; }
+  Arena& arena() const { return *arena_; }
 
  private:
   bool grow() {

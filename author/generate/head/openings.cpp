@@ -10,14 +10,16 @@ using author::kPi;
 using author::mix;
 using author::smooth_step;
 
+Place SkinMaker::nostril_place(uint32_t k, bool inner) const {
+  const auto [s, c] = author::exact_sine_cosine(kPi + 2 * kPi * k / ring_size_);
+  const double size = inner ? 1 : 1.22;
+  return on_form({form_.person().nose_width * (kNostril.x + size * (0.34 * c + 0.04 * s)),
+                  kNostril.y + size * (0.165 * s + 0.03 * c)});
+}
+
 void SkinMaker::make_nostril() {
-  const double wide = form_.person().nose_width;
-  make_rings(nostril_, {2, 1}, 0.5, [&](uint32_t k, bool inner) {
-    const auto [s, c] = author::exact_sine_cosine(kPi + 2 * kPi * k / ring_size_);
-    const double size = inner ? 1 : 1.22;
-    return on_form({wide * (kNostril.x + size * (0.34 * c + 0.04 * s)),
-                    kNostril.y + size * (0.165 * s + 0.03 * c)});
-  });
+  make_rings(nostril_, 1, Layout::Hole::kOther,
+             [this](uint32_t k, bool inner) { return nostril_place(k, inner); });
   if (out_.failed()) return;
   // Inside, it goes up and back.
   static constexpr double kPath[][4] = {// size, up, back, darkness
@@ -94,17 +96,20 @@ uint32_t SkinMaker::mouth_vertex(uint32_t from, double out, double depth, bool a
   return out_.vertices.add(v);
 }
 
+Place SkinMaker::lip_place(uint32_t k, bool inner) const {
+  const bool above = k > half_;
+  const double out = static_cast<double>(above ? ring_size_ - 1 - k : k) / half_;
+  return on_form(form_.lip_curve(mix(out, exact_sine(kPi / 2 * out), 0.5), inner   ? 0
+                                                                           : above ? 1
+                                                                                   : -1));
+}
+
 void SkinMaker::make_mouth() {
-  make_rings(mouth_, grid_.mouth, 0.90, [this](uint32_t k, bool inner) {
-    const bool above = k > half_;
-    const double out = static_cast<double>(above ? ring_size_ - 1 - k : k) / half_;
-    return on_form(form_.lip_curve(mix(out, exact_sine(kPi / 2 * out), 0.5), inner   ? 0
-                                                                             : above ? 1
-                                                                                     : -1));
-  });
+  make_rings(mouth_, sizes_.mouth.inside, Layout::Hole::kLips,
+             [this](uint32_t k, bool inner) { return lip_place(k, inner); });
   if (out_.failed()) return;
   // Both halves of the ring meet in the back.
-  const uint32_t rings = grid_.depth;
+  const uint32_t rings = sizes_.depth;
   uint32_t corner[kMaxDepth + 1], back[kMaxRing];
   corner[0] = ring_[half_];
   for (uint32_t d = 1; d <= rings; ++d)
@@ -131,8 +136,8 @@ void SkinMaker::make_mouth() {
 }
 
 double SkinMaker::depth_of(uint32_t ring) const {
-  const double t = (ring - 1.0) / (grid_.depth - 1);
-  return mix(0.02, 1, grid_.depth >= 6 ? t * mix(0.75, 1, t) : t);
+  const double t = (ring - 1.0) / (sizes_.depth - 1);
+  return mix(0.02, 1, sizes_.depth >= 6 ? t * mix(0.75, 1, t) : t);
 }
 
 }  // namespace mien::head

@@ -208,7 +208,7 @@ TEST_P(PlacedHeads, BonesOfUnlikeHalvesAreInPairs) {
     error = placed.report.symmetry_error;
     printf("%s: halves differ by %.1f %% of the face\n", GetParam(), 100 * error);
     if (time != 1) expect_pairs(placed, width);
-    strength *= 0.043 / error;
+    strength *= 0.046 / error;
   }
   EXPECT_GT(error, 0.04);
   EXPECT_LT(error, 0.05);
