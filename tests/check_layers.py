@@ -40,7 +40,7 @@ GRAPH = {
     # each other; bones; weights; motion; the file; reports as text.
     "author/text": [],
     "author/base": ["runtime/base", "runtime/load/dna/format"],
-    "author/generate/head": ["runtime/base", "runtime/load/dna/format", "author/base"],
+    "author/generate/head": ["runtime/base", "runtime/load/dna/format", "author/base", "author/mesh"],
     "author/generate/synthetic": ["runtime/base", "runtime/load/dna/format", "author/base"],
     "author/mesh": ["runtime/base", "author/base"],
     "author/place": ["runtime/base", "author/base", "author/mesh"],

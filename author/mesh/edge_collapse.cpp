@@ -20,8 +20,7 @@ constexpr double kBorder = 10, kSeam = 1;  // weights of moving off a border or 
 // Weight of moving off an outline, and the views that have one: front and side.
 constexpr double kOutline = 30;
 constexpr Vec3 kViews[] = {{0, 0, 1}, {1, 0, 0}};
-constexpr double kLeastTurn = 0.2;    // cosine between normals in this LOD and the previous one
-constexpr double kLeastShape = 0.05;  // 1: equilateral, 0: a line
+constexpr double kLeastTurn = 0.2;  // cosine between normals in this LOD and the previous one
 // Cosine between a triangle and the mean of the normals that its corners had at first: LODs turn no further.
 constexpr double kLeastFacing = 0.2;
 // How much more an error counts where an expression stretches the surface to twice its length, as on lips and lids.
@@ -39,11 +38,12 @@ double shape_of(Vec3 a, Vec3 b, Vec3 c) {
 
 }  // namespace
 
-bool EdgeCollapse::make(const AuthorMesh& mesh, Span<const Shape> poses, Arena& arena,
-                        const Allocator& allocator) {
+bool EdgeCollapse::make(const AuthorMesh& mesh, Span<const Shape> poses,
+                        const CollapseGuards& guards, Arena& arena, const Allocator& allocator) {
   Arena scratch(allocator);
   mesh_ = &mesh;
   poses_ = poses;
+  guards_ = guards;
   const size_t n = mesh.positions.count;
   Span<uint32_t> vertex_places;
   if (!author::make(arena, n, first_) || !author::make(arena, n, valence_) ||
@@ -54,7 +54,7 @@ bool EdgeCollapse::make(const AuthorMesh& mesh, Span<const Shape> poses, Arena& 
       !author::make(arena, n, heap_) ||
       !author::make(arena, mesh.component_count, component_counts_) ||
       !author::make(arena, n, loops_) || !find_places(scratch, vertex_places) ||
-      !find_mirror(mesh, vertex_places, arena, scratch, mirror_) ||
+      (guards.on_plane.empty() && !find_mirror(mesh, vertex_places, arena, scratch, mirror_)) ||
       !make_triangles(vertex_places, arena, scratch) || !make_charts(arena, scratch) ||
       !classify_edges(arena, scratch)) {
     return false;
@@ -269,6 +269,14 @@ bool EdgeCollapse::classify_edges(Arena& arena, Arena& scratch) {
       locked_[place] = 1;
     }
   }
+  for (const CollapseTuple& tuple : guards_.tuples) {
+    for (uint32_t i = 1; i < CollapseTuple::kMaxSize; ++i) {
+      for (uint32_t k = 0; k < i; ++k) {
+        if (tuple.vertices[i] != kNone && tuple.vertices[i] == tuple.vertices[k])
+          locked_[tuple.vertices[i]] = 1;
+      }
+    }
+  }
   return find_loops(border_edges.first(border_count), arena);
 }
 
@@ -337,9 +345,14 @@ double EdgeCollapse::stretch_of(uint32_t triangle) const {
 void EdgeCollapse::make_quadrics() {
   const size_t poses = poses_.count + 1;
   for (uint32_t t = 0; t < alive_.count; ++t) {
-    const double weight = 1 + kFeature * stretch_of(t);
+    double weight = 1 + kFeature * stretch_of(t);
+    if (!guards_.weights.empty()) {
+      double sum = 0;
+      for (uint32_t c = 3 * t; c < 3 * t + 3; ++c) sum += double{guards_.weights[places_[c]]};
+      weight *= sum / 3;
+    }
     for (size_t pose = 0; pose < poses; ++pose) {
-      const Vec3 n = normal_of(t, kNone, kNone, pose);
+      const Vec3 n = normal_of(t, pose);
       const double twice = length(n);
       if (!(twice > 0)) continue;
       for (uint32_t c = 3 * t; c < 3 * t + 3; ++c) {
@@ -353,7 +366,8 @@ void EdgeCollapse::make_quadrics() {
     for (uint32_t c = 3 * t; c < 3 * t + 3; ++c) {
       const uint32_t across = across_of(c);
       if (across == kNone) {
-        if (border_[places_[c]] && border_[places_[next_corner(c)]]) add_border(c, kBorder);
+        const uint32_t a = places_[c], b = places_[next_corner(c)];
+        if (border_[a] && border_[b] && !(is_on_plane(a) && is_on_plane(b))) add_border(c, kBorder);
       } else if (charts_[across] != charts_[c] ||
                  charts_[third_corner(across)] != charts_[next_corner(c)]) {
         add_border(c, kSeam);
@@ -382,13 +396,14 @@ bool EdgeCollapse::guard_outlines(Arena& scratch) {
     Silhouette silhouette;
     if (places_.empty()) return true;
     if (!silhouette.make(mesh_->positions, places_, view, scratch)) return false;
-    const auto is_facing = [&](uint32_t corner) {
-      return dot(normal_of(corner / 3, kNone, kNone, 0), view) > 0;
-    };
+    const auto is_facing = [&](uint32_t corner) { return dot(normal_of(corner / 3, 0), view) > 0; };
     for (uint32_t c = 0; c < places_.count; ++c) {
       if (!is_facing(c)) continue;
       const uint32_t across = across_of(c), a = places_[c], b = places_[next_corner(c)];
-      if (across == kNone || is_facing(across)) continue;
+      // Across an edge on the plane is the mirror image of this triangle.
+      const bool turns =
+          across == kNone ? is_on_plane(a) && is_on_plane(b) && view.x != 0 : !is_facing(across);
+      if (!turns) continue;
       const Vec3* p = mesh_->positions.data;
       const Vec3 along = p[b] - p[a], n = normalized(cross(along, view));
       if (is_zero(n) || !silhouette.is_outline(p[a], p[b], p[places_[third_corner(c)]])) continue;
@@ -406,7 +421,7 @@ void EdgeCollapse::add_border(uint32_t corner, double weight) {
   const uint32_t a = places_[corner], b = places_[next_corner(corner)];
   for (size_t pose = 0; pose < poses; ++pose) {
     const Vec3 along = at(b, pose) - at(a, pose);
-    const Vec3 n = normalized(cross(along, normal_of(corner / 3, kNone, kNone, pose)));
+    const Vec3 n = normalized(cross(along, normal_of(corner / 3, pose)));
     for (const uint32_t place : {a, b}) {
       quadrics_[place * poses + pose].add_plane(n, at(place, pose), weight * dot(along, along));
     }
@@ -420,12 +435,19 @@ Vec3 EdgeCollapse::at(uint32_t place, size_t pose) const {
   return rest + Vec3{double{d.x}, double{d.y}, double{d.z}};
 }
 
-/// Its length is twice the area. Computed as if place `moved` were at `to`.
-Vec3 EdgeCollapse::normal_of(uint32_t triangle, uint32_t moved, uint32_t to, size_t pose) const {
+/// Its length is twice the area.
+Vec3 EdgeCollapse::normal_of(uint32_t triangle, size_t pose) const {
+  Vec3 p[3];
+  for (uint32_t i = 0; i < 3; ++i) p[i] = at(places_[3 * triangle + i], pose);
+  return cross(p[1] - p[0], p[2] - p[0]);
+}
+
+/// At rest, once u is at v.
+Vec3 EdgeCollapse::normal_after(uint32_t triangle, uint32_t u, uint32_t v) const {
   Vec3 p[3];
   for (uint32_t i = 0; i < 3; ++i) {
     const uint32_t place = places_[3 * triangle + i];
-    p[i] = at(place == moved ? to : place, pose);
+    p[i] = at(place == u ? v : moved(place), 0);
   }
   return cross(p[1] - p[0], p[2] - p[0]);
 }
@@ -485,6 +507,14 @@ bool EdgeCollapse::may_collapse(uint32_t u, const Ring& ring, uint32_t v) {
     across[shared++] = a == v ? b : a;
   }
   if (shared != (border_[u] ? 1u : 2u) || (border_[u] && !border_[v])) return false;
+  if (is_on_plane(v)) {
+    for (uint32_t i = 0; i < ring.place_count && !is_on_plane(u); ++i) {
+      const uint32_t w = ring.places[i];
+      if (w != v && w != across[0] && w != across[1] && is_on_plane(w)) return false;
+    }
+  } else if (is_on_plane(u)) {
+    return false;
+  }
   if (loops_[u] != kNone && loop_counts_[loops_[u]] <= kLeastLoop && !is_straight(u, ring))
     return false;
   if (valence_[u] + valence_[v] - 2 * shared > kMaxRing) return false;
@@ -510,19 +540,21 @@ bool EdgeCollapse::keeps_facing(uint32_t u, const Ring& ring, uint32_t v,
                                 const ChartMap& map) const {
   for (uint32_t i = 0; i < ring.corner_count; ++i) {
     const uint32_t c = ring.corners[i], a = next_corner(c), b = third_corner(c);
-    if (places_[a] == v || places_[b] == v) continue;
-    const Vec3 n = normalized(normal_of(c / 3, u, v, 0));
+    const uint32_t at_a = moved(places_[a]), at_b = moved(places_[b]);
+    if (at_a == v || at_b == v || at_a == at_b) continue;
+    const Vec3 n = normalized(normal_after(c / 3, u, v));
     if (is_zero(n) || (!is_zero(facing_[c / 3]) && dot(n, facing_[c / 3]) < kLeastTurn)) {
       return false;
     }
-    const Vec3 first = normals_[v] + normals_[places_[a]] + normals_[places_[b]];
+    const Vec3 first = normals_[v] + normals_[at_a] + normals_[at_b];
     if (dot(n, first) < kLeastFacing * length(first)) {
-      const Vec3 now = normalized(normal_of(c / 3, kNone, kNone, 0));
+      const Vec3 now = normalized(normal_of(c / 3, 0));
       if (dot(n, first) < dot(now, first)) return false;
     }
-    const Vec3 p = at(places_[a], 0), q = at(places_[b], 0);
-    const double shape = shape_of(at(v, 0), p, q);
-    if (shape < kLeastShape && shape < shape_of(at(u, 0), p, q)) return false;
+    const double shape = shape_of(at(v, 0), at(at_a, 0), at(at_b, 0));
+    if (shape < guards_.least_shape &&
+        shape < shape_of(at(u, 0), at(places_[a], 0), at(places_[b], 0)))
+      return false;
     if (mesh_->corner_uvs.empty()) continue;
     const auto uv = [this](uint32_t corner) {
       const Uv x = mesh_->uvs[mesh_->corner_uvs[sources_[corner]]];
@@ -545,7 +577,32 @@ double EdgeCollapse::cost(uint32_t u, uint32_t v) const {
     sum += std::max(0.0, quadrics_[u * poses + pose].at(to)) +
            std::max(0.0, quadrics_[v * poses + pose].at(to)) + kAlong * areas_[u] * dot(step, step);
   }
+  if (!guards_.colors.empty()) {
+    const Vec3 change = guards_.colors[v] - guards_.colors[u];
+    sum += kAlong * areas_[u] * dot(change, change);
+  }
   return sum;
+}
+
+double EdgeCollapse::whole_cost(uint32_t u, uint32_t v) const {
+  if (const CollapseTuple* from = tuple_of(u)) {
+    const CollapseTuple* to = tuple_of(v);
+    if (!to || to == from) return std::numeric_limits<double>::infinity();
+    // The mean, because it removes as many triangles more.
+    double sum = 0, count = 0;
+    for (uint32_t i = 0; i < CollapseTuple::kMaxSize; ++i) {
+      if (from->vertices[i] == kNone || to->vertices[i] == kNone) continue;
+      sum += cost(from->vertices[i], to->vertices[i]);
+      ++count;
+    }
+    return sum / count;
+  }
+  // Vertices beside a slit that went to its edge would leave slivers along it.
+  if (tuple_of(v)) return std::numeric_limits<double>::infinity();
+  // The same on both sides: expressions of one side count on the other one too.
+  const uint32_t other = partner_of(u), to = partner_of(v);
+  const bool is_pair = other != kNone && other != u && to != kNone;
+  return cost(u, v) + (is_pair ? cost(other, to) : 0);
 }
 
 /// Whether the collapse leaves the surface as it is.
@@ -587,19 +644,36 @@ bool EdgeCollapse::mirror_may_collapse(uint32_t u, uint32_t v) {
   return ring.has(to) && may_collapse(other, ring, to);
 }
 
+/// The members are checked as they are before any of them moves, and their triangles as they are after all have.
+bool EdgeCollapse::tuple_may_collapse(uint32_t u, uint32_t v) {
+  const CollapseTuple *from = tuple_of(u), *to = tuple_of(v);
+  if (!from) return true;
+  if (!to || to == from) return false;
+  bool has_v = false, allowed = true;
+  for (uint32_t i = 0; i < CollapseTuple::kMaxSize && allowed; ++i) {
+    const Move move = {from->vertices[i], to->vertices[i]};
+    if (move.from == kNone && move.to == kNone) continue;
+    allowed = move.from != kNone && move.to != kNone && valence_[move.from] > 0 &&
+              valence_[move.from] <= kMaxRing && !locked_[move.from];
+    has_v = has_v || (move.from == u && move.to == v);
+    if (allowed) moves_[move_count_++] = move;
+  }
+  Ring ring;
+  for (uint32_t i = 0; i < move_count_ && allowed && has_v; ++i) {
+    find_ring(moves_[i].from, ring);
+    allowed = ring.has(moves_[i].to) && may_collapse(moves_[i].from, ring, moves_[i].to);
+  }
+  move_count_ = 0;
+  return allowed && has_v;
+}
+
 void EdgeCollapse::refresh(uint32_t u) {
   remove(u);
   if (locked_[u] || valence_[u] == 0 || valence_[u] > kMaxRing) return;
   Ring ring;
   find_ring(u, ring);
   double costs[2 * kMaxRing];
-  // The same on both sides: expressions of one side count on the other one too.
-  const uint32_t other = partner_of(u);
-  for (uint32_t i = 0; i < ring.place_count; ++i) {
-    costs[i] = cost(u, ring.places[i]);
-    const uint32_t to = partner_of(ring.places[i]);
-    if (other != kNone && other != u && to != kNone) costs[i] += cost(other, to);
-  }
+  for (uint32_t i = 0; i < ring.place_count; ++i) costs[i] = whole_cost(u, ring.places[i]);
   // The cheapest first, because most collapses are allowed.
   for (uint32_t tried = 0; tried < ring.place_count; ++tried) {
     uint32_t best = tried;
@@ -610,7 +684,9 @@ void EdgeCollapse::refresh(uint32_t u) {
     std::swap(costs[tried], costs[best]);
     std::swap(ring.places[tried], ring.places[best]);
     if (!(costs[tried] < std::numeric_limits<double>::infinity())) return;
-    if (!may_collapse(u, ring, ring.places[tried]) || !mirror_may_collapse(u, ring.places[tried])) {
+    const uint32_t v = ring.places[tried];
+    if (tuple_of(u) ? !tuple_may_collapse(u, v)
+                    : !may_collapse(u, ring, v) || !mirror_may_collapse(u, v)) {
       continue;
     }
     costs_[u] = costs[tried];
@@ -665,7 +741,7 @@ void EdgeCollapse::collapse(uint32_t u) {
 void EdgeCollapse::reduce(uint32_t wanted, Span<const uint32_t> floors) {
   if (alive_count_ <= wanted) return;
   for (uint32_t t = 0; t < alive_.count; ++t) {
-    if (alive_[t]) facing_[t] = normalized(normal_of(t, kNone, kNone, 0));
+    if (alive_[t]) facing_[t] = normalized(normal_of(t, 0));
   }
   // Start over: what an earlier floor kept may be removed now.
   for (uint32_t place = 0; place < first_.count; ++place) refresh(place);
@@ -680,6 +756,14 @@ void EdgeCollapse::reduce(uint32_t wanted, Span<const uint32_t> floors) {
       continue;
     }
     // Costs of places up to two edges away may have changed.
+    if (const CollapseTuple* from = tuple_of(u)) {
+      if (tuple_may_collapse(u, v)) {
+        collapse_tuple(*from, *tuple_of(v));
+      } else {
+        refresh(u);
+      }
+      continue;
+    }
     Ring ring;
     find_ring(u, ring);
     if (may_collapse(u, ring, v) && mirror_may_collapse(u, v)) {
@@ -702,6 +786,14 @@ void EdgeCollapse::collapse_mirrored(uint32_t u, uint32_t v) {
     collapse(other);
   } else {
     mirror_[other] = kNone;
+  }
+}
+
+void EdgeCollapse::collapse_tuple(const CollapseTuple& from, const CollapseTuple& to) {
+  for (uint32_t i = 0; i < CollapseTuple::kMaxSize; ++i) {
+    if (from.vertices[i] == kNone) continue;
+    targets_[from.vertices[i]] = to.vertices[i];
+    collapse(from.vertices[i]);
   }
 }
 

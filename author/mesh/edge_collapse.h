@@ -19,12 +19,33 @@
 
 namespace mien::author {
 
+/// Vertices that are removed together: each collapses onto the one in the same slot of a neighboring tuple, as those
+/// of both edges of a slit do, so that the edges still meet. Unused slots are kNone. A tuple that has a vertex twice,
+/// which is where the slit ends, stays.
+struct CollapseTuple {
+  static constexpr uint32_t kMaxSize = 6;
+  uint32_t vertices[kMaxSize] = {kNone, kNone, kNone, kNone, kNone, kNone};
+};
+
+/// What the caller knows about a mesh without seams. Arrays are per vertex; empty ones ask for nothing.
+struct CollapseGuards {
+  Span<const uint8_t>
+      on_plane;  // 1: on the plane about which the mesh will be mirrored. They collapse only
+                 // along it, and are the only ones of a face or edge on it
+  Span<const float> weights;  // by which errors of the surface count more
+  Span<const Vec3>
+      colors;  // a change of color costs as a step along the surface of this length does
+  Span<const uint32_t> tuple_of;  // of `tuples`, or kNone
+  Span<const CollapseTuple> tuples;
+  double least_shape = 0.05;  // of triangles, 1: equilateral, 0: a line
+};
+
 class EdgeCollapse {
  public:
-  /// Keeps `mesh`. Displacements of `poses` count as the surface at rest does. False if memory ran
-  /// out.
-  bool make(const AuthorMesh& mesh, Span<const Shape> poses, Arena& arena,
-            const Allocator& allocator);
+  /// Keeps `mesh`. Displacements of `poses` count as the surface at rest does. With guards.on_plane the mesh is one
+  /// half, and is not searched for a symmetry. False if memory ran out.
+  bool make(const AuthorMesh& mesh, Span<const Shape> poses, const CollapseGuards& guards,
+            Arena& arena, const Allocator& allocator);
 
   /// Collapses edges until `wanted` triangles are left, or no edge may go. Component c keeps
   /// `floors[c]`.
@@ -82,7 +103,8 @@ class EdgeCollapse {
   uint32_t third_corner(uint32_t c) const { return c % 3 == 0 ? c + 2 : c - 1; }
   /// Pose 0 is at rest.
   Vec3 at(uint32_t place, size_t pose) const;
-  Vec3 normal_of(uint32_t triangle, uint32_t moved, uint32_t to, size_t pose) const;
+  Vec3 normal_of(uint32_t triangle, size_t pose) const;
+  Vec3 normal_after(uint32_t triangle, uint32_t u, uint32_t v) const;
   void find_ring(uint32_t place, Ring& ring);
   bool map_charts(const Ring& ring, uint32_t v, ChartMap& map) const;
   bool is_flat(uint32_t u, uint32_t v) const;
@@ -92,12 +114,31 @@ class EdgeCollapse {
   double cost(uint32_t u, uint32_t v) const;
   /// Whether the mirror image of the collapse may follow it, or is not needed because nothing changes.
   bool mirror_may_collapse(uint32_t u, uint32_t v);
+  /// Whether the whole tuple of u may collapse with it.
+  bool tuple_may_collapse(uint32_t u, uint32_t v);
+  const CollapseTuple* tuple_of(uint32_t place) const {
+    if (guards_.tuple_of.empty() || guards_.tuple_of[place] == kNone) return nullptr;
+    return &guards_.tuples[guards_.tuple_of[place]];
+  }
+  bool is_on_plane(uint32_t place) const {
+    return !guards_.on_plane.empty() && guards_.on_plane[place] != 0;
+  }
+  /// Where a place is after the collapse of the tuple that is being checked.
+  uint32_t moved(uint32_t place) const {
+    for (uint32_t i = 0; i < move_count_; ++i) {
+      if (moves_[i].from == place) return moves_[i].to;
+    }
+    return place;
+  }
+  /// Of u, or of its whole tuple, or of u and its mirror image.
+  double whole_cost(uint32_t u, uint32_t v) const;
   uint32_t partner_of(uint32_t place) const { return mirror_.empty() ? kNone : mirror_[place]; }
   /// Finds the cheapest collapse of u and enters it into the heap.
   void refresh(uint32_t u);
   void collapse(uint32_t u);
   /// The same for its mirror image, after it.
   void collapse_mirrored(uint32_t u, uint32_t v);
+  void collapse_tuple(const CollapseTuple& from, const CollapseTuple& to);
 
   bool before(uint32_t a, uint32_t b) const {
     return costs_[a] != costs_[b] ? costs_[a] < costs_[b] : a < b;
@@ -105,8 +146,15 @@ class EdgeCollapse {
   void sift(uint32_t slot);
   void remove(uint32_t place);
 
+  struct Move {
+    uint32_t from, to;
+  };
+
   const AuthorMesh* mesh_ = nullptr;
   Span<const Shape> poses_;
+  CollapseGuards guards_;
+  Move moves_[CollapseTuple::kMaxSize];
+  uint32_t move_count_ = 0;
   Vec3 center_;
 
   Span<uint32_t> face_triangles_;               // per face, and the end

@@ -187,8 +187,8 @@ bool make_lod_meshes(const AuthorMesh& mesh, const SimplifyOptions& options, Are
   Span<uint32_t> whole, floors;
   Span<uint8_t> is_small;
   if (!choose_poses(mesh, options.max_poses, scratch, poses) ||
-      !left.make(mesh, poses, scratch, allocator) || !make(scratch, mesh.component_count, whole) ||
-      !make(scratch, mesh.component_count, floors)) {
+      !left.make(mesh, poses, CollapseGuards(), scratch, allocator) ||
+      !make(scratch, mesh.component_count, whole) || !make(scratch, mesh.component_count, floors)) {
     return false;
   }
   for (size_t c = 0; c < whole.count; ++c) whole[c] = left.component_counts()[c];

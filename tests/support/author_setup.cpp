@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "author/generate/head/mesh.h"
 #include "author/generate/head/shapes.h"
+#include "tests/support/head_lods.h"
 
 namespace mien::author {
 
@@ -134,11 +134,8 @@ void AuthorSetup::finish(uint32_t m) {
 
 void make_author_head(uint32_t lod, uint32_t bones, uint32_t influences, uint32_t lods,
                       AuthorSetup& out) {
-  Arena arena(default_allocator());
-  const head::Form form(head::make_person(0));
   const head::Shapes shapes;
-  head::HalfMesh half(arena);
-  ASSERT_TRUE(head::make_part(form, head::Part::kHead, lod, half));
+  const head::HalfMesh& half = head_lods(head::Part::kHead).at[lod];
   std::vector<uint32_t> twin, left;  // vertex of the other half; of each vertex, its left one
   for (uint32_t v = 0; v < half.vertices.count(); ++v) {
     left.push_back(out.add_vertex(half.vertices[v].position));

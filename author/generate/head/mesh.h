@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Meshes of the procedural head: sampled from the form, one for each part and LOD.
+// Meshes of the procedural head: parts sampled from the form, and their coarser LODs.
 #pragma once
 
 #include "author/generate/head/form.h"
@@ -105,9 +105,9 @@ Vertex plain(Vec3 position, Color color, double u, double v, Carrier carrier);
 
 /// These add to `out`, which is failed() if memory ran out. set_normals() completes a mesh.
 void add_skin(const Form& form, uint32_t lod, HalfMesh& out);
-void add_teeth(const Form& form, uint32_t lod, HalfMesh& out);
-void add_tongue(const Form& form, uint32_t lod, HalfMesh& out);
-void add_eyeball(const Form& form, uint32_t lod, HalfMesh& out);
+void add_teeth(const Form& form, HalfMesh& out);
+void add_tongue(const Form& form, HalfMesh& out);
+void add_eyeball(const Form& form, HalfMesh& out);
 void add_hair(const Form& form, uint32_t lod, HalfMesh& out);
 void add_brow(const Form& form, uint32_t lod, HalfMesh& out);
 void add_lashes(const Form& form, uint32_t lod, HalfMesh& out);
@@ -115,7 +115,19 @@ void set_normals(HalfMesh& mesh);
 /// How much hair shows through the skin at a place of the form: 0 below the hair line, 1 under it.
 double scalp(const Form& form, double angle, double y);
 
-/// All of the above for one part. Both eyes use the left one.
-bool make_part(const Form& form, Part part, uint32_t lod, HalfMesh& out);
+/// A part at LOD 0. Both eyes use the left one. False if memory ran out.
+bool make_part(const Form& form, Part part, HalfMesh& out);
+/// Hair, brows or lashes at a LOD.
+bool make_hairs(const Form& form, Part part, uint32_t lod, HalfMesh& out);
+
+struct PartLods {
+  HalfMesh at[kLodCount];
+
+  explicit PartLods(Arena& arena)
+      : at{HalfMesh(arena), HalfMesh(arena), HalfMesh(arena), HalfMesh(arena),
+           HalfMesh(arena), HalfMesh(arena), HalfMesh(arena), HalfMesh(arena)} {}
+};
+/// A part at every LOD: LOD 0 sampled, the others collapsed from it; of hair, brows and lashes all sampled. False if memory ran out.
+bool make_lods(const Form& form, Part part, const Allocator& allocator, PartLods& out);
 
 }  // namespace mien::head

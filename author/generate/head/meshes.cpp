@@ -28,12 +28,12 @@ Text mesh_name(Part part, uint32_t lod) {
 
 class MeshMaker {
  public:
-  MeshMaker(const Head& head, Part part, uint32_t lod, Arena& arena, Arena& scratch)
-      : head_(head), part_(part), lod_(lod), arena_(arena), scratch_(scratch), half_(scratch) {}
+  MeshMaker(const Head& head, Part part, uint32_t lod, const HalfMesh& half, Arena& arena,
+            Arena& scratch)
+      : head_(head), part_(part), lod_(lod), arena_(arena), scratch_(scratch), half_(half) {}
 
   /// `used` is set for channels for which the mesh has a target.
   bool make(dna::Mesh& out, Span<uint8_t> used) {
-    if (!make_part(head_.form, part_, lod_, half_)) return false;
     flipped_ = part_ == Part::kEyeRight;
     return number() && make_points(out) && make_layouts(out) && make_faces(out) &&
            make_weights(out) && make_targets(out, used);
@@ -125,7 +125,8 @@ class MeshMaker {
       for (const Face& f : faces) {
         out.faces[face++].layout_indices = {indices.data + corner * sizeof(uint32_t), f.count};
         for (uint32_t i = 0; i < f.count; ++i) {
-          const uint32_t from = f.corners[turned ? f.count - 1 - i : i];
+          // The first corner stays the first one, so that quads are split alike.
+          const uint32_t from = f.corners[turned ? (f.count - i) % f.count : i];
           indices.set(corner++, half == 1 ? other_layout_[from] : from);
         }
       }
@@ -245,7 +246,7 @@ class MeshMaker {
   const uint32_t lod_;
   Arena& arena_;
   Arena& scratch_;
-  HalfMesh half_;
+  const HalfMesh& half_;
   bool flipped_ = false;
   uint32_t count_ = 0;
   Span<uint32_t> twin_, other_layout_;
@@ -348,8 +349,8 @@ bool fill_channels(const Head& head, Span<const uint8_t> used, Arena& arena, dna
 
 }  // namespace
 
-bool fill_meshes(const Head& head, Arena& arena, const Allocator& allocator, size_t metadata_used,
-                 dna::DnaView& out) {
+bool fill_meshes(const Head& head, const PartLods& skin, Arena& arena, const Allocator& allocator,
+                 size_t metadata_used, dna::DnaView& out) {
   Arena scratch(allocator);
   dna::List<dna::Mesh>& meshes = out.geom.meshes;
   Span<uint8_t> used;
@@ -358,13 +359,26 @@ bool fill_meshes(const Head& head, Arena& arena, const Allocator& allocator, siz
       !make(scratch, head.shapes.count(), used) || !make(scratch, used.count, channel_of)) {
     return false;
   }
-  for (uint32_t m = 0; m < kMeshCount; ++m) {
-    const Part part = static_cast<Part>(m % kPartCount);
-    const uint32_t lod = m / kPartCount;
-    Arena for_mesh(allocator);
-    MeshMaker maker(head, part, lod, arena, for_mesh);
-    if (!copy_text(arena, mesh_name(part, lod), out.defn.mesh_names[m]) ||
-        !maker.make(meshes[m], used) || !maker.make_colors(out.desc.metadata[metadata_used + m])) {
+  const auto make_meshes = [&](Part part, const PartLods& made) {
+    for (uint32_t lod = 0; lod < kLodCount; ++lod) {
+      const uint32_t m = lod * kPartCount + static_cast<uint32_t>(part);
+      Arena for_mesh(allocator);
+      MeshMaker maker(head, part, lod, made.at[lod], arena, for_mesh);
+      if (!copy_text(arena, mesh_name(part, lod), out.defn.mesh_names[m]) ||
+          !maker.make(meshes[m], used) ||
+          !maker.make_colors(out.desc.metadata[metadata_used + m])) {
+        return false;
+      }
+    }
+    return true;
+  };
+  if (!make_meshes(Part::kHead, skin)) return false;
+  for (const Part part :
+       {Part::kTeeth, Part::kTongue, Part::kEyeLeft, Part::kHair, Part::kBrows, Part::kLashes}) {
+    Arena for_part(allocator);
+    PartLods made(for_part);
+    if (!make_lods(head.form, part, allocator, made) || !make_meshes(part, made) ||
+        (part == Part::kEyeLeft && !make_meshes(Part::kEyeRight, made))) {
       return false;
     }
   }

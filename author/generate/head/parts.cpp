@@ -47,18 +47,12 @@ Vertex plain(Vec3 position, Color color, double u, double v, Carrier carrier) {
 
 // Eyes ------------------------------------------------------------------------------------------
 
-void add_eyeball(const Form& form, uint32_t lod, HalfMesh& out) {
+void add_eyeball(const Form& form, HalfMesh& out) {
   // Angle from the middle of the pupil.
-  static constexpr double kFine[] = {0.08, 0.155, 0.172, 0.25, 0.33, 0.39, 0.425, 0.465,
-                                     0.55, 0.65,  0.76,  0.9,  1.1,  1.4,  1.9,   2.6};
-  static constexpr double kPlain[] = {0.155, 0.18, 0.40, 0.465, 0.9, 1.5, 2.2};
-  const bool fine = lod < 3;
-  const double* angles = fine ? kFine : kPlain;
-  const uint32_t rings = fine ? 16 : 7, around = at_lod(48, 8, lod);
+  static constexpr double kAngles[] = {0.08, 0.155, 0.172, 0.25, 0.33, 0.39, 0.425, 0.465,
+                                       0.55, 0.65,  0.76,  0.9,  1.1,  1.4,  1.9,   2.6};
+  constexpr uint32_t rings = 16, around = 48;
   out.mirrored = false;
-  // The flat faces of coarse lids would cut into a ball that fits round lids.
-  static constexpr double kShrunk[kLodCount] = {1, 1, 1, 0.995, 0.985, 0.97, 0.955, 0.94};
-  const double radius = kEyeRadius * kShrunk[lod];
   const Color iris = form.person().iris;
   const auto color = [&](double angle, uint32_t k) -> Color {
     const Color pupil = {14, 12, 14}, white = {206, 199, 192};
@@ -87,21 +81,19 @@ void add_eyeball(const Form& form, uint32_t lod, HalfMesh& out) {
     return mix(c, {190, 116, 106}, 0.72 * smooth_step(0.66, 1.12, angle));
   };
   // The cornea stands out beyond the ball, from the limbus on, as far as the lids leave room.
-  const auto bulge = [lod](double angle) {
-    return lod < 2 ? 0.06 * smooth_step(0.50, 0.05, angle) : 0.0;
-  };
+  const auto bulge = [](double angle) { return 0.06 * smooth_step(0.50, 0.05, angle); };
   const uint32_t front = out.vertices.add(
-      plain(kEye + Vec3{0, 0, radius + bulge(0)}, {14, 12, 14}, 0.5, 0.5, Carrier::kEyeball));
+      plain(kEye + Vec3{0, 0, kEyeRadius + bulge(0)}, {14, 12, 14}, 0.5, 0.5, Carrier::kEyeball));
   uint32_t before = front;
   for (uint32_t r = 0; r < rings; ++r) {
-    const auto [s, c] = exact_sine_cosine(angles[r]);
+    const auto [s, c] = exact_sine_cosine(kAngles[r]);
     const uint32_t here = out.vertices.count();
     for (uint32_t k = 0; k < around; ++k) {
       const auto [sk, ck] = exact_sine_cosine(2 * kPi * k / around);
-      const Vec3 at = kEye + Vec3{ck * s, sk * s, c} * (radius + bulge(angles[r]));
-      const double wide = 0.5 * angles[r] / kPi;
+      const Vec3 at = kEye + Vec3{ck * s, sk * s, c} * (kEyeRadius + bulge(kAngles[r]));
+      const double wide = 0.5 * kAngles[r] / kPi;
       out.vertices.add(
-          plain(at, color(angles[r], k), 0.5 + wide * ck, 0.5 + wide * sk, Carrier::kEyeball));
+          plain(at, color(kAngles[r], k), 0.5 + wide * ck, 0.5 + wide * sk, Carrier::kEyeball));
     }
     for (uint32_t k = 0; k < around; ++k) {
       const uint32_t next = (k + 1) % around;
@@ -114,7 +106,7 @@ void add_eyeball(const Form& form, uint32_t lod, HalfMesh& out) {
     before = here;
   }
   const uint32_t pole = out.vertices.add(
-      plain(kEye + Vec3{0, 0, -radius}, {214, 150, 140}, 0.5, 0.99, Carrier::kEyeball));
+      plain(kEye + Vec3{0, 0, -kEyeRadius}, {214, 150, 140}, 0.5, 0.99, Carrier::kEyeball));
   for (uint32_t k = 0; k < around; ++k) out.triangle(before + (k + 1) % around, before + k, pole);
 }
 
@@ -139,21 +131,40 @@ void set_normals(HalfMesh& mesh) {
   }
 }
 
-bool make_part(const Form& form, Part part, uint32_t lod, HalfMesh& out) {
-  switch (part) {
-    case Part::kHead: add_skin(form, lod, out); break;
-    case Part::kTeeth: add_teeth(form, lod, out); break;
-    case Part::kTongue: add_tongue(form, lod, out); break;
-    case Part::kEyeLeft:
-    case Part::kEyeRight: add_eyeball(form, lod, out); break;
-    case Part::kHair: add_hair(form, lod, out); break;
-    case Part::kBrows: add_brow(form, lod, out); break;
-    case Part::kLashes: add_lashes(form, lod, out); break;
-  }
+namespace {
+
+bool finish(const Form& form, HalfMesh& out) {
   if (out.failed()) return false;
   set_normals(out);
   for (Vertex& v : out.vertices.span()) v.above_mouth = v.look.y - form.mouth_line(v.look.x);
   return true;
+}
+
+}  // namespace
+
+bool make_hairs(const Form& form, Part part, uint32_t lod, HalfMesh& out) {
+  if (part == Part::kHair) {
+    add_hair(form, lod, out);
+  } else if (part == Part::kBrows) {
+    add_brow(form, lod, out);
+  } else {
+    add_lashes(form, lod, out);
+  }
+  return finish(form, out);
+}
+
+bool make_part(const Form& form, Part part, HalfMesh& out) {
+  switch (part) {
+    case Part::kHead: add_skin(form, 0, out); break;
+    case Part::kTeeth: add_teeth(form, out); break;
+    case Part::kTongue: add_tongue(form, out); break;
+    case Part::kEyeLeft:
+    case Part::kEyeRight: add_eyeball(form, out); break;
+    case Part::kHair:
+    case Part::kBrows:
+    case Part::kLashes: return make_hairs(form, part, 0, out);
+  }
+  return finish(form, out);
 }
 
 }  // namespace mien::head

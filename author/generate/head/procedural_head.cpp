@@ -36,12 +36,12 @@ bool make_head(uint64_t seed, Arena& arena, const Allocator& allocator, dna::Dna
   const Shapes shapes;
   const Skeleton skeleton(form);
   Head head = {form, shapes, skeleton, {}};
-  HalfMesh fitted(scratch);
+  PartLods skin(scratch);
   return fill_index(8, arena, out) && fill_descriptor(seed, form.person(), arena, out.desc) &&
-         make_part(form, Part::kHead, 1, fitted) &&
-         fit_joints(shapes, skeleton, fitted, scratch, head.deltas) &&
+         make_lods(form, Part::kHead, allocator, skin) &&
+         fit_joints(shapes, skeleton, skin.at[1], scratch, head.deltas) &&
          fill_controls(head, arena, out) && fill_joints(head, arena, scratch, out) &&
-         fill_meshes(head, arena, allocator, 2, out);
+         fill_meshes(head, skin, arena, allocator, 2, out);
 }
 
 }  // namespace

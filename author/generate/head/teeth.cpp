@@ -70,19 +70,18 @@ Color in_shadow(Color c, double share) {
 }
 
 /// A tooth: rings around it from the neck, within the gum, to the edge.
-void add_tooth(const Arch& arch, const Tooth& tooth, double start, uint32_t lod, Carrier carrier,
-               double v_at, HalfMesh& out) {
+void add_tooth(const Arch& arch, const Tooth& tooth, double start, Carrier carrier, double v_at,
+               HalfMesh& out) {
   // Height, breadth and lean outwards of the rings.
   static constexpr double kRings[][3] = {{1.18, 0.72, -0.02}, {0.96, 0.88, 0.02},
                                          {0.62, 1.00, 0.05},  {0.28, 1.00, 0.04},
                                          {0.08, 0.95, 0.01},  {0.00, 0.80, 0.00}};
-  const uint32_t rings = lod == 0 ? 6 : 4, around = lod == 0 ? 12 : lod < 3 ? 8 : 4;
-  static constexpr uint32_t kFew[] = {0, 2, 4, 5};
+  constexpr uint32_t rings = 6, around = 12;
   const Color white = {240, 231, 211}, neck = {222, 200, 164}, edge = {222, 222, 218};
   const double middle = start + 0.5 * tooth.breadth, share = middle / arch.total;
   uint32_t before = 0;
   for (uint32_t r = 0; r < rings; ++r) {
-    const double(&ring)[3] = kRings[rings == 6 ? r : kFew[r]];
+    const double(&ring)[3] = kRings[r];
     const uint32_t here = out.vertices.count();
     const double depth =
         mix(tooth.edge, tooth.neck, smooth_step(0, 0.9, ring[0])) * (ring[0] == 0 ? 0.7 : 1);
@@ -131,13 +130,13 @@ void add_tooth(const Arch& arch, const Tooth& tooth, double start, uint32_t lod,
 }
 
 /// The gum of one jaw: a ridge that rises between the teeth and is arched over each.
-void add_gum(const Arch& arch, const Tooth (&teeth)[kToothCount], uint32_t lod, Carrier carrier,
-             double v_at, HalfMesh& out) {
+void add_gum(const Arch& arch, const Tooth (&teeth)[kToothCount], Carrier carrier, double v_at,
+             HalfMesh& out) {
   // From the front, over the ridge, to the back: height above the edge and place outwards.
   static constexpr double kRows[][2] = {{1.64, -0.30}, {1.34, 0.02},  {1.02, 0.06}, {0.80, -0.02},
                                         {0.74, -0.42}, {1.20, -0.62}, {1.64, -0.72}};
   constexpr uint32_t kRowCount = 7;
-  const uint32_t per_tooth = lod == 0 ? 4 : lod < 3 ? 2 : 1, columns = kToothCount * per_tooth + 1;
+  constexpr uint32_t per_tooth = 4, columns = kToothCount * per_tooth + 1;
   const Color gum = {196, 106, 102}, border = {214, 134, 124}, back = {120, 56, 58};
   const uint32_t first = out.vertices.count();
   for (uint32_t row = 0; row < kRowCount; ++row) {
@@ -184,24 +183,24 @@ void add_gum(const Arch& arch, const Tooth (&teeth)[kToothCount], uint32_t lod, 
 
 }  // namespace
 
-void add_teeth(const Form& form, uint32_t lod, HalfMesh& out) {
+void add_teeth(const Form& form, HalfMesh& out) {
   const Vec3 lips = form.face(0, kMouthY, Side::kBelow).closed;
   for (int lower = 0; lower < 2; ++lower) {
     Arch arch = {lower ? 2.35 : 2.60, lower ? 3.5 : 3.7, lips.z - (lower ? 1.20 : 0.98),
                  kMouthY + (lower ? -0.17 : -0.32), lower ? -1.0 : 1.0};
     for (const Tooth& tooth : kTeeth[lower]) arch.total += tooth.breadth;
     const Carrier carrier = lower ? Carrier::kLowerTeeth : Carrier::kUpperTeeth;
-    add_gum(arch, kTeeth[lower], lod, carrier, 0.5 * lower, out);
+    add_gum(arch, kTeeth[lower], carrier, 0.5 * lower, out);
     double start = 0;
     for (const Tooth& tooth : kTeeth[lower]) {
-      add_tooth(arch, tooth, start, lod, carrier, 0.5 * lower + 0.05, out);
+      add_tooth(arch, tooth, start, carrier, 0.5 * lower + 0.05, out);
       start += tooth.breadth;
     }
   }
 }
 
-void add_tongue(const Form& form, uint32_t lod, HalfMesh& out) {
-  const uint32_t rows = at_lod(24, 4, lod) + 1, around = at_lod(14, 3, lod) + 1;
+void add_tongue(const Form& form, HalfMesh& out) {
+  constexpr uint32_t rows = 25, around = 15;
   const double tip_z = form.face(0, kMouthY, Side::kBelow).closed.z - 2.0;
   const uint32_t first = out.vertices.count();
   for (uint32_t row = 0; row < rows; ++row) {

@@ -19,6 +19,7 @@
 #include "author/generate/head/dna.h"
 #include "tests/support/counting_allocator.h"
 #include "tests/support/dna_bytes.h"
+#include "tests/support/head_lods.h"
 #include "tests/support/rig_handles.h"
 
 namespace mien {
@@ -164,22 +165,21 @@ Head& the_head() {
 /// The half mesh that a part was made from: it tells lids and lips, and its vertices are the first
 /// ones of the mesh in the file.
 struct Half {
-  Arena arena{default_allocator()};
-  head::HalfMesh mesh{arena};
+  const head::HalfMesh& mesh;
 
-  explicit Half(uint32_t lod, uint64_t seed = 0) {
-    EXPECT_TRUE(head::make_part(head::Form(head::make_person(seed)), Part::kHead, lod, mesh));
-  }
+  explicit Half(uint32_t lod, uint64_t seed = 0) : mesh(head_lods(Part::kHead, seed).at[lod]) {}
 
   /// Vertices of a slit's two edges: the same place before lids are opened, on different sides.
   std::vector<std::array<uint32_t, 2>> edges(bool lids) const {
-    std::map<std::array<double, 3>, uint32_t> lower;
+    std::map<std::array<int64_t, 3>, uint32_t> lower;
     std::vector<std::array<uint32_t, 2>> found;
     for (uint32_t i = 0; i < mesh.vertices.count(); ++i) {
       const head::Vertex& v = mesh.vertices[i];
       if (v.depth > 0 || (lids ? v.lid == 0 : v.closed.z < 4 || v.lid != 0)) continue;
       const bool above = lids ? v.lid > 0 : v.side == head::Side::kAbove;
-      const std::array<double, 3> key = {v.closed.x, v.closed.y, v.closed.z};
+      const auto on_grid = [](double x) { return std::llround(x * 1e6); };
+      const std::array<int64_t, 3> key = {on_grid(v.closed.x), on_grid(v.closed.y),
+                                          on_grid(v.closed.z)};
       if (!above) {
         lower[key] = i;
       } else if (lower.count(key)) {
@@ -749,12 +749,16 @@ TEST(ProceduralHead, OtherPersonsCloseEyesAndLipsToo) {
 
 /// Seeds are other people: faces and skulls differ in shape, not only in color.
 TEST(ProceduralHead, SeedsDifferInShape) {
-  std::vector<std::unique_ptr<Half>> heads;
-  for (uint64_t seed = 0; seed < 12; ++seed) heads.push_back(std::make_unique<Half>(3, seed));
+  Arena arena(default_allocator());
+  std::vector<head::HalfMesh> heads;
+  for (uint64_t seed = 0; seed < 12; ++seed) {
+    heads.emplace_back(arena);
+    ASSERT_TRUE(head::make_part(head::Form(head::make_person(seed)), Part::kHead, heads.back()));
+  }
   double least = 1e9;
   for (size_t a = 0; a < heads.size(); ++a) {
     for (size_t b = 0; b < a; ++b) {
-      const auto &of_a = heads[a]->mesh.vertices, &of_b = heads[b]->mesh.vertices;
+      const auto &of_a = heads[a].vertices, &of_b = heads[b].vertices;
       ASSERT_EQ(of_a.count(), of_b.count());
       double squares = 0;
       uint32_t count = 0;

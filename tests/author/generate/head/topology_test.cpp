@@ -22,7 +22,7 @@ struct Skin {
   std::vector<std::set<uint32_t>> around;
 
   explicit Skin(uint64_t seed) {
-    EXPECT_TRUE(head::make_part(head::Form(head::make_person(seed)), head::Part::kHead, 0, mesh));
+    EXPECT_TRUE(head::make_part(head::Form(head::make_person(seed)), head::Part::kHead, mesh));
     around.resize(mesh.vertices.count());
     for (uint32_t f = 0; f < mesh.faces.count(); ++f) {
       const head::Face& face = mesh.faces[f];
