@@ -202,12 +202,14 @@ TEST_P(PlacedHeads, BonesOfUnlikeHalvesAreInPairs) {
   };
   // Once as much as scans differ, and by steps to near the 5 % up to which bones are in pairs.
   double strength = 0.05, error = 0;
-  for (int time = 0; time < 3; ++time) {
+  for (int time = 0; time < 6; ++time) {
     const Placed placed(bent(strength), with_joints(61));
     ASSERT_EQ(placed.status, Status::kOk);
     error = placed.report.symmetry_error;
     printf("%s: halves differ by %.1f %% of the face\n", GetParam(), 100 * error);
-    if (time != 1) expect_pairs(placed, width);
+    const bool near = error > 0.04 && error < 0.05;
+    if (time == 0 || near) expect_pairs(placed, width);
+    if (near) break;
     strength *= 0.046 / error;
   }
   EXPECT_GT(error, 0.04);
