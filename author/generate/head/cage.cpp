@@ -48,12 +48,14 @@ uint32_t count_of(Strip strip, const Segments& s) {
   return 0;
 }
 
-/// Noses of other widths take the cage along.
-Place place_of(const Form& form, At at) {
+/// Noses of other widths take the cage along. `designed`: the person of seed 0, at whose angles the sides of the jaw
+/// are, because those of a narrow jaw at the same x would be far back.
+Place place_of(const Form& form, const Form& designed, At at) {
   if (at.around) return {at.x * kPi, at.y};
   const double wide = (form.person().nose_width - 1) * smooth_step(-5.6, -4.2, at.y) *
                       smooth_step(-1.2, -2.4, at.y) * smooth_step(4.2, 1.9, at.x);
-  return {form.angle_of(at.x * (1 + wide), at.y), at.y};
+  const double side = smooth_step(-3.5, -5.0, at.y) * smooth_step(2.4, 3.8, at.x);
+  return {mix(form.angle_of(at.x * (1 + wide), at.y), designed.angle_of(at.x, at.y), side), at.y};
 }
 
 /// Lengths in the plane, for even segments to begin with: cm per radian.
@@ -72,6 +74,7 @@ double spline(double a, double b, double c, double d, double t) {
 }  // namespace
 
 void Layout::make_curves() {
+  const Form designed(make_person(0));
   const auto add = [this](Place place, bool plane, bool level) {
     Spot spot;
     spot.place = place;
@@ -85,7 +88,7 @@ void Layout::make_curves() {
   const auto on_plane = [](At at) { return at.x == (at.around ? 1 : 0); };
   for (uint32_t n = 1; n < kNodeCount; ++n) {
     const At at = kNodes[n];
-    nodes_[n] = add(place_of(form_, at), on_plane(at), is_level(at));
+    nodes_[n] = add(place_of(form_, designed, at), on_plane(at), is_level(at));
   }
   if (failed()) return;
   constexpr uint32_t kSteps = 12, kMaxPoints = 7;
@@ -94,9 +97,9 @@ void Layout::make_curves() {
     const uint32_t count = count_of(curve.strip, segments_);
     Place points[kMaxPoints + 2];  // one more at each end
     uint32_t n = 1;
-    points[n++] = place_of(form_, kNodes[curve.from]);
-    for (uint32_t i = 0; i < curve.via_count; ++i) points[n++] = place_of(form_, curve.via[i]);
-    points[n++] = place_of(form_, kNodes[curve.to]);
+    points[n++] = place_of(form_, designed, kNodes[curve.from]);
+    for (uint32_t i = 0; i < curve.via_count; ++i) points[n++] = place_of(form_, designed, curve.via[i]);
+    points[n++] = place_of(form_, designed, kNodes[curve.to]);
     points[0] = between(points[1], points[2], -1);
     points[n] = between(points[n - 2], points[n - 1], 2);
     Place path[kSteps * kMaxPoints + 1];

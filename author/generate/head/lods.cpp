@@ -39,7 +39,8 @@ constexpr double kSamePlace = 1e-6;  // cm
 
 bool is_same(Vec3 a, Vec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 
-/// How much errors count: more on nose, mouth, lids, ears, the hair line and the iris; less where they are hidden.
+/// How much errors count: more on nose, mouth, lids, ears, the hair line, the iris, and where the neck bends; less where
+/// they are hidden.
 double importance(const Form& form, const Vertex& v) {
   const Vec3 p = v.closed;
   switch (v.carrier) {
@@ -55,10 +56,11 @@ double importance(const Form& form, const Vertex& v) {
     w += 6 * bump(p.x, p.y, 0, -3.4, 1.7, 1.5) + 4 * bump(p.x, p.y, 0, kMouthY, 3.0, 1.3) +
          4 * bump(p.x, p.y, kEye.x, kEye.y, 2.0, 1.3);
   }
+  w += 4 * bump(0, p.y, 0, -14, 1, 2);
   if (p.x > 5) w += 5 * bump(p.z, p.y, -1.2, -0.7, 1.8, 2.6);
   const double hidden = scalp(form, (2 * v.u - 1) * author::kPi, p.y);
   w = (w + 12 * hidden * (1 - hidden)) * (1 - 0.8 * hidden);
-  return w * author::mix(1, 0.7, author::smooth_step(-12, -15, p.y));
+  return w * author::mix(1, 0.7, author::smooth_step(-16, -18, p.y));
 }
 
 /// Finds the edges of slits, between lids and between lips, whose vertices meet in pairs, and the rims behind them: of

@@ -111,12 +111,23 @@ std::vector<uint32_t> find_moving(const std::string& list, const MienRig* rig,
   return moving;
 }
 
+/// The points that --mask leaves. Steps look at samples of the points of a fit, so it has no others.
+std::vector<uint32_t> list_used_points(const SolveTarget& target) {
+  std::vector<uint32_t> used;
+  for (uint32_t i = 0; i < target.points.size(); ++i) {
+    if (target.weights.empty() || target.weights[i] > 0) used.push_back(i);
+  }
+  return used;
+}
+
 Fit create_fit(const SolvedRig& rig, const SolveTarget& target,
                const std::vector<uint32_t>& moving) {
   auto desc = sized<MienFitDesc>();
   desc.deformer = target.points.empty() ? nullptr : rig.deformer;
-  desc.points = target.points.data();
-  desc.point_count = target.points.size();
+  std::vector<MienSolvePoint> points;
+  for (const uint32_t i : list_used_points(target)) points.push_back(target.points[i]);
+  desc.points = points.data();
+  desc.point_count = points.size();
   if (target.points.empty() && !target.weights.empty()) desc.joint_weights = target.weights.data();
   if (!moving.empty()) {
     desc.controls = moving.data();
@@ -151,7 +162,10 @@ SolvedTake solve_take(const SolveCommand& command, const SolvedRig& rig, const S
   const bool masked = !target.weights.empty();
   const float amount = masked ? std::accumulate(target.weights.begin(), target.weights.end(), 0.0f)
                               : static_cast<float>(joints ? target.width : target.points.size());
-  std::vector<float> row(target.width);
+  std::vector<float> row(target.width), weights;
+  const std::vector<uint32_t> used = list_used_points(target);
+  for (size_t i = 0; masked && i < used.size(); ++i) weights.push_back(target.weights[used[i]]);
+  const size_t per_point = joints ? 0 : target.width / target.points.size();
   auto frame = sized<MienFitFrame>();
   frame.joints = joints ? row.data() : nullptr;
   frame.images = target.kind == TargetKind::kLandmarks2 ? row.data() : nullptr;
@@ -163,7 +177,7 @@ SolvedTake solve_take(const SolveCommand& command, const SolvedRig& rig, const S
   }
   frame.camera = frame.images ? &camera : nullptr;
   frame.focal = command.focal ? 1 : 0;
-  frame.point_weights = joints || !masked ? nullptr : target.weights.data();
+  frame.point_weights = joints || !masked ? nullptr : weights.data();
   frame.robust_scale = parse_weight("--robust", command.robust);
   frame.surface_reach = take.reach = parse_weight("--reach", command.reach);
   frame.rigid = command.rigid ? 1 : 0;
@@ -179,6 +193,9 @@ SolvedTake solve_take(const SolveCommand& command, const SolvedRig& rig, const S
   for (size_t f = 0; f < target.frame_count; ++f) {
     progress.at(f);
     target.read(f, row.data());
+    for (size_t i = 0; i < used.size(); ++i) {
+      std::copy_n(row.data() + per_point * used[i], per_point, row.data() + per_point * i);
+    }
     const FitSurface surface = surfaces ? create_surface(target.read_surface(f)) : nullptr;
     frame.surface = surface.get();
     auto result = sized<MienFitResult>();

@@ -28,7 +28,7 @@ struct SkeletonRig {
 
   explicit SkeletonRig(const std::string& head) {
     if (head == "generated") {
-      make_author_head(3, 8, 4, 1, setup);
+      make_author_head(0, 8, 4, 1, setup);
     } else {
       there = head == "ict" ? load_ict(setup) : load_makehuman(setup);
     }
