@@ -9,8 +9,9 @@
 
 namespace mien {
 
-constexpr size_t kMostSamples = 600;  // more points add time and no new directions
-constexpr size_t kMostMotion = 7;     // rotation, translation, focal length
+constexpr size_t kMostSamples =
+    2000;  // of the points, for the matrix of a step: with fewer, more steps are needed
+constexpr size_t kMostMotion = 7;  // rotation, translation, focal length
 
 /// From model space to that of the targets, or to the camera.
 struct Motion {

@@ -98,7 +98,8 @@ void Layout::make_curves() {
     Place points[kMaxPoints + 2];  // one more at each end
     uint32_t n = 1;
     points[n++] = place_of(form_, designed, kNodes[curve.from]);
-    for (uint32_t i = 0; i < curve.via_count; ++i) points[n++] = place_of(form_, designed, curve.via[i]);
+    for (uint32_t i = 0; i < curve.via_count; ++i)
+      points[n++] = place_of(form_, designed, curve.via[i]);
     points[n++] = place_of(form_, designed, kNodes[curve.to]);
     points[0] = between(points[1], points[2], -1);
     points[n] = between(points[n - 2], points[n - 1], 2);

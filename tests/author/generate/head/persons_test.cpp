@@ -24,7 +24,7 @@ struct Measure {
   // "Anthropometry of the Head and Face", 2nd ed., 1994); breadths of the face, of workers of the United States
   // (Zhuang and Bradtmiller, J. Occup. Environ. Hyg. 2, 2005). No range: other definitions than theirs.
   double low, high;
-  double deviation;  // between people of one sex
+  double deviation;  // between people of one sex; estimated where there is no range
 };
 constexpr Measure kMeasures[] = {
     {"n-gn", 10.6, 12.8, 0.58},      {"n-sn", 4.75, 5.8, 0.32},
