@@ -60,7 +60,8 @@ SurfaceMaterial hair_material(const char* name, const std::vector<uint8_t>& colo
   };
   material.color = {lighter(linear.x), lighter(linear.y), lighter(linear.z), 1};
   material.roughness = 0.6;
-  material.alpha_cutoff = 0.4;
+  // From afar a texel is the mean of hairs and gaps: thin brows and lashes would vanish.
+  material.alpha_cutoff = std::string(name) == "hair" ? 0.3 : 0.25;
   material.has_color = material.has_roughness = true;
   material.textures[size_t(TextureKind::kBaseColor)] = texture;
   return material;

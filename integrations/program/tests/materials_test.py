@@ -122,7 +122,8 @@ class GeneratedHead(MaterialsTest):
         self.assertLess(dark["made"], 0.85 * dark["plain"])
         self.ok("export", path("made.dna"), "-o", path("made.usda"), "--lod", "4", "-q")
         text = read("made.usda").decode()
-        self.assertEqual(text.count("float inputs:opacityThreshold = 0.4"), 3)
+        self.assertEqual(text.count("float inputs:opacityThreshold = 0.25"), 2)
+        self.assertEqual(text.count("float inputs:opacityThreshold = 0.3"), 1)
         self.assertEqual(len(re.findall(r"float inputs:opacity.connect = <.*/BaseColor.outputs:a>", text)), 3)
         self.fails(USAGE, "demo-head", "-o", "-", "--textures", path("made"), says="--textures")
 
