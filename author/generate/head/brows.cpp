@@ -100,6 +100,7 @@ void add_brow(const Form& form, uint32_t lod, HalfMesh& out) {
     const Vec3 out_of_face = unit({at.closed.x * 0.55, 0.8, at.closed.z});
     Vertex v = plain(at.closed + out_of_face * raise, color, 0, 0, Carrier::kSkin);
     v.look = at.closed;
+    v.normal = out_of_face * 1.5;  // the cards are shaded like the skin
     return v;
   };
   const uint32_t count = at_lod(124, 9, lod), steps = lod < 4 ? 3 : 2;
