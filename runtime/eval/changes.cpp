@@ -198,7 +198,7 @@ float animated_map(const Rig& rig, const Span<uint32_t>& rows, uint32_t row_coun
     if (r >= row_count) break;
     const float input = controls[table.inputs[r]];
     // Without branches, which would be mispredicted.
-    const bool counts = (r >= next) & (table.from[r] <= input) & (input <= table.to[r]);
+    const int counts = int{r >= next} & int{table.from[r] <= input} & int{input <= table.to[r]};
     const float added = sum + (table.slope[r] * input + table.cut[r]);
     sum = counts ? added : sum;
     next = counts ? table.run_ends[r] : next;
