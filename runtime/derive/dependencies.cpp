@@ -230,9 +230,7 @@ void spread_positions(const Dependencies& s) {
       const TargetRun& run = mesh.target_runs[i];
       const uint64_t set = s.weights[run.channel];
       if (set == 0) continue;
-      for (uint32_t k = 0; k < run.count; ++k) {
-        s.shaped[mesh.delta_indices[run.first_delta + k]] |= set;
-      }
+      for_each_delta(mesh, run, [&](uint32_t index, const float*) { s.shaped[index] |= set; });
     }
     const uint32_t first = block * kBlockPositions;
     const uint32_t count = std::min(kBlockPositions, mesh.position_count - first);
