@@ -242,7 +242,7 @@ TEST(Fit, SurfacesOfAnotherTopologyDrawPointsToThem) {
     EXPECT_LT(result.cost, start.cost);
     EXPECT_GT(result.missing_points, points.size() / 20) << "where the surface ends";
     EXPECT_LT(result.missing_points, points.size() / 3);
-    EXPECT_LT(result.point_residual, 0.15) << "points that lose their target stop no step";
+    EXPECT_LT(result.point_residual, 0.18) << "points that lose their target stop no step";
   }
 }
 
