@@ -206,7 +206,6 @@ void Layout::make() {
   make_curves();
   if (failed()) return;
   for (const auto& patch : kPatches) {
-    if (nostril_ && &patch == &kPatches[0]) continue;
     make_patch(patch);
     if (failed()) return;
   }

@@ -21,7 +21,7 @@ inline Place between(Place a, Place b, double t) {
   return {author::mix(a.angle, b.angle, t), author::mix(a.y, b.y, t)};
 }
 
-/// Segments of the cage at one LOD. Around the eye, inner + low + outer are equal below and above; the ring of
+/// Segments of the cage. Around the eye, inner + low + outer are equal below and above; the ring of
 /// the mouth has as many segments below its corner as above it.
 struct Segments {
   uint32_t nose;                              // columns from its ridge to its side
@@ -57,9 +57,8 @@ struct Ring {
 
 class Layout {
  public:
-  Layout(const Form& form, const Segments& segments, bool nostril, Arena& arena)
-      : spots(arena), quads(arena), form_(form), segments_(segments), nostril_(nostril),
-        arena_(arena) {}
+  Layout(const Form& form, const Segments& segments, Arena& arena)
+      : spots(arena), quads(arena), form_(form), segments_(segments), arena_(arena) {}
 
   /// Places all patches.
   void make();
@@ -72,7 +71,7 @@ class Layout {
 
   enum class Hole { kLids, kLips, kOther };
   /// Fills `border` up to a curve, whose spots it is then. `curve(k)` gives their places. `last`: where the
-  /// last ring before the curve is, so that what the curve separates has the same border at every LOD.
+  /// last ring before the curve is: close to it, so that what the curve separates has a sharp border.
   template <class Curve>
   void fill(Ring& border, uint32_t count, double last, Hole hole, const Curve& curve) {
     const Ring from = border;
@@ -126,7 +125,6 @@ class Layout {
 
   const Form& form_;
   const Segments& segments_;
-  const bool nostril_;
   Arena& arena_;
   bool failed_ = false;
   static constexpr uint32_t kMaxCurves = 96, kMaxNodes = 64;

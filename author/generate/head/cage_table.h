@@ -254,11 +254,6 @@ inline constexpr uint32_t kCurveCount = sizeof(kCurves) / sizeof(kCurves[0]);
 
 /// Patches by their sides: bottom, right, top, left; bottom and top go to the right, the others up.
 inline constexpr uint8_t kPatches[][4][5] = {
-    // The nostril, where it is not open.
-    {{kNostrilLowIn, kNostrilLowOut},
-     {kNostrilLowOut, kNostrilHighOut},
-     {kNostrilHighIn, kNostrilHighOut},
-     {kNostrilLowIn, kNostrilHighIn}},
     // Nose.
     {{kLipTop, kWing},
      {kWing, kWingLow},

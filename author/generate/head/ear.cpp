@@ -34,7 +34,7 @@ void SkinMaker::place_ear() {
 
 Place SkinMaker::ear_place(uint32_t k, bool inner) const {
   const auto [s, c] = exact_sine_cosine(kPi + 2 * kPi * k / ring_size_);
-  return ear_root(s, c, inner || lod_ >= 6 ? 1 : 1.14);
+  return ear_root(s, c, inner ? 1 : 1.14);
 }
 
 namespace {
@@ -66,19 +66,15 @@ double inside_ear(double back, double up) {
 
 void SkinMaker::make_ear() {
   // Share of the outline's radius, height above the plane of the ear, and minimum height above the head where
-  // the ear grows out of it: from the back, over the rim, into the bowl. Inside the rim, the finest has the
-  // heights of inside_ear().
-  static constexpr double kFine[][3] = {
+  // the ear grows out of it: from the back, over the rim, into the bowl. Inside the rim, heights
+  // are those of inside_ear().
+  constexpr uint32_t rings = 12;
+  static constexpr double kPath[rings][3] = {
       {0.90, -0.34, 0.04}, {1.00, -0.16, 0.08}, {1.04, 0.05, 0.13}, {1.00, 0.25, 0.19},
       {0.94, 0.27, 0.19},  {0.88, 0.12, 0.11},  {0.81, 0, 0.03},    {0.72, 0, -0.04},
       {0.62, 0, -0.10},    {0.51, 0, -0.20},    {0.37, 0, -0.36},   {0.19, 0, -0.42}};
-  static constexpr double kPlain[][3] = {
-      {1.02, 0.02, 0.12}, {0.92, 0.17, 0.15}, {0.60, -0.05, 0.0}, {0.35, -0.28, -0.30}};
-  static constexpr double kPlainest[][3] = {{1.0, 0.1, 0.12}, {0.5, -0.1, -0.05}};
-  const double(*path)[3] = lod_ < 3 ? kFine : lod_ < 6 ? kPlain : kPlainest;
-  const uint32_t rings = lod_ < 3 ? 12 : lod_ < 6 ? 4 : 2;
   const auto turn = [&](uint32_t k) { return exact_sine_cosine(kPi + 2 * kPi * k / ring_size_); };
-  make_rings(ear_ring_, lod_ < 6 ? 1 : 0, Layout::Hole::kOther,
+  make_rings(ear_ring_, 1, Layout::Hole::kOther,
              [this](uint32_t k, bool inner) { return ear_place(k, inner); });
   if (out_.failed()) return;
 
@@ -107,13 +103,10 @@ void SkinMaker::make_ear() {
     // The rim fades towards the lobe and where the ear grows out of the head.
     const double rim = mix(1, 0.25, std::max(smooth_step(-0.3, -0.9, s), smooth_step(-0.4, -1, c)));
     double height = step[1] * (step[1] > 0 ? rim : 1);
-    if (lod_ < 3) {
-      const double inside =
-          inside_ear(p * share, q * share) + 0.25 * smooth_step(-0.30, -0.80, p * share);
-      height =
-          mix(height, inside,
-              mix(smooth_step(0.86, 0.83, step[0]), smooth_step(0.99, 0.87, step[0]), in_front));
-    }
+    const double inside =
+        inside_ear(p * share, q * share) + 0.25 * smooth_step(-0.30, -0.80, p * share);
+    height = mix(height, inside,
+                 mix(smooth_step(0.86, 0.83, step[0]), smooth_step(0.99, 0.87, step[0]), in_front));
     const double size = ear_.size;
     const Vertex& from = out_.vertices[root[k]];
     Vec3 at = ear_.origin + ear_.back * (p * share * size) + ear_.up * (q * share * size) +
@@ -128,7 +121,7 @@ void SkinMaker::make_ear() {
                  mix(middle_u, from.u, left), mix(middle_v, from.v, left), Carrier::kSkin);
   };
   for (uint32_t r = 0; r < rings; ++r) {
-    for (uint32_t k = 0; k < ring_size_; ++k) next[k] = out_.vertices.add(place(k, path[r], r));
+    for (uint32_t k = 0; k < ring_size_; ++k) next[k] = out_.vertices.add(place(k, kPath[r], r));
     for (uint32_t k = 0; k < ring_size_; ++k) {
       const uint32_t other = (k + 1) % ring_size_;
       out_.quad(ring_[k], ring_[other], next[other], next[k]);
@@ -137,7 +130,7 @@ void SkinMaker::make_ear() {
   }
   static constexpr double kEnd[] = {0, -0.40, -0.42};
   Vertex end = place(0, kEnd, rings - 1);
-  end.color = lod_ < 6 ? mix(rosy, deep, 0.7) : rosy;
+  end.color = mix(rosy, deep, 0.7);
   const uint32_t middle = out_.vertices.add(end);
   for (uint32_t k = 0; k < ring_size_; ++k) {
     out_.triangle(ring_[k], ring_[(k + 1) % ring_size_], middle);

@@ -309,20 +309,6 @@ double Form::angle_of(double x, double y) const {
   return exact_atan2(s, std::sqrt(1 - s * s));
 }
 
-double Form::x_of(double angle, double y) const {
-  const Section at = section(y, 1);
-  return at.half_width * exact_pow(std::max(exact_sine_cosine(angle).sine, 0.0), 2 / at.exponent);
-}
-
-double Form::fold_x(double y) const {
-  static constexpr double kFold[][2] = {{-8.0, 3.60},  {-6.6, 3.42}, {-5.6, 3.05}, {-4.9, 2.45},
-                                        {-4.4, 1.88},  {-4.1, 1.73}, {-3.5, 1.74}, {-3.1, 1.68},
-                                        {-2.7, 1.66},  {-2.2, 1.82}, {-1.5, 2.45}, {0.0, 3.0},
-                                        {kEye.y, 3.60}};
-  return interpolate(y, kFold) +
-         1.6 * (person_.nose_width - 1) * smooth_step(-5.6, -4.2, y) * smooth_step(-1.2, -2.4, y);
-}
-
 FacePoint Form::face(double angle, double row, Side side) const {
   const auto [sine, cosine] = exact_sine_cosine(angle);
   const double y = row + collar_rise(row, cosine);

@@ -100,10 +100,6 @@ class Form {
 
   /// The angle at which the row `y` has this |x|, in front.
   double angle_of(double x, double y) const;
-  /// The |x| of this angle in the row `y`, in front.
-  double x_of(double angle, double y) const;
-  /// |x| of the line from the wing of the nose past the corner of the mouth to the chin.
-  double fold_x(double y) const;
 
   /// -1 at the inner corner of the eye, 1 at the outer one.
   static double along_eye(double x) { return (x - kEye.x) / kEyeHalfWidth; }

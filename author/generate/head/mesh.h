@@ -104,7 +104,7 @@ double scatter(uint32_t i);
 Vertex plain(Vec3 position, Color color, double u, double v, Carrier carrier);
 
 /// These add to `out`, which is failed() if memory ran out. set_normals() completes a mesh.
-void add_skin(const Form& form, uint32_t lod, HalfMesh& out);
+void add_skin(const Form& form, HalfMesh& out);
 void add_teeth(const Form& form, HalfMesh& out);
 void add_tongue(const Form& form, HalfMesh& out);
 void add_eyeball(const Form& form, HalfMesh& out);

@@ -105,20 +105,20 @@ Place SkinMaker::lip_place(uint32_t k, bool inner) const {
 }
 
 void SkinMaker::make_mouth() {
-  make_rings(mouth_, sizes_.mouth.inside, Layout::Hole::kLips,
+  make_rings(mouth_, kMouthRings.inside, Layout::Hole::kLips,
              [this](uint32_t k, bool inner) { return lip_place(k, inner); });
   if (out_.failed()) return;
   // Both halves of the ring meet in the back.
-  const uint32_t rings = sizes_.depth;
-  uint32_t corner[kMaxDepth + 1], back[kMaxRing];
+  constexpr uint32_t rings = kMouthDepth;
+  uint32_t corner[kMouthDepth + 1], back[kMaxRing];
   corner[0] = ring_[half_];
   for (uint32_t d = 1; d <= rings; ++d)
     corner[d] = mouth_vertex(ring_[half_], 1, depth_of(d), d == rings);
-  uint32_t before[kMaxDepth + 1];
+  uint32_t before[kMouthDepth + 1];
   for (uint32_t k = 0; k < ring_size_; ++k) {
     const uint32_t twin = ring_size_ - 1 - k;
     const double out = static_cast<double>(std::min(k, twin)) / half_;
-    uint32_t chain[kMaxDepth + 1];
+    uint32_t chain[kMouthDepth + 1];
     chain[0] = ring_[k];
     for (uint32_t d = 1; d <= rings; ++d) {
       if (k == half_) {
@@ -136,8 +136,8 @@ void SkinMaker::make_mouth() {
 }
 
 double SkinMaker::depth_of(uint32_t ring) const {
-  const double t = (ring - 1.0) / (sizes_.depth - 1);
-  return mix(0.02, 1, sizes_.depth >= 6 ? t * mix(0.75, 1, t) : t);
+  const double t = (ring - 1.0) / (kMouthDepth - 1);
+  return mix(0.02, 1, t * mix(0.75, 1, t));
 }
 
 }  // namespace mien::head

@@ -155,7 +155,7 @@ bool make_hairs(const Form& form, Part part, uint32_t lod, HalfMesh& out) {
 
 bool make_part(const Form& form, Part part, HalfMesh& out) {
   switch (part) {
-    case Part::kHead: add_skin(form, 0, out); break;
+    case Part::kHead: add_skin(form, out); break;
     case Part::kTeeth: add_teeth(form, out); break;
     case Part::kTongue: add_tongue(form, out); break;
     case Part::kEyeLeft:

@@ -10,24 +10,8 @@ using author::kPi;
 using author::mix;
 using author::smooth_step;
 
-namespace {
-
-constexpr SkinSizes kSizes[kLodCount] = {
-    {{8, 10, 16, 14, 8, 22, 10, 9, 7, 6, 18, 2, 5, 12, 26, 14, 10}, {8, 8}, {7, 8}, 9, true},
-    {{6, 7, 11, 10, 6, 15, 7, 6, 4, 4, 13, 1, 4, 9, 19, 10, 7}, {6, 5}, {5, 5}, 7, true},
-    {{5, 6, 10, 8, 4, 14, 6, 5, 4, 4, 11, 1, 3, 8, 17, 10, 9}, {5, 4}, {4, 4}, 6, true},
-    {{4, 4, 7, 5, 3, 9, 4, 4, 2, 2, 8, 1, 2, 5, 11, 6, 4}, {4, 3}, {3, 4}, 5, false},
-    {{3, 3, 5, 4, 2, 7, 3, 3, 1, 2, 6, 1, 2, 4, 9, 5, 3}, {3, 3}, {3, 3}, 4, false},
-    {{3, 2, 4, 3, 2, 5, 2, 2, 1, 2, 5, 1, 1, 3, 7, 5, 3}, {3, 2}, {2, 3}, 4, false},
-    {{3, 2, 3, 2, 2, 4, 1, 2, 1, 1, 3, 1, 1, 3, 5, 3, 2}, {2, 2}, {2, 2}, 4, false},
-    {{3, 1, 2, 2, 1, 3, 1, 1, 1, 1, 2, 1, 1, 2, 4, 2, 2}, {2, 2}, {2, 2}, 3, false},
-};
-
-}  // namespace
-
-SkinMaker::SkinMaker(const Form& form, uint32_t lod, HalfMesh& out)
-    : form_(form), sizes_(kSizes[lod]), lod_(lod), out_(out),
-      layout_(form, sizes_.segments, sizes_.nostril, out.vertices.arena()) {}
+SkinMaker::SkinMaker(const Form& form, HalfMesh& out)
+    : form_(form), out_(out), layout_(form, kSkinSegments, out.vertices.arena()) {}
 
 void SkinMaker::make() {
   place_ear();
@@ -38,27 +22,24 @@ void SkinMaker::make() {
   ear_ring_ = layout_.ear();
   using Hole = Layout::Hole;
   half_ = eye_.half, ring_size_ = eye_.count;
-  layout_.fill(eye_, sizes_.eye.outside, 0.86, Hole::kLids,
+  layout_.fill(eye_, kEyeRings.outside, 0.86, Hole::kLids,
                [this](uint32_t k) { return lid_place(k, false); });
   half_ = mouth_.half, ring_size_ = mouth_.count;
-  layout_.fill(mouth_, sizes_.mouth.outside, 0.90, Hole::kLips,
+  layout_.fill(mouth_, kMouthRings.outside, 0.90, Hole::kLips,
                [this](uint32_t k) { return lip_place(k, false); });
   ring_size_ = ear_ring_.count;
-  layout_.fill(ear_ring_, lod_ < 3 ? 3 : 1, 0.7, Hole::kOther,
-               [this](uint32_t k) { return ear_place(k, false); });
-  if (sizes_.nostril) {
-    nostril_ = layout_.nostril();
-    ring_size_ = nostril_.count;
-    layout_.fill(nostril_, lod_ == 0 ? 4 : 2, 0.8, Hole::kOther,
-                 [this](uint32_t k) { return nostril_place(k, false); });
-  }
-  layout_.even_out(lod_ == 0 ? 48 : 24);
+  layout_.fill(ear_ring_, 3, 0.7, Hole::kOther, [this](uint32_t k) { return ear_place(k, false); });
+  nostril_ = layout_.nostril();
+  ring_size_ = nostril_.count;
+  layout_.fill(nostril_, 4, 0.8, Hole::kOther,
+               [this](uint32_t k) { return nostril_place(k, false); });
+  layout_.even_out(48);
   if (layout_.failed()) return out_.vertices.fail();
   make_vertices();
   if (out_.failed()) return;
   make_faces();
   make_eye();
-  if (sizes_.nostril && !out_.failed()) make_nostril();
+  if (!out_.failed()) make_nostril();
   if (!out_.failed()) make_mouth();
   if (!out_.failed()) make_ear();
 }
@@ -76,11 +57,6 @@ Vertex SkinMaker::skin_vertex(Place place, Side lid, Side lip) const {
   v.v = row_v(place.y) + kLidV * std::min(std::max(v.lid / 0.5, -1.0), 1.0);
   v.color = form_.skin_color(v.look, place.y, v.lid);
   v.color = mix(v.color, form_.person().hair, 0.6 * scalp(form_, place.angle, place.y));
-  if (!sizes_.nostril) {
-    v.color = mix(v.color, {58, 24, 22},
-                  0.85 * bump(std::abs(v.closed.x), v.closed.y,
-                              kNostril.x * form_.person().nose_width, kNostril.y, 0.28, 0.14));
-  }
   return v;
 }
 
@@ -122,7 +98,7 @@ Place SkinMaker::lid_place(uint32_t k, bool inner) const {
 }
 
 void SkinMaker::make_eye() {
-  make_rings(eye_, sizes_.eye.inside, Layout::Hole::kLids,
+  make_rings(eye_, kEyeRings.inside, Layout::Hole::kLids,
              [this](uint32_t k, bool inner) { return lid_place(k, inner); });
   if (!out_.failed()) make_lid_edges();
 }
@@ -161,6 +137,6 @@ void SkinMaker::make_lid_edges() {
   }
 }
 
-void add_skin(const Form& form, uint32_t lod, HalfMesh& out) { SkinMaker(form, lod, out).make(); }
+void add_skin(const Form& form, HalfMesh& out) { SkinMaker(form, out).make(); }
 
 }  // namespace mien::head

@@ -19,18 +19,13 @@ struct Rings {
   uint32_t outside, inside;  // of the border between
 };
 
-/// The skin at one LOD.
-struct SkinSizes {
-  Segments segments;
-  Rings mouth, eye;
-  uint32_t depth;  // rings into the mouth
-  bool nostril;
-};
-constexpr uint32_t kMaxDepth = 9;
+constexpr Segments kSkinSegments = {8, 10, 16, 14, 8, 22, 10, 9, 7, 6, 18, 2, 5, 12, 26, 14, 10};
+constexpr Rings kMouthRings = {8, 8}, kEyeRings = {7, 8};
+constexpr uint32_t kMouthDepth = 9;  // rings into the mouth
 
 class SkinMaker {
  public:
-  SkinMaker(const Form& form, uint32_t lod, HalfMesh& out);
+  SkinMaker(const Form& form, HalfMesh& out);
 
   void make();
 
@@ -118,8 +113,6 @@ class SkinMaker {
   static double mix_v(double share) { return kInnerV + (1 - kInnerV) * share; }
 
   const Form& form_;
-  const SkinSizes& sizes_;
-  const uint32_t lod_;
   HalfMesh& out_;
   Layout layout_;
   Ring eye_, mouth_, nostril_, ear_ring_;

@@ -7,23 +7,41 @@ import { BufferAttribute, Group, MeshBasicMaterial, Vector2, Vector3 } from "thr
  * distance, because ever more of them share a pixel. */
 const [OPACITY, CLEAR, GONE, FALL] = [0.5, 8, 1, 1.5];
 
-/** For each vertex the distance between the edges around it: the mean of the least heights of its triangles. */
-function spacingOf({ attributes: { position }, index }) {
+/** Cells along the longest side of a mesh, in which surfaces above each other are counted. */
+const CELLS = 32;
+/** The most area of one flat surface in a cell, in squares of its side. */
+const ONE_SURFACE = Math.sqrt(3);
+
+/** For each vertex the distance between the edges around it: the mean of the least heights of its triangles, less where
+ * surfaces lie above each other, as cards of hair do. */
+function spacingOf(geometry) {
+  const { attributes: { position }, index } = geometry;
   const [sums, counts] = [new Float32Array(position.count), new Uint16Array(position.count)];
   const corners = [new Vector3(), new Vector3(), new Vector3()];
+  geometry.computeBoundingBox();
+  const { min, max } = geometry.boundingBox;
+  const cell = Math.max(max.x - min.x, max.y - min.y, max.z - min.z, Number.MIN_VALUE) / CELLS;
+  const areas = new Map();
+  const cellOf = (place) => ["x", "y", "z"].reduce((sum, axis) =>
+    sum * (CELLS + 1) + Math.floor((place[axis] - min[axis]) / cell), 0);
   const count = index ? index.count : position.count;
   for (let i = 0; i + 2 < count; i += 3) {
     const numbers = [0, 1, 2].map((k) => (index ? index.getX(i + k) : i + k));
     numbers.forEach((vertex, k) => corners[k].fromBufferAttribute(position, vertex));
     const [a, b, c] = corners;
     const longest = Math.max(a.distanceTo(b), b.distanceTo(c), c.distanceTo(a));
+    const at = cellOf(a.clone().add(b).add(c).divideScalar(3));
     const area = b.sub(a).cross(c.sub(a)).length();
+    areas.set(at, (areas.get(at) ?? 0) + area / 2);
     for (const vertex of numbers) {
       sums[vertex] += longest > 0 ? area / longest : 0;
       ++counts[vertex];
     }
   }
-  return sums.map((sum, i) => sum / Math.max(1, counts[i]));
+  return sums.map((sum, i) => {
+    const area = areas.get(cellOf(corners[0].fromBufferAttribute(position, i))) ?? 0;
+    return sum / Math.max(1, counts[i]) / Math.max(1, area / (ONE_SURFACE * cell * cell));
+  });
 }
 
 /** Lines whose opacity follows from the distance of edges on the screen; `height` is that of the screen in pixels. */
