@@ -238,7 +238,7 @@ struct MeshPart {
     }
     // Ascending positions, of which groups of four have one to four.
     std::vector<uint16_t> at, groups;
-    for (uint32_t p = 0; at.size() < count; ++p) {
+    for (uint32_t p = 0; p < kPositions && at.size() < count; ++p) {
       if (p % 7 == 2 || p % 5 == 3 || p / 4 % 6 == 4) continue;
       at.push_back(static_cast<uint16_t>(p));
       if (groups.empty() || groups.back() >> 4 != p / 4) {
@@ -249,7 +249,7 @@ struct MeshPart {
     Aligned result((kPositions * 4 + 15) / 16 * 16, nullptr);
     std::copy(positions.data, positions.data + kPositions * 4, result.data);
     std::vector<int16_t> words(1);  // the kernels take any even address
-    for (size_t i = 0; i < size_t{count} * 3; i += 3) {
+    for (size_t i = 0; i < at.size() * 3; i += 3) {
       if (packed) {
         uint32_t bits = 0;
         for (int k = 0; k < 3; ++k) {
@@ -267,7 +267,8 @@ struct MeshPart {
     if (fixed) {
       packed ? kernels.add_target_packed(args) : kernels.add_target_fixed(args);
     } else {
-      kernels.add_target({rounded.data, at.data(), result.data, 0.7f, count});
+      kernels.add_target(
+          {rounded.data, at.data(), result.data, 0.7f, static_cast<uint32_t>(at.size())});
     }
     for (uint32_t i = 0; i < kPositions; ++i) result.data[i * 4 + 3] = 0;
     return {result.data, result.data + kPositions * 4};
