@@ -150,8 +150,10 @@ uint32_t Solve::run_stage(uint32_t limit, double enough_decrease) {
     std::fill(fit.measured.begin(), fit.measured.end(), uint8_t{0});
     return true;
   };
+  const double rounding = rounding_of(f, cost);
+  // Gains that are not worth a step, or that rounding alone may give.
   const auto enough_of = [&](double total) {
-    return std::max(enough_decrease * total, kEnoughOfFirst * first);
+    return std::max({enough_decrease * total, kEnoughOfFirst * first, rounding});
   };
   for (uint32_t done = 0; done < limit; ++done, ++iterations) {
     if (f.in.canceled && f.in.canceled(f.in.user)) return MIEN_FIT_CANCELED;
@@ -170,7 +172,7 @@ uint32_t Solve::run_stage(uint32_t limit, double enough_decrease) {
     for (;;) {
       ModelStep step = {0, 0, false};
       if (by_model) {
-        step = minimize_model(f, cost.total, first, rounding_of(f, cost), damping);
+        step = minimize_model(f, cost.total, first, rounding, damping);
         if (step.farthest == 0) {
           cost = find_all();
           return MIEN_FIT_CONVERGED;
@@ -189,7 +191,7 @@ uint32_t Solve::run_stage(uint32_t limit, double enough_decrease) {
         const bool as_predicted = step.solved && damping <= kFirstDamping &&
                                   std::fabs(cost.total - step.predicted) <= enough_of(cost.total);
         damping = std::max(damping * 0.2, 1e-7);
-        if (as_predicted || cost.total <= rounding_of(f, cost)) {
+        if (as_predicted || cost.total <= rounding) {
           ++iterations;
           return MIEN_FIT_CONVERGED;
         }
@@ -203,7 +205,10 @@ uint32_t Solve::run_stage(uint32_t limit, double enough_decrease) {
       }
       std::copy(fit.best.begin(), fit.best.end(), fit.raw.begin());
       f.motion = motion;
-      if (step.farthest < kEnoughStep || damping > 1e8) {
+      // A full step that loses next to nothing: the best controls are the minimum, up to rounding.
+      const bool at_minimum =
+          !by_model && damping <= kFirstDamping && reached - cost.total <= enough_of(cost.total);
+      if (at_minimum || step.farthest < kEnoughStep || damping > 1e8) {
         cost = find_all();  // of the best controls
         if (!f.exact && damping > kFirstDamping && measure_again()) break;
         return MIEN_FIT_CONVERGED;
