@@ -5,6 +5,8 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 
 namespace mien::author {
 
@@ -17,6 +19,15 @@ inline double smooth_step(double from, double to, double x) {
   return t * t * (3 - 2 * t);
 }
 
+/// number * 2^power, where the result is not subnormal.
+inline double scaled(double number, int power) {
+  if (power < -1022 || power > 1023) return std::ldexp(number, power);
+  const uint64_t bits = static_cast<uint64_t>(power + 1023) << 52;
+  double two;
+  std::memcpy(&two, &bits, sizeof(two));
+  return number * two;
+}
+
 /// e^x; 0 for very small x.
 inline double exact_exp(double x) {
   if (x < -700) return 0;
@@ -24,7 +35,7 @@ inline double exact_exp(double x) {
   const double r = (x - k * 0.693147180369123816490) - k * 1.90821492927058770002e-10;
   double sum = 1;
   for (int i = 14; i > 0; --i) sum = 1 + sum * r / i;
-  return std::ldexp(sum, static_cast<int>(k));
+  return scaled(sum, static_cast<int>(k));
 }
 
 /// Natural logarithm of a positive number.
@@ -52,6 +63,7 @@ struct SineCosine {
 };
 
 inline SineCosine exact_sine_cosine(double x) {
+  if (x == 0) return {x, 1};
   const double k = std::floor(x * (2 / kPi) + 0.5);
   const double r = (x - k * 1.57079632673412561417) - k * 6.07710050650619224932e-11, r2 = r * r;
   double s = 1, c = 1;

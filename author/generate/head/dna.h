@@ -20,9 +20,9 @@ bool fill_controls(const Head& head, Arena& arena, dna::DnaView& out);
 /// Joint names, hierarchy, neutral pose, joint groups.
 bool fill_joints(const Head& head, Arena& arena, Arena& scratch, dna::DnaView& out);
 /// Meshes, blend shape channels, and the metadata with colors after `metadata_used` entries. `skin` is the part
-/// kHead.
-bool fill_meshes(const Head& head, const PartLods& skin, Arena& arena, const Allocator& allocator,
-                 size_t metadata_used, dna::DnaView& out);
+/// kHead, `displacements` are those of its vertices.
+bool fill_meshes(const Head& head, const PartLods& skin, Displacements& displacements, Arena& arena,
+                 const Allocator& allocator, size_t metadata_used, dna::DnaView& out);
 
 /// Meshes: every part at every LOD, with the parts of a LOD in sequence.
 constexpr uint32_t kMeshCount = kPartCount * kLodCount;

@@ -67,7 +67,7 @@ void pose_joints(const Skeleton& skeleton, const JointDeltas& deltas, const uint
 }
 
 bool fit_joints(const Shapes& shapes, const Skeleton& skeleton, const HalfMesh& mesh,
-                Arena& scratch, JointDeltas& out) {
+                Displacements& displacements, Arena& scratch, JointDeltas& out) {
   const uint32_t joints = skeleton.count, shape_count = shapes.count();
   out.joint_count = joints;
   Span<Weights> weights;
@@ -94,6 +94,7 @@ bool fit_joints(const Shapes& shapes, const Skeleton& skeleton, const HalfMesh& 
   const auto is_fitted = [&](uint16_t j) { return skeleton.joints[j].drive == Drive::kFit; };
   const auto twin = [&](uint16_t j) { return skeleton.joints[j].twin; };
   for (uint32_t i = 0; i < mesh.vertices.count(); ++i) {
+    displacements.find(mesh.vertices[i]);
     weights[i] = weigh(skeleton, 0, mesh.vertices[i], mesh.on_plane(i));
     const Weights& w = weights[i];
     for (uint32_t a = 0; a < w.count; ++a) {
@@ -129,7 +130,7 @@ bool fit_joints(const Shapes& shapes, const Skeleton& skeleton, const HalfMesh& 
       pose_joints(skeleton, out, &shape, 1, pose.data);
       for (uint32_t i = 0; i < mesh.vertices.count(); ++i) {
         const Vertex& v = mesh.vertices[i];
-        const Vec3 wanted = shapes.displacement(shape, v) -
+        const Vec3 wanted = displacements.at(shape, v) -
                             (skin(pose.data, influences(weights[i]), v.position) - v.position);
         for (uint32_t a = 0; a < weights[i].count; ++a) {
           const uint16_t j = weights[i].joints[a];

@@ -16,7 +16,7 @@ inline author::Influences influences(const Weights& w) { return {w.joints, w.val
 
 /// Translations are fitted on `mesh`, whose weights are those of LOD 0. False if memory ran out.
 bool fit_joints(const Shapes& shapes, const Skeleton& skeleton, const HalfMesh& mesh,
-                Arena& scratch, JointDeltas& out);
+                Displacements& displacements, Arena& scratch, JointDeltas& out);
 
 /// How each joint moves points when these shapes are fully active together.
 void pose_joints(const Skeleton& skeleton, const JointDeltas& deltas, const uint32_t* active,

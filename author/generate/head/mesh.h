@@ -32,6 +32,7 @@ struct Vertex {
   double depth = 0;        // into the mouth: 0 on the face, 1 at its back
   double along = 0;        // tongue: 0 root, 1 tip
   Color color;
+  uint32_t number = 0;  // of the vertex in its mesh; after a collapse, in the mesh of LOD 0
   Side side = Side::kAbove;
   bool edge = false;  // of a slit, where it has to meet the other side
   Carrier carrier = Carrier::kSkin;

@@ -19,6 +19,7 @@ constexpr const char* kPartNames[kPartCount] = {"head",     "teeth", "tongue", "
                                                 "eyeRight", "hair",  "brows",  "lashes"};
 /// Smaller offsets are not stored.
 constexpr double kLeastOffset = 0.002;
+constexpr double kLeastShare = 1e-3;
 /// Correctives that only moderate the sum of a pair come this close to it.
 constexpr double kModerationError = 0.03;
 
@@ -28,9 +29,10 @@ Text mesh_name(Part part, uint32_t lod) {
 
 class MeshMaker {
  public:
-  MeshMaker(const Head& head, Part part, uint32_t lod, const HalfMesh& half, Arena& arena,
-            Arena& scratch)
-      : head_(head), part_(part), lod_(lod), arena_(arena), scratch_(scratch), half_(half) {}
+  MeshMaker(const Head& head, Span<const Affine> poses, Displacements& displacements, Part part,
+            uint32_t lod, const HalfMesh& half, Arena& arena, Arena& scratch)
+      : head_(head), poses_(poses), displacements_(displacements), part_(part), lod_(lod),
+        arena_(arena), scratch_(scratch), half_(half) {}
 
   /// `used` is set for channels for which the mesh has a target.
   bool make(dna::Mesh& out, Span<uint8_t> used) {
@@ -162,21 +164,24 @@ class MeshMaker {
   }
 
   /// The part of a shape that joints cannot produce, for the vertices of this half.
-  void find_offsets(uint32_t shape, Span<Affine> pose, Span<Vec3> out) const;
+  void find_offsets(uint32_t shape, Span<Vec3> out) const;
 
   bool make_targets(dna::Mesh& out, Span<uint8_t> used) {
-    bool skin = false;
+    if (!author::make(scratch_, left_count(), shares_)) return false;
+    bool moves = false;
     for (uint32_t i = 0; i < left_count(); ++i) {
-      skin = skin || half_.vertices[i].carrier == Carrier::kSkin;
+      const Vertex& v = half_.vertices[i];
+      if (v.carrier == Carrier::kSkin) shares_[i] = lod_ < kShapeLods ? 1 : near_lips(v);
+      moves = moves || shares_[i] >= kLeastShare;
     }
-    if (!skin) return true;
+    if (!moves) return true;
+    if (part_ != Part::kHead && !displacements_.make(left_count(), scratch_)) return false;
+    for (uint32_t i = 0; i < left_count(); ++i) {
+      if (shares_[i] >= kLeastShare) displacements_.find(half_.vertices[i]);
+    }
     const uint32_t shapes = head_.shapes.count();
-    Span<Affine> pose;
-    if (!author::make(scratch_, size_t{shapes} * left_count(), offsets_) ||
-        !author::make(scratch_, head_.skeleton.count, pose)) {
-      return false;
-    }
-    for (uint32_t s = 0; s < shapes; ++s) find_offsets(s, pose, offsets_of(s));
+    if (!author::make(scratch_, size_t{shapes} * left_count(), offsets_)) return false;
+    for (uint32_t s = 0; s < shapes; ++s) find_offsets(s, offsets_of(s));
 
     uint32_t targets = 0, target = 0;
     for (uint32_t s = 0; s < shapes; ++s) targets += count_moved(s) > 0;
@@ -193,10 +198,7 @@ class MeshMaker {
   /// LODs without shapes of the whole face have shapes of the edges of the lips, so that a closed mouth has
   /// no slit.
   double near_lips(const Vertex& v) const {
-    if (v.carrier != Carrier::kSkin || std::abs(v.look.x) > kMouthHalfWidth ||
-        std::abs(v.look.y - kMouthY) > 1.3) {
-      return 0;
-    }
+    if (std::abs(v.look.x) > kMouthHalfWidth || std::abs(v.look.y - kMouthY) > 1.3) return 0;
     return bump(v.above_mouth, v.depth, 0, 0, 0.35, 0.15);
   }
 
@@ -242,6 +244,8 @@ class MeshMaker {
   }
 
   const Head& head_;
+  const Span<const Affine> poses_;  // [shape * joint count + joint]
+  Displacements& displacements_;
   const Part part_;
   const uint32_t lod_;
   Arena& arena_;
@@ -251,35 +255,45 @@ class MeshMaker {
   uint32_t count_ = 0;
   Span<uint32_t> twin_, other_layout_;
   Span<Weights> weights_;
-  Span<Vec3> offsets_;  // [shape * left_count() + vertex]
+  Span<double> shares_;  // of the offsets of a vertex that the mesh has
+  Span<Vec3> offsets_;   // [shape * left_count() + vertex]
 };
 
-void MeshMaker::find_offsets(uint32_t shape, Span<Affine> pose, Span<Vec3> out) const {
-  const Shapes& shapes = head_.shapes;
-  // A corrective acts together with its members: it has to correct the sum of the three.
-  uint32_t active[3] = {shape}, active_count = 1;
+/// A corrective acts together with its members: it has to correct the sum of the three.
+struct Active {
+  uint32_t shapes[3] = {}, count = 1;
+};
+
+Active active_with(const Shapes& shapes, uint32_t shape) {
+  Active active;
+  active.shapes[0] = shape;
   if (shape >= kExpressionCount) {
     const Corrective& c = shapes.corrective(shape - kExpressionCount);
-    active[active_count++] = c.first;
-    active[active_count++] = c.second;
+    active.shapes[active.count++] = c.first;
+    active.shapes[active.count++] = c.second;
   }
-  pose_joints(head_.skeleton, head_.deltas, active, active_count, pose.data);
+  return active;
+}
+
+void MeshMaker::find_offsets(uint32_t shape, Span<Vec3> out) const {
+  const Shapes& shapes = head_.shapes;
+  const Active active = active_with(shapes, shape);
+  const Affine* pose = &poses_[size_t{shape} * head_.skeleton.count];
   const uint32_t twin = shapes.twin(shape);
   for (uint32_t i = 0; i < left_count(); ++i) {
     const Vertex& v = half_.vertices[i];
-    if (v.carrier != Carrier::kSkin) continue;
-    const double share = lod_ < kShapeLods ? 1 : near_lips(v);
-    if (share < 1e-3) continue;
+    const double share = shares_[i];
+    if (share < kLeastShare) continue;
     if (half_.on_plane(i) && twin < shape) {  // the mirror image of offsets found already
       out[i] = mirrored(offsets_of(twin)[i]);
       continue;
     }
     Vec3 from = v.position, target = v.position;
-    for (uint32_t a = 0; a < active_count; ++a) {
-      target = target + shapes.displacement(active[a], v);
-      if (a > 0) from = from + offsets_of(active[a])[i];
+    for (uint32_t a = 0; a < active.count; ++a) {
+      target = target + displacements_.at(active.shapes[a], v);
+      if (a > 0) from = from + offsets_of(active.shapes[a])[i];
     }
-    Vec3 offset = author::residual(pose.data, influences(weights_[i]), from, target);
+    Vec3 offset = author::residual(pose, influences(weights_[i]), from, target);
     if (half_.on_plane(i) && twin == shape) offset.x = 0;
     offset = offset * share;
     if (head_.shapes.is_moderation(shape) && !v.edge) {
@@ -312,6 +326,16 @@ bool MeshMaker::make_colors(dna::MetadataPair& out) {
       arena_,
       Text().add("mien.colors.").add(mesh_name(part_, lod_).chars, mesh_name(part_, lod_).count),
       out.key);
+}
+
+bool pose_shapes(const Head& head, Arena& scratch, Span<Affine>& out) {
+  const uint32_t joints = head.skeleton.count;
+  if (!make(scratch, size_t{head.shapes.count()} * joints, out)) return false;
+  for (uint32_t s = 0; s < head.shapes.count(); ++s) {
+    const Active active = active_with(head.shapes, s);
+    pose_joints(head.skeleton, head.deltas, active.shapes, active.count, &out[size_t{s} * joints]);
+  }
+  return true;
 }
 
 bool fill_channels(const Head& head, Span<const uint8_t> used, Arena& arena, dna::DnaView& out) {
@@ -349,21 +373,25 @@ bool fill_channels(const Head& head, Span<const uint8_t> used, Arena& arena, dna
 
 }  // namespace
 
-bool fill_meshes(const Head& head, const PartLods& skin, Arena& arena, const Allocator& allocator,
-                 size_t metadata_used, dna::DnaView& out) {
+bool fill_meshes(const Head& head, const PartLods& skin, Displacements& displacements, Arena& arena,
+                 const Allocator& allocator, size_t metadata_used, dna::DnaView& out) {
   Arena scratch(allocator);
   dna::List<dna::Mesh>& meshes = out.geom.meshes;
   Span<uint8_t> used;
   Span<uint16_t> channel_of;
-  if (!make(arena, kMeshCount, meshes) || !make(arena, kMeshCount, out.defn.mesh_names) ||
-      !make(scratch, head.shapes.count(), used) || !make(scratch, used.count, channel_of)) {
+  Span<Affine> poses;
+  if (!pose_shapes(head, scratch, poses) || !make(arena, kMeshCount, meshes) ||
+      !make(arena, kMeshCount, out.defn.mesh_names) || !make(scratch, head.shapes.count(), used) ||
+      !make(scratch, used.count, channel_of)) {
     return false;
   }
   const auto make_meshes = [&](Part part, const PartLods& made) {
     for (uint32_t lod = 0; lod < kLodCount; ++lod) {
       const uint32_t m = lod * kPartCount + static_cast<uint32_t>(part);
       Arena for_mesh(allocator);
-      MeshMaker maker(head, part, lod, made.at[lod], arena, for_mesh);
+      Displacements of_mesh(head.shapes);
+      MeshMaker maker(head, poses, part == Part::kHead ? displacements : of_mesh, part, lod,
+                      made.at[lod], arena, for_mesh);
       if (!copy_text(arena, mesh_name(part, lod), out.defn.mesh_names[m]) ||
           !maker.make(meshes[m], used) ||
           !maker.make_colors(out.desc.metadata[metadata_used + m])) {

@@ -136,7 +136,11 @@ namespace {
 bool finish(const Form& form, HalfMesh& out) {
   if (out.failed()) return false;
   set_normals(out);
-  for (Vertex& v : out.vertices.span()) v.above_mouth = v.look.y - form.mouth_line(v.look.x);
+  for (uint32_t i = 0; i < out.vertices.count(); ++i) {
+    Vertex& v = out.vertices[i];
+    v.above_mouth = v.look.y - form.mouth_line(v.look.x);
+    v.number = i;
+  }
   return true;
 }
 

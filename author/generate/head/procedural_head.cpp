@@ -37,11 +37,13 @@ bool make_head(uint64_t seed, Arena& arena, const Allocator& allocator, dna::Dna
   const Skeleton skeleton(form);
   Head head = {form, shapes, skeleton, {}};
   PartLods skin(scratch);
+  Displacements displacements(shapes);
   return fill_index(8, arena, out) && fill_descriptor(seed, form.person(), arena, out.desc) &&
          make_lods(form, Part::kHead, allocator, skin) &&
-         fit_joints(shapes, skeleton, skin.at[1], scratch, head.deltas) &&
+         displacements.make(skin.at[0].vertices.count(), scratch) &&
+         fit_joints(shapes, skeleton, skin.at[1], displacements, scratch, head.deltas) &&
          fill_controls(head, arena, out) && fill_joints(head, arena, scratch, out) &&
-         fill_meshes(head, skin, arena, allocator, 2, out);
+         fill_meshes(head, skin, displacements, arena, allocator, 2, out);
 }
 
 }  // namespace

@@ -84,17 +84,16 @@ Vec3 seal(const Vertex& v, bool above) {
   return gap * (near * (above ? 0.36 : -0.64));
 }
 
-}  // namespace
-
 /// Where both move the skin in one direction, it goes as far as the root of the sum of their squares, not as far as
 /// their sum.
-Vec3 Shapes::not_twice(const Corrective& pair, const Vertex& v) const {
+Vec3 not_twice(const Vertex& v, Vec3 a, Vec3 b) {
   if (v.lid != 0) return {};
-  const Vec3 a = skin_displacement(pair.first, v), b = skin_displacement(pair.second, v);
   const Vec3 sum = a + b;
   if (dot(a, b) <= 0) return {};
   return sum * (std::sqrt(dot(a, a) + dot(b, b)) / length(sum) - 1);
 }
+
+}  // namespace
 
 Vec3 Shapes::lids(Motion motion, const Vertex& v) const {
   if (v.lid == 0) return {};
@@ -358,7 +357,10 @@ Vec3 Shapes::both_sides(Motion motion, const Vertex& v) const {
 
 Vec3 Shapes::skin_displacement(uint32_t index, const Vertex& v) const {
   const Shape s = shape(index);
-  if (s.motion == Motion::kNotTwice) return not_twice(list_[index - kExpressionCount], v);
+  if (s.motion == Motion::kNotTwice) {
+    const Corrective& pair = list_[index - kExpressionCount];
+    return not_twice(v, skin_displacement(pair.first, v), skin_displacement(pair.second, v));
+  }
   Vec3 d;
   // Windows are those of the front view: nothing moves at the back. Inside the mouth the skin follows the
   // lips less with depth.
@@ -382,14 +384,45 @@ Vec3 Shapes::skin_displacement(uint32_t index, const Vertex& v) const {
   return d;
 }
 
-Vec3 Shapes::displacement(uint32_t index, const Vertex& v) const {
-  const Vec3 d = skin_displacement(index, v);
+Vec3 Shapes::with_jaw(uint32_t index, const Vertex& v, Vec3 d) const {
   const Motion motion = shape(index).motion;
-  const bool undoes = undoes_jaw(motion);
+  const bool undoes = index >= kExpressionCount && undoes_jaw(motion);
   if (!undoes && !moves_jaw(motion)) return d;
   const uint32_t turned = undoes ? list_[index - kExpressionCount].undone : index;
   const Vec3 carried = (move_with_jaw(turns(turned, 1), v.position) - v.position) * jaw_weight(v);
   return undoes ? d - carried : d + carried;
+}
+
+Vec3 Shapes::displacement(uint32_t index, const Vertex& v) const {
+  return with_jaw(index, v, skin_displacement(index, v));
+}
+
+void Shapes::displacements(const Vertex& v, Vec3 (&out)[kMaxShapes]) const {
+  Vec3 skin[kExpressionCount];
+  for (uint32_t s = 0; s < kExpressionCount; ++s) {
+    skin[s] = skin_displacement(s, v);
+    out[s] = with_jaw(s, v, skin[s]);
+  }
+  for (uint32_t s = kExpressionCount; s < count(); ++s) {
+    const Corrective& pair = list_[s - kExpressionCount];
+    out[s] =
+        is_moderation(s) ? not_twice(v, skin[pair.first], skin[pair.second]) : displacement(s, v);
+  }
+}
+
+bool Displacements::make(uint32_t vertex_count, Arena& arena) {
+  return author::make(arena, vertex_count, found_) &&
+         author::make(arena, size_t{vertex_count} * shapes_.count(), items_);
+}
+
+void Displacements::find(const Vertex& v) {
+  if (found_[v.number]) return;
+  found_[v.number] = 1;
+  Vec3 of_shapes[kMaxShapes];
+  shapes_.displacements(v, of_shapes);
+  for (uint32_t s = 0; s < shapes_.count(); ++s) {
+    items_[size_t{s} * found_.count + v.number] = of_shapes[s];
+  }
 }
 
 }  // namespace mien::head

@@ -134,6 +134,8 @@ class Shapes {
   Vec3 displacement(uint32_t shape, const Vertex& v) const;
   /// The same but for what the jaw carries along.
   Vec3 skin_displacement(uint32_t shape, const Vertex& v) const;
+  /// Displacements of all shapes: each expression is evaluated once, also where correctives need it.
+  void displacements(const Vertex& v, Vec3 (&out)[kMaxShapes]) const;
 
   /// The same with left and right exchanged.
   uint32_t twin(uint32_t shape) const;
@@ -143,10 +145,29 @@ class Shapes {
   Vec3 one_side(Motion motion, Vec3 look, const Vertex& v) const;
   Vec3 both_sides(Motion motion, const Vertex& v) const;
   Vec3 lids(Motion motion, const Vertex& v) const;
-  Vec3 not_twice(const Corrective& pair, const Vertex& v) const;
+  Vec3 with_jaw(uint32_t shape, const Vertex& v, Vec3 skin) const;
 
   Corrective list_[kMaxCorrectives];
   uint32_t corrective_count_ = 0;
+};
+
+/// Displacements of the vertices of a mesh, for all LODs that were collapsed from it: what has been found is kept.
+class Displacements {
+ public:
+  explicit Displacements(const Shapes& shapes) : shapes_(shapes) {}
+
+  /// False if memory ran out.
+  bool make(uint32_t vertex_count, Arena& arena);
+  /// Finds those of a vertex; at() is of vertices that have been found.
+  void find(const Vertex& v);
+  Vec3 at(uint32_t shape, const Vertex& v) const {
+    return items_[size_t{shape} * found_.count + v.number];
+  }
+
+ private:
+  const Shapes& shapes_;
+  Span<Vec3> items_;  // [shape * vertex count + vertex]
+  Span<uint8_t> found_;
 };
 
 }  // namespace mien::head
