@@ -93,7 +93,8 @@ void write_head_textures(Dna dna, uint64_t seed, const std::string& path, const 
   for (size_t k = 0; k < kTextureKinds; ++k) {
     skin.textures[k] = out.file(kNames[k]);
     outputs.push_back(std::make_unique<Output>(skin.textures[k]));
-    outputs.back()->write(render::to_png(*images[k]));
+    const bool gray = k == size_t(TextureKind::kRoughness);
+    outputs.back()->write(gray ? render::to_gray_png(*images[k], {}) : render::to_png(*images[k]));
   }
   Materials materials;
   materials.list.push_back(skin);

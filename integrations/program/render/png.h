@@ -14,7 +14,7 @@ namespace mien::render {
 /// otherwise.
 std::string to_png(const Image& image);
 
-/// The same with an alpha for each pixel, of an image of which only the red is used: gray and alpha, 8 bits each.
+/// The same in gray, of an image of which only the red is used; with an alpha for each pixel if there are any.
 std::string to_gray_png(const Image& gray, const std::vector<uint8_t>& alpha);
 
 }  // namespace mien::render

@@ -41,10 +41,17 @@ float noise(Vec3 p) {
 /// `share` of the cells have one.
 float spots(Vec3 p, float radius, float share) {
   const float fx = std::floor(p.x), fy = std::floor(p.y), fz = std::floor(p.z);
+  // Neighbors only where their spots reach; the margin is for rounding.
+  const float reach = radius + 0.01f;
+  const auto first = [reach](float within) { return within < reach ? -1 : 0; };
+  const auto last = [reach](float within) { return 1 - within < reach ? 1 : 0; };
+  const int left = first(p.x - fx), right = last(p.x - fx);
+  const int low = first(p.y - fy), high = last(p.y - fy);
+  const int back = first(p.z - fz), front = last(p.z - fz);
   float most = 0;
-  for (int k = -1; k <= 1; ++k) {
-    for (int j = -1; j <= 1; ++j) {
-      for (int i = -1; i <= 1; ++i) {
+  for (int k = back; k <= front; ++k) {
+    for (int j = low; j <= high; ++j) {
+      for (int i = left; i <= right; ++i) {
         const uint32_t h = hash_cell(int(fx) + i, int(fy) + j, int(fz) + k);
         if (share_of_hash(h, 3) >= share) continue;
         const Vec3 d =
@@ -188,7 +195,7 @@ SkinMap::Detail SkinMap::detail(float u, float v, const Texel& texel) const {
   const float pore = spots(p * 9, 0.34f, 0.8f) * skin;
   const float coarse = noise(p * 4), fine = noise(p * 11), net = std::fabs(noise(p * 7));
   // The lips have folds across them.
-  const float fold = std::fabs(noise({p.x * 9, p.y * 1.6f, p.z * 2}));
+  const float fold = lips > 0 ? std::fabs(noise({p.x * 9, p.y * 1.6f, p.z * 2})) : 0;
   Detail d;
   d.height = skin * (0.0030f * coarse + 0.0022f * fine + 0.0030f * net - 0.0045f * pore) +
              lips * (0.016f * fold + 0.003f * fine);

@@ -59,6 +59,23 @@ TEST(Png, GrayAndAlphaComeBackAsTheyWere) {
   EXPECT_EQ(back_alpha, alpha);
 }
 
+TEST(Png, GrayComesBackAsItWas) {
+  const Image gray(5, 3, {17, 17, 17});
+  std::vector<uint8_t> alpha = {1};
+  const Image back = read_png(to_gray_png(gray, {}), alpha);
+  EXPECT_EQ(back.pixels, gray.pixels);
+  EXPECT_TRUE(alpha.empty());
+}
+
+TEST(Png, ErrorsAreInTheWordsOfTheLibrary) {
+  try {
+    to_png(Image());
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_EQ(std::string(error.what()).rfind("libpng: ", 0), 0u) << error.what();
+  }
+}
+
 /// Share of a part of the texture, in pixels from the lower left corner, that is opaque.
 double covered(const HairMap& map, int left, int low, int width, int height) {
   int opaque = 0;
