@@ -319,8 +319,9 @@ class Threads(unittest.TestCase):
     def test_an_interrupt_while_the_library_runs(self):
         """Ctrl-C ends the waiting; the library goes on in its thread, and the pose stays busy."""
         run("""
-import _thread, mien, time
+import _thread, mien, signal, time
 from concurrent.futures import ThreadPoolExecutor
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background jobs ignore it
 class Interrupting(ThreadPoolExecutor):
     def submit(self, function, *arguments):
         def job():
