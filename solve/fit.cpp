@@ -430,7 +430,9 @@ MienStatus mien_fit_create(const MienRig* rig, const MienFitDesc* desc, MienFit*
   std::copy(fit->raw.begin(), fit->raw.end(), fit->initial.begin());
   static_cast<void>(mien_rig_evaluate(rig, fit->instance, fit->lod));
   fit->tag = kFitTag;
-  if (!measure_rig(*fit, arena)) {
+  const MienDeformer* const deformer =
+      parts.points.deformer ? parts.points.deformer : known.deformer;
+  if (!measure_rig(*fit, deformer, arena)) {
     mien_fit_destroy(fit);
     return give_error(error, MIEN_ERROR_MEMORY, "no memory to measure the rig");
   }

@@ -130,8 +130,11 @@ constexpr uint32_t kRowsAtOnce = 30;  // of constraints
 constexpr uint32_t kMostConstraints = 64;
 constexpr uint32_t kBlockFrames = 16;  // whose joint values are multiplied together
 
-/// Fills the metrics and the observability. Temporary memory comes from the arena. False if it ran out.
-bool measure_rig(MienFit& fit, Arena& arena);
+/// Fills the metrics and the observability. `deformer` is that of `derivatives`. Temporary memory comes from the
+/// arena. False if it ran out.
+bool measure_rig(MienFit& fit, const MienDeformer* deformer, Arena& arena);
+/// The metric of points, and the effects of controls on samples (measure_points.cpp).
+bool measure_points(MienFit& fit, const MienDeformer* deformer, Arena& arena);
 
 /// The entries of MienFit::by_raw, by column.
 inline MienJacobianPattern pattern_of(const MienFit& fit) {

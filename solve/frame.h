@@ -74,7 +74,7 @@ struct Cost {
 constexpr double kEnoughDecrease = 1e-6;  // of the cost: far below what noise is worth
 constexpr double kEnoughOfFirst = 1e-10;  // of the cost at the start
 constexpr double kEnoughStep = 1e-6;      // of a control
-constexpr double kRounding = 4e-7;        // of the largest coordinate: floats have no more digits
+constexpr double kRounding = 1e-7;        // of the largest coordinate: floats have no more digits
 constexpr double kFirstDamping = 1e-5;
 
 inline double square(double v) { return v * v; }

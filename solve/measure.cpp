@@ -182,52 +182,6 @@ bool measure_joints(MienFit& fit, Arena& arena, Entries& entries) {
   return true;
 }
 
-/// Some of the points, evenly chosen, stand for all.
-bool measure_points(MienFit& fit, Arena& arena) {
-  const size_t count = fit.samples.count;
-  Entries entries;
-  if (!find_entries(fit, fit.sample_derivatives, MIEN_POINT_POSITIONS, arena, entries)) {
-    return false;
-  }
-  const Span<float> coordinates = arena.array<float>(fit.sample_position_count * 3 + 1);
-  const Span<double> dense = arena.array<double>(count * 3 + 1);
-  const Span<Column> columns = arena.array<Column>(fit.control_count + 1);
-  // An entry of a coordinate becomes at most as many of points.
-  const Span<uint32_t> rows = arena.array<uint32_t>(fit.control_count * count * 3 + 1);
-  const Span<float> values = arena.array<float>(fit.control_count * count * 3 + 1);
-  if (!coordinates.data || !dense.data || !columns.data || !rows.data || !values.data) return false;
-  const double scale =
-      std::sqrt(static_cast<double>(fit.points.count) / static_cast<double>(count));
-  std::fill(fit.sample_effects.begin(), fit.sample_effects.end(), 0.0f);
-  uint32_t at = 0;
-  for (size_t c = 0; c < fit.control_count; ++c) {
-    const Column& column = entries.columns[c];
-    columns[c] = {at, 0};
-    if (column.count == 0) continue;
-    std::fill(coordinates.begin(), coordinates.end(), 0.0f);
-    for (uint32_t i = column.first; i < column.first + column.count; ++i) {
-      coordinates[entries.rows[i]] = entries.values[i];
-    }
-    uint32_t row = 0;
-    for (const MienSolvePoint& point : fit.sample_points) {
-      for (uint32_t k = 0; k < 3; ++k, ++row) {
-        double sum = 0;
-        for (size_t n = 0; n < 3; ++n) {
-          sum += double{point.weights[n]} * coordinates[size_t{point.positions[n]} * 3 + k];
-        }
-        fit.sample_effects[c * count * 3 + row] = static_cast<float>(sum);
-        if (sum == 0) continue;
-        rows[at] = row;
-        values[at++] = static_cast<float>(sum * scale);
-        ++columns[c].count;
-      }
-    }
-  }
-  multiply_columns(columns.first(fit.control_count), rows.data, values.data, dense.data,
-                   fit.point_metric.data);
-  return true;
-}
-
 /// Pivoted factorization: the share of the effect of a control that the controls chosen before it cannot
 /// reproduce.
 void find_observability(MienFit& fit) {
@@ -286,10 +240,10 @@ void find_observability(MienFit& fit) {
 
 }  // namespace
 
-bool measure_rig(MienFit& fit, Arena& arena) {
+bool measure_rig(MienFit& fit, const MienDeformer* deformer, Arena& arena) {
   Entries joints;
   if (!measure_joints(fit, arena, joints)) return false;
-  if (fit.points.count != 0 && !measure_points(fit, arena)) return false;
+  if (fit.points.count != 0 && !measure_points(fit, deformer, arena)) return false;
   find_observability(fit);
   return true;
 }

@@ -13,6 +13,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr uint32_t kDefaultIterations = 50;
 constexpr double kSlow = 0.3;            // of what the step before gained
+constexpr double kAsModeled = 0.9;       // of the predicted gain: the model serves another step
 constexpr double kEnoughOfStage = 1e-3;  // of the cost, before more controls are unlocked
 constexpr uint32_t kFirstRounds = 40;    // of motions, at the start
 
@@ -184,6 +185,7 @@ uint32_t Solve::run_stage(uint32_t limit, double enough_decrease) {
       const double reached = compared(next);
       if (reached < cost.total) {
         const double decrease = cost.total - reached, enough = enough_of(cost.total);
+        const bool as_modeled = by_model && decrease > kAsModeled * (cost.total - step.predicted);
         slow = decrease > kSlow * before && before > 0 ? slow + 1 : 0;
         before = decrease;
         cost = next;
@@ -200,7 +202,7 @@ uint32_t Solve::run_stage(uint32_t limit, double enough_decrease) {
           ++iterations;
           return MIEN_FIT_CONVERGED;
         }
-        if (slow >= 2 || (by_model && step.solved)) measure_again();
+        if (slow >= 2 || (step.solved && !as_modeled)) measure_again();
         break;
       }
       std::copy(fit.best.begin(), fit.best.end(), fit.raw.begin());

@@ -107,6 +107,41 @@ TEST(Frames, OfJointsHaveTheSameBitsInRangesOnAnyThread) {
   expect_same_ranges(Head(open_dna(golden::read_rig("ml"))));  // networks between controls
 }
 
+// A step looks at all vertices where it takes the effects of controls at rest.
+TEST(Frames, OfAllVerticesTakeFewSteps) {
+  Head head;
+  const size_t raw_count = head.character.raw.count;
+  const std::vector<MienSolvePoint> points =
+      every(mesh_of(head.deformer.get(), 0).position_count, 1);
+  MienFitDesc desc = sized<MienFitDesc>();
+  desc.deformer = head.deformer.get();
+  desc.points = points.data();
+  desc.point_count = points.size();
+  const FitHandle fit = create_fit(head.rig, desc);
+  std::vector<float> observed(raw_count), found(raw_count), before;
+  ASSERT_EQ(mien_fit_observability(fit.get(), observed.data(), raw_count), MIEN_OK);
+  constexpr size_t kVertexFrames = 10;
+  uint32_t iterations = 0;
+  for (size_t i = 0; i < kVertexFrames; ++i) {
+    const std::vector<float> raw = swing(raw_count, static_cast<double>(i) / 60);
+    const std::vector<float> targets = head.positions(raw);
+    MienFitFrame frame = mien_fit_frame_default();
+    frame.points = targets.data();
+    frame.prior_weight = 1e-6f;
+    frame.start = i == 0 ? nullptr : before.data();
+    MienFitResult result = mien_fit_result_default();
+    ASSERT_EQ(mien_fit_solve(fit.get(), &frame, found.data(), &result), MIEN_OK);
+    EXPECT_EQ(result.status, MIEN_FIT_CONVERGED) << i;
+    if (i != 0) iterations += result.iterations;
+    for (size_t c = 0; c < raw_count; ++c) {
+      if (observed[c] <= 0.05f) continue;
+      EXPECT_NEAR(found[c], raw[c], 1e-3) << i << ", control " << c;
+    }
+    before = found;
+  }
+  EXPECT_LE(iterations, 2 * (kVertexFrames - 1));
+}
+
 TEST(Frames, RefuseWrongArguments) {
   Head head(MIEN_PRESET_SMALL);
   const FitHandle fit = create_fit(head.rig, sized<MienFitDesc>());
