@@ -59,33 +59,135 @@ bool split_by_linkage(Placing& placing, Span<const uint32_t> places, bool by_are
   return true;
 }
 
-/// The principal axis nearest to +Y of the places below the cut; zero if none is within 45 degrees.
-Vec3 neck_axis(const Placing& placing) {
-  const NeckCut cut = placing.report.throat.cut();
-  Vec3 mean;
-  double count = 0;
-  for (const Vec3& p : placing.points) {
-    if (cut.above(p) >= 0) continue;
-    mean = mean + p;
-    ++count;
-  }
-  if (count < 3) return {};
-  mean = mean * (1 / count);
-  double spread[3][3] = {}, axes[3][3];
-  for (const Vec3& p : placing.points) {
-    if (cut.above(p) >= 0) continue;
-    const double d[3] = {p.x - mean.x, p.y - mean.y, p.z - mean.z};
+/// Area, mean and spread of a surface, which do not depend on how densely it is divided.
+struct Moments {
+  double area = 0;
+  Vec3 sum;                    // of places times area
+  double products[3][3] = {};  // of their coordinates
+
+  void add(double weight, Vec3 p) {
+    const double d[3] = {p.x, p.y, p.z};
     for (int i = 0; i < 3; ++i) {
-      for (int k = 0; k < 3; ++k) spread[i][k] += d[i] * d[k];
+      for (int k = 0; k < 3; ++k) products[i][k] += weight * d[i] * d[k];
     }
   }
-  diagonalize(spread, axes);
-  Vec3 best;
-  for (int k = 0; k < 3; ++k) {
-    const Vec3 axis = {axes[0][k], axes[1][k], axes[2][k]};
-    if (std::abs(axis.y) > std::abs(best.y)) best = axis.y < 0 ? -axis : axis;
+  void add_point(Vec3 p) {
+    area += 1;
+    sum = sum + p;
+    add(1, p);
   }
-  return best.y >= kSteepest ? best : Vec3{};
+  void add_triangle(Vec3 a, Vec3 b, Vec3 c) {
+    const Vec3 corners = a + b + c;
+    const double size = length(cross(b - a, c - a)) / 2;
+    area += size;
+    sum = sum + corners * (size / 3);
+    for (const Vec3 p : {a, b, c, corners}) add(size / 12, p);
+  }
+  /// The principal axis nearest to +Y; zero if none is within 45 degrees.
+  Vec3 upward_axis() const {
+    if (!(area > 0)) return {};
+    const Vec3 mean = sum * (1 / area);
+    const double m[3] = {mean.x, mean.y, mean.z};
+    double spread[3][3], axes[3][3];
+    for (int i = 0; i < 3; ++i) {
+      for (int k = 0; k < 3; ++k) spread[i][k] = products[i][k] - area * m[i] * m[k];
+    }
+    diagonalize(spread, axes);
+    Vec3 best;
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 axis = {axes[0][k], axes[1][k], axes[2][k]};
+      if (std::abs(axis.y) > std::abs(best.y)) best = axis.y < 0 ? -axis : axis;
+    }
+    return best.y >= kSteepest ? best : Vec3{};
+  }
+};
+
+/// A convex part of a triangle.
+struct Polygon {
+  Vec3 corners[8];
+  uint32_t count = 0;
+
+  /// The part where `side` is not positive, a linear function of the place.
+  template <class SideOf>
+  Polygon cut(const SideOf& side) const {
+    Polygon out;
+    for (uint32_t i = 0; i < count; ++i) {
+      const Vec3 a = corners[i], b = corners[(i + 1) % count];
+      const double from = side(a), to = side(b);
+      if (from <= 0) out.corners[out.count++] = a;
+      if ((from < 0 && to > 0) || (from > 0 && to < 0)) {
+        out.corners[out.count++] = a + (b - a) * (from / (from - to));
+      }
+    }
+    return out;
+  }
+};
+
+/// Calls visit(triangle) for the faces of the skin. Those with more corners are split about their middle, which does
+/// not depend on the corner that comes first.
+template <class Visit>
+void visit_skin(const AuthorMesh& mesh, const Visit& visit) {
+  for (size_t f = 0; f + 1 < mesh.face_starts.count; ++f) {
+    const uint32_t first = mesh.face_starts[f], count = mesh.face_starts[f + 1] - first;
+    if (count < 3 || !mesh.is_skin[mesh.corners[first]]) continue;
+    const auto at = [&](uint32_t i) { return mesh.positions[mesh.corners[first + i % count]]; };
+    if (count == 3) {
+      visit(Polygon{{at(0), at(1), at(2)}, 3});
+      continue;
+    }
+    Vec3 middle;
+    for (uint32_t i = 0; i < count; ++i) middle = middle + at(i) * (1.0 / count);
+    for (uint32_t i = 0; i < count; ++i) visit(Polygon{{at(i), at(i + 1), middle}, 3});
+  }
+}
+
+/// Calls visit(slice, place) for what bounds the skin in each of `count` slices of the same height.
+template <class Visit>
+void visit_slices(const AuthorMesh& mesh, double low, double high, int count, const Visit& visit) {
+  const double step = (high - low) / count;
+  visit_skin(mesh, [&](const Polygon& whole) {
+    const auto [least, most] =
+        std::minmax({whole.corners[0].y, whole.corners[1].y, whole.corners[2].y});
+    for (int slice = 0; slice < count; ++slice) {
+      const double from = low + step * slice, to = from + step;
+      if (most < from || least > to) continue;
+      const Polygon part =
+          whole.cut([&](Vec3 p) { return from - p.y; }).cut([&](Vec3 p) { return p.y - to; });
+      for (uint32_t i = 0; i < part.count; ++i) visit(slice, part.corners[i]);
+    }
+  });
+}
+
+/// All of the skin, and its part below the cut.
+struct SkinMoments {
+  Moments all, below;
+};
+
+SkinMoments measure_skin(const Placing& placing, const NeckCut& cut) {
+  SkinMoments out;
+  visit_skin(placing.mesh, [&](const Polygon& whole) {
+    const Vec3* c = whole.corners;
+    out.all.add_triangle(c[0], c[1], c[2]);
+    // The cut has a bend at the throat.
+    const auto above = [&cut](Vec3 p) { return cut.above(p); };
+    for (const double way : {1.0, -1.0}) {
+      const Polygon part = whole.cut([&](Vec3 p) { return way * (p.z - cut.z); }).cut(above);
+      for (uint32_t i = 2; i < part.count; ++i) {
+        out.below.add_triangle(part.corners[0], part.corners[i - 1], part.corners[i]);
+      }
+    }
+  });
+  return out;
+}
+
+/// The axis of the places below the cut, each as heavy as the others.
+Vec3 axis_of_places(const Placing& placing) {
+  const NeckCut cut = placing.report.throat.cut();
+  Moments moments;
+  for (const Vec3& p : placing.points) {
+    if (cut.above(p) < 0) moments.add_point(p);
+  }
+  return moments.area < 3 ? Vec3{} : moments.upward_axis();
 }
 
 /// How far the line from `from` along `direction` runs until it leaves the skin or passes its
@@ -132,12 +234,10 @@ void measure_neck(const Placing& placing, NeckCut& cut) {
   cut.base = low + kLowest * std::max(height, 0.0);
   if (!(height > 0)) return;
   double widths[kSlices] = {};  // half of them, from the throat down
-  for (const Vec3& p : placing.points) {
-    const double down = (cut.y - p.y) / height * kSlices;
-    if (!(down >= 0 && down < kSlices)) continue;
-    double& width = widths[static_cast<int>(down)];
+  visit_slices(placing.mesh, low, cut.y, kSlices, [&](int slice, Vec3 p) {
+    double& width = widths[kSlices - 1 - slice];
     width = std::max(width, std::abs(p.x - placing.plane));
-  }
+  });
   int narrowest = -1, slice = 0;
   for (; slice < kSlices; ++slice) {
     if (!(widths[slice] > 0)) continue;
@@ -158,14 +258,11 @@ void move_to_axis(const Placing& placing, const NeckCut& cut, Vec3& head) {
   constexpr int kSlices = 8;
   double front[kSlices], back[kSlices];
   bool has[kSlices] = {};
-  for (const Vec3& p : placing.points) {
-    const double up = (p.y - cut.base) / (cut.y - cut.base) * kSlices;
-    if (!(up >= 0 && up < kSlices)) continue;
-    const int slice = static_cast<int>(up);
+  visit_slices(placing.mesh, cut.base, cut.y, kSlices, [&](int slice, Vec3 p) {
     front[slice] = has[slice] ? std::max(front[slice], p.z) : p.z;
     back[slice] = has[slice] ? std::min(back[slice], p.z) : p.z;
     has[slice] = true;
-  }
+  });
   double sum = 0, count = 0;
   for (int slice = 0; slice < kSlices; ++slice) {
     if (!has[slice]) continue;
@@ -177,19 +274,12 @@ void move_to_axis(const Placing& placing, const NeckCut& cut, Vec3& head) {
   if (count > 0) head.z = sum / count;
 }
 
-Status find_neck_and_head(Placing& placing, Vec3& neck, Vec3& head) {
+/// Splits the middle group in depth by height; false if memory ran out.
+bool split_middle(Placing& placing, Means& means) {
   PlaceReport& report = placing.report;
-  const auto hold = [&](Vec3& joint) {
-    if (placing.symmetric) joint.x = placing.plane;
-  };
-  if (report.face_only) {
-    place_on_face(placing, neck, head);
-    hold(neck);
-    hold(head);
-    return Status::kOk;
-  }
+  const Throat& throat = report.throat;
   Span<uint32_t> middle;
-  if (!make(placing.scratch, placing.points.count, middle)) return no_memory(placing);
+  if (!make(placing.scratch, placing.points.count, middle)) return false;
   // If there are not three groups: all but the front and the back one.
   size_t count = 0;
   const uint32_t back = report.group_count - 1;
@@ -203,19 +293,47 @@ Status find_neck_and_head(Placing& placing, Vec3& neck, Vec3& head) {
   }
   const Span<const uint32_t> places = middle.first(count);
 
-  const Throat& throat = report.throat;
-  Means means;
   report.neck_split = NeckSplit::kLinkage;
-  if (!split_by_linkage(placing, places, placing.options.area_density, means)) {
-    return no_memory(placing);
-  }
+  if (!split_by_linkage(placing, places, placing.options.area_density, means)) return false;
   if (throat.found && !(means.lower.y < throat.y)) {
     report.neck_split = NeckSplit::kAreaLinkage;
-    if (!split_by_linkage(placing, places, true, means)) return no_memory(placing);
+    if (!split_by_linkage(placing, places, true, means)) return false;
     if (!(means.lower.y < throat.y)) {
       report.neck_split = NeckSplit::kPlane;
       means = split_at(placing, places, throat.y);
     }
+  }
+  return true;
+}
+
+Status find_neck_and_head(Placing& placing, Vec3& neck, Vec3& head) {
+  PlaceReport& report = placing.report;
+  const auto hold = [&](Vec3& joint) {
+    if (placing.symmetric) joint.x = placing.plane;
+  };
+  if (report.face_only) {
+    place_on_face(placing, neck, head);
+    hold(neck);
+    hold(head);
+    return Status::kOk;
+  }
+  const Throat& throat = report.throat;
+  const bool by_surface = throat.found && !placing.options.paper;
+  Means means;
+  Vec3 axis;
+  if (by_surface) {
+    report.neck_split = NeckSplit::kPlane;
+    const SkinMoments skin = measure_skin(placing, throat.cut());
+    const double rest = skin.all.area - skin.below.area;
+    means.lower_count = skin.below.area > 0;
+    means.upper_count = rest > 0;
+    if (means.lower_count) means.lower = skin.below.sum * (1 / skin.below.area);
+    if (means.upper_count) means.upper = (skin.all.sum - skin.below.sum) * (1 / rest);
+    axis = skin.below.upward_axis();
+  } else if (!split_middle(placing, means)) {
+    return no_memory(placing);
+  } else if (throat.found) {
+    axis = axis_of_places(placing);
   }
   if (means.lower_count == 0 || means.upper_count == 0) {
     report.neck_split = NeckSplit::kNoNeck;
@@ -227,25 +345,29 @@ Status find_neck_and_head(Placing& placing, Vec3& neck, Vec3& head) {
   report.head_mean = means.upper;
   report.neck_mean = means.lower;
 
-  Vec3 axis = throat.found ? neck_axis(placing) : Vec3{};
   if (placing.symmetric) axis = normalized({0, axis.y, axis.z});
   const bool has_neck = !is_zero(axis);
   if (!has_neck) axis = normalized(means.upper - means.lower);
   if (!(axis.y > 0)) axis = {0, 1, 0};
   neck = means.lower - axis * reach_down(placing, means.lower, -axis);
 
-  // The point of the vertical through the head's mean that is nearest to the line of the neck.
-  const Vec3 apart = means.upper - means.lower;
-  const double across = 1 - axis.y * axis.y;
-  const double rise = across > 1e-9 ? (axis.y * dot(axis, apart) - apart.y) / across
-                                    : (means.lower.y - means.upper.y) / 2;
   head = means.upper;
-  // Not below the throat: the mean of the lower group lies within the neck.
-  const double least = throat.found ? std::max(means.lower.y, throat.y) : means.lower.y;
-  // A line through both means would meet the vertical at the mean of the head, which is not a
-  // pivot.
-  const double most = has_neck ? means.upper.y : least;
-  head.y = std::min(std::max(head.y + rise, least), std::min(most, means.upper.y));
+  if (by_surface) {
+    // Where the lines of neck and head meet says little: both are nearly vertical.
+    head.y = throat.y;
+  } else {
+    // The point of the vertical through the head's mean that is nearest to the line of the neck.
+    const Vec3 apart = means.upper - means.lower;
+    const double across = 1 - axis.y * axis.y;
+    const double rise = across > 1e-9 ? (axis.y * dot(axis, apart) - apart.y) / across
+                                      : (means.lower.y - means.upper.y) / 2;
+    // Not below the throat: the mean of the lower group lies within the neck.
+    const double least = throat.found ? std::max(means.lower.y, throat.y) : means.lower.y;
+    // A line through both means would meet the vertical at the mean of the head, which is not a
+    // pivot.
+    const double most = has_neck ? means.upper.y : least;
+    head.y = std::min(std::max(head.y + rise, least), std::min(most, means.upper.y));
+  }
   hold(neck);
   hold(head);
   return Status::kOk;

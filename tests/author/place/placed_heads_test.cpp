@@ -153,6 +153,82 @@ TEST_P(PlacedHeads, BonesOfASymmetricMeshAreMirrorImages) {
   }
 }
 
+/// The largest distance between joints of the trunk of the same names, cm.
+double trunk_distance(const Placed& a, const Placed& b) {
+  const auto trunk = [](const Placed& placed) {
+    std::vector<Vec3> joints;
+    for (const Bone& bone : placed.placement.bones) {
+      if (bone.kind == BoneKind::kNeck || bone.kind == BoneKind::kHead) {
+        joints.push_back(bone.position);
+      }
+    }
+    return joints;
+  };
+  const std::vector<Vec3> from = trunk(a), to = trunk(b);
+  EXPECT_GE(from.size(), 3u);
+  EXPECT_EQ(from.size(), to.size());
+  double worst = 0;
+  for (size_t i = 0; i < std::min(from.size(), to.size()); ++i) {
+    worst = std::max(worst, length(from[i] - to[i]));
+  }
+  return worst;
+}
+
+TEST(PlacedTrunk, IsWhereItIsOnTheFinestMeshWhenEdgesCollapse) {
+  const auto lod_mesh = [](uint32_t lod) {
+    AuthorSetup setup;
+    make_author_head(lod, 8, 4, 1, setup);
+    return mesh_of(setup, false);
+  };
+  const Placed fine(lod_mesh(0), with_joints(80));
+  for (const uint32_t lod : {1u, 2u, 3u}) {
+    const Placed coarse(lod_mesh(lod), with_joints(80));
+    const double distance = trunk_distance(fine, coarse);
+    printf("LOD %u: joints of neck and head %.2f mm from those of LOD 0\n", lod, 10 * distance);
+    EXPECT_LT(distance, 0.03);
+  }
+}
+
+/// The same surface with three triangles for each one that is in front of the plane.
+TestMesh denser_in_front(const TestMesh& mesh, double z) {
+  TestMesh out = mesh;
+  out.face_sizes.clear();
+  out.corners.clear();
+  size_t corner = 0;
+  for (const uint32_t size : mesh.face_sizes) {
+    const uint32_t* all = mesh.corners.data() + corner;
+    corner += size;
+    for (uint32_t i = 2; i < size; ++i) {
+      const uint32_t t[] = {all[0], all[i - 1], all[i]};
+      double at[3] = {};
+      for (const uint32_t v : t) {
+        for (size_t k = 0; k < 3; ++k) at[k] += mesh.positions[3 * v + k] / 3;
+      }
+      if (at[2] < z) {
+        out.face({t[0], t[1], t[2]});
+        continue;
+      }
+      const uint32_t middle = out.vertex(at[0], at[1], at[2]);
+      for (int k = 0; k < 3; ++k) out.face({t[k], t[(k + 1) % 3], middle});
+    }
+  }
+  return out;
+}
+
+TEST_P(PlacedHeads, TheTrunkDoesNotDependOnTheDensityOfVertices) {
+  if (is("mediapipe")) return;  // has no neck
+  const TestMesh even = mesh(false);
+  const Placed placed(even, with_joints(80));
+  ASSERT_EQ(placed.status, Status::kOk);
+  const Placed denser(denser_in_front(even, placed.bone(BoneKind::kHead).position.z),
+                      with_joints(80));
+  ASSERT_EQ(denser.status, Status::kOk);
+  EXPECT_GT(denser.read.mesh.positions.count, placed.read.mesh.positions.count * 3 / 2);
+  const double distance = trunk_distance(placed, denser);
+  printf("%s: joints of neck and head move by %.2f mm\n", GetParam(), 10 * distance);
+  EXPECT_LT(distance, 0.01);
+}
+
 /// Bones of unlike halves: in pairs of one name, each where its side is.
 void expect_pairs(const Placed& placed, double width) {
   EXPECT_GT(placed.report.symmetry_error, 0.005);
