@@ -119,8 +119,7 @@ constexpr uint32_t kMaxRunRows = 8;
 ///
 ///     to[outputs[i] + r] = finished sums[rows[i] + r]
 ///
-/// Runs of n rows are in words first_words[n - 1] to first_words[n] - 1. Returns false, and writes nothing, if a
-/// value of any row is not finite, or if their totals overflow.
+/// but without saturation. Runs of n rows are in words first_words[n - 1] to first_words[n] - 1.
 struct FinishRunsArgs {
   const float* sums;            // [packed row], 64-byte aligned
   const float* scales;          // [packed row], 64-byte aligned, or null
@@ -129,9 +128,8 @@ struct FinishRunsArgs {
   const uint16_t* outputs;      // [run] where the first row goes
   const uint32_t* first_words;  // [kMaxRunRows + 1]
   float* to;
-  size_t row_count;  // packed rows, a multiple of 16
 };
-using FinishRunsKernel = bool(const FinishRunsArgs& args);
+using FinishRunsKernel = void(const FinishRunsArgs& args);
 
 /// Where to write the sums of six, three or one neighboring packed rows that are also neighbors in the
 /// output.

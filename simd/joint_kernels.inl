@@ -279,29 +279,6 @@ inline void for_each_in_word(uint64_t bits, F&& f) {
   for (; bits != 0; bits &= bits - 1) f(static_cast<size_t>(__builtin_ctzll(bits)));
 }
 
-/// Whether all sums, times their scales if any, are finite, and so are their totals.
-template <bool kScaled>
-inline bool are_finite(const float* sums, const float* scales, size_t count) {
-  const auto at = [&](size_t i) {
-    const Vec sum = load(sums + i);
-    if constexpr (kScaled) return sum * load(scales + i);
-    return sum;
-  };
-  // A total stays infinite or NaN after a value that is. Four of them hide the latency of additions.
-  const Vec zero = broadcast(0.0f);
-  Vec a = zero, b = zero, c = zero, d = zero;
-  size_t i = 0;
-  for (; i + 4 * kWidth <= count; i += 4 * kWidth) {
-    a = a + at(i);
-    b = b + at(i + kWidth);
-    c = c + at(i + 2 * kWidth);
-    d = d + at(i + 3 * kWidth);
-  }
-  for (; i < count; i += kWidth) a = a + at(i);
-  const Vec total = (a + b) + (c + d);
-  return different_lanes(total - total, zero) == 0;
-}
-
 /// Finishes and writes the runs of kRows rows.
 template <bool kScaled, size_t kRows>
 inline void write_runs(const FinishRunsArgs& args) {
@@ -316,6 +293,11 @@ inline void write_runs(const FinishRunsArgs& args) {
     if constexpr (kScaled) sum = sum * load4(scales + row);
     store4(out, sum + zero);
   };
+  const auto write2 = [&](size_t row, float* out) {
+    Quad sum = load2(sums + row);
+    if constexpr (kScaled) sum = sum * load2(scales + row);
+    store2(out, sum + zero);
+  };
   const auto write1 = [&](size_t row, float* out) {
     *out = (kScaled ? sums[row] * scales[row] : sums[row]) + 0.0f;
   };
@@ -328,24 +310,21 @@ inline void write_runs(const FinishRunsArgs& args) {
         // The last four; some of them twice.
         if constexpr (kRows > 4) write4(row + kRows - 4, out + kRows - 4);
       } else {
-        write1(row, out);
-        if constexpr (kRows > 1) write1(row + 1, out + 1);
-        if constexpr (kRows > 2) write1(row + 2, out + 2);
+        if constexpr (kRows > 1) write2(row, out);
+        if constexpr (kRows != 2) write1(row + kRows - 1, out + kRows - 1);
       }
     });
   }
 }
 
 template <bool kScaled, size_t... R>
-inline bool finish_runs_by(const FinishRunsArgs& args, std::index_sequence<R...>) {
-  if (!are_finite<kScaled>(args.sums, args.scales, args.row_count)) return false;
+inline void finish_runs_by(const FinishRunsArgs& args, std::index_sequence<R...>) {
   (write_runs<kScaled, R + 1>(args), ...);
-  return true;
 }
 
-bool finish_runs(const FinishRunsArgs& args) {
+void finish_runs(const FinishRunsArgs& args) {
   const auto lengths = std::make_index_sequence<kMaxRunRows>();
-  return args.scales ? finish_runs_by<true>(args, lengths) : finish_runs_by<false>(args, lengths);
+  args.scales ? finish_runs_by<true>(args, lengths) : finish_runs_by<false>(args, lengths);
 }
 
 // Lanes are characters here, and the 8 rows of a block row are sums in registers. With 32 registers there are

@@ -6,6 +6,7 @@
 // |------------------------|----------------------------------------------------------------------|
 // | load4, store4, store3  | from and to any address; store3 writes the first three; load4 also   |
 // |                        | converts 16-bit integers                                             |
+// | load2, store2          | two floats; the others are 0, or not written                         |
 // | add_sparse4            | to four quads: a weight times three 16-bit integers for each quad    |
 // |                        | whose bit of a mask is set                                           |
 // | add_sparse_fields4     | the same with three fields of 10 bits in 32, and a weight 2^-22 times|
@@ -65,6 +66,10 @@ inline Quad load_big_endian4(const uint8_t* from) {
 [[gnu::always_inline]] inline Quad load_lanes4(const float* from) { return load4(from); }
 [[gnu::always_inline]] inline void store4(float* to, const Quad& q) {
   for (int i = 0; i < 4; ++i) to[i] = q.v[i];
+}
+[[gnu::always_inline]] inline Quad load2(const float* from) { return {{from[0], from[1], 0, 0}}; }
+[[gnu::always_inline]] inline void store2(float* to, const Quad& q) {
+  for (int i = 0; i < 2; ++i) to[i] = q.v[i];
 }
 [[gnu::always_inline]] inline void store3(float* to, const Quad& q) {
   for (int i = 0; i < 3; ++i) to[i] = q.v[i];
@@ -159,6 +164,8 @@ inline Quad join_bits4(Quad low, Quad high, int n) {
 #if defined(MIEN_KERNEL_NEON)
 
 inline Quad load4(const int16_t* from) { return vcvtq_f32_s32(vmovl_s16(vld1_s16(from))); }
+inline Quad load2(const float* from) { return vcombine_f32(vld1_f32(from), vdup_n_f32(0)); }
+inline void store2(float* to, Quad q) { vst1_f32(to, vget_low_f32(q)); }
 inline void store3(float* to, Quad q) {
   vst1_f32(to, vget_low_f32(q));
   vst1q_lane_f32(to + 2, q, 2);
@@ -207,6 +214,10 @@ inline Quad load4(const int16_t* from) {
   return _mm_cvtepi32_ps(_mm_cvtepi16_epi32(narrow));
 #endif
 }
+inline Quad load2(const float* from) {
+  return _mm_castsi128_ps(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(from)));
+}
+inline void store2(float* to, Quad q) { _mm_storel_pi(reinterpret_cast<__m64*>(to), q); }
 inline void store3(float* to, Quad q) {
   _mm_storel_pi(reinterpret_cast<__m64*>(to), q);
   _mm_store_ss(to + 2, _mm_movehl_ps(q, q));

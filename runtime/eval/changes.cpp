@@ -2,6 +2,7 @@
 #include "runtime/eval/changes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "runtime/base/bits.h"
@@ -40,7 +41,7 @@ void for_each_marked(const Span<uint64_t>& set, F&& f) {
 }
 
 /// Calls f(first, bits) for `count` values, 64 at a time, with the bits of those that differ from others,
-/// if any do, until f returns false.
+/// if any do.
 template <class F>
 void for_each_different(const Rig& rig, const float* values, const float* others, uint32_t count,
                         F&& f) {
@@ -50,7 +51,7 @@ void for_each_different(const Rig& rig, const float* values, const float* others
     const uint32_t now = std::min(count - first, 64 * kWords);
     rig.kernels->different({values + first, others + first, words, now});
     for (uint32_t w = 0; w * 64 < now; ++w) {
-      if (words[w] != 0 && !f(first + w * 64, words[w])) return;
+      if (words[w] != 0) f(first + w * 64, words[w]);
     }
   }
 }
@@ -78,7 +79,8 @@ Uses mark_changes(const Rig& rig, Instance& instance, const ControlRange& range,
       rig, now, previous, range.end - range.first, [&](uint32_t first, uint64_t bits) {
         const uint32_t word = (range.first + first) / 64, shift = (range.first + first) % 64;
         const uint64_t high = shift == 0 ? 0 : bits >> (64 - shift);
-        for (const Span<uint64_t>* set : {&changes.psds, &changes.channels, &changes.maps}) {
+        for (const Span<uint64_t>* set :
+             {&changes.psds, &changes.joints, &changes.channels, &changes.maps}) {
           (*set)[word] |= bits << shift;
           if (high != 0) (*set)[word + 1] |= high;
         }
@@ -87,7 +89,6 @@ Uses mark_changes(const Rig& rig, Instance& instance, const ControlRange& range,
           uses |= control_uses[i];
           previous[i] = now[i];
         }
-        return true;
       });
   return uses;
 }
@@ -97,10 +98,7 @@ bool has_few_changes(const Rig& rig, const Instance& instance) {
   if (changes.all & kStageJoints) return false;
   size_t different = 0;
   for_each_different(rig, instance.controls.data, changes.summed.data, rig.control_count,
-                     [&](uint32_t, uint64_t bits) {
-                       different += bit_count(bits);
-                       return true;
-                     });
+                     [&](uint32_t, uint64_t bits) { different += bit_count(bits); });
   return 8 * different <= nonzero_count(rig, instance);
 }
 
@@ -111,18 +109,29 @@ void mark_all_psds(const Rig& rig, Instance& instance) {
   clear_set(changes.psds);
   changes.all &= ~uint32_t{kStagePsd};
   // They may have changed.
-  mark_range(changes.channels, rig.raw_count, rig.psd_count);
-  mark_range(changes.maps, rig.raw_count, rig.psd_count);
+  for (const Span<uint64_t>* set : {&changes.joints, &changes.channels, &changes.maps}) {
+    mark_range(*set, rig.raw_count, rig.psd_count);
+  }
 }
 
 bool evaluate_changed_psds(const Rig& rig, Instance& instance, uint32_t lod) {
   Changes& changes = *instance.changes;
   if (changes.all & kStagePsd) return false;
   const PsdTable& psds = rig.psds;
-  const NumberLists& readers = rig.changes->psds;
   const uint32_t count = psds.count_at_lod[lod];
+  // Those that may change: the others are 0 and stay so, because another control that they read is not
+  // positive. Without branches, which would be mispredicted.
+  const auto mark_readers = [&](size_t control, uint32_t after) {
+    const float* const controls = instance.controls.data;
+    for (const PsdReader& reader : rig.changes->psds.of(control)) {
+      const bool may_change =
+          (int{controls[reader.other] > 0.0f} | int{controls[psds.outputs[reader.entry]] != 0.0f}) &
+          int{reader.entry >= after};
+      changes.entries[reader.entry / 64] |= uint64_t{may_change} << reader.entry % 64;
+    }
+  };
   for_each_marked(changes.psds, [&](size_t control) {
-    for (const uint32_t entry : readers.of(control)) mark_one(changes.entries, entry);
+    mark_readers(control, 0);
     // Another stage may have overwritten a corrective.
     const size_t psd = control - rig.raw_count;
     if (control >= rig.raw_count && psd < psds.entry_of_psd.count)
@@ -153,11 +162,10 @@ bool evaluate_changed_psds(const Rig& rig, Instance& instance, uint32_t lod) {
     for (const uint16_t entry : changes.listed.first(changed)) {
       const size_t output = psds.outputs[entry];
       uses |= rig.control_uses[output];
+      mark_one(changes.joints, output);
       mark_one(changes.channels, output);
       mark_one(changes.maps, output);
-      for (const uint32_t reader : readers.of(output)) {
-        if (reader > entry) mark_one(changes.entries, reader);
-      }
+      if (nested) mark_readers(output, entry + 1u);
     }
   }
   note_written_psds(instance, uses);
@@ -235,40 +243,67 @@ namespace {
 
 constexpr uint32_t kMaxChangedColumns = 512;  // at a time
 
-/// Lists the columns that changed, with the differences of their controls, and marks the runs of rows that
-/// they reach. Returns their number; more than `limit` if there are more, or if a difference is not finite.
-uint32_t list_changed_columns(const Rig& rig, const Instance& instance, uint32_t lod,
-                              uint32_t limit, JointRun* columns) {
+/// Columns that changed, with the differences of their controls.
+struct ChangedColumns {
+  uint32_t count = 0, block_count = 0;
+  double largest = 0;  // bound on the magnitudes of what they add to a sum
+  JointRun runs[kMaxChangedColumns];
+  uint32_t numbers[kMaxChangedColumns];
+};
+
+/// Returns false if there are more than `limit`.
+bool list_changed_columns(const Rig& rig, const Instance& instance, uint32_t lod, uint32_t limit,
+                          ChangedColumns& columns) {
   const JointMatrix& joints = rig.joints;
-  const RowRuns& runs = rig.changes->runs;
   const float* const controls = instance.controls.data;
   float* const summed = instance.changes->summed.data;
-  uint64_t* const marked = instance.changes->runs.data;
-  uint32_t count = 0;
-  const auto add = [&](uint32_t control) {
-    const float difference = controls[control] - summed[control];
-    // If there are too many, the caller sets all of these.
-    summed[control] = controls[control];
-    const uint32_t column = joints.column_of_control[control];
-    if (column == kNoColumn || difference == 0.0f) return true;
-    const ColumnPart& part = joints.part(column, joints.panels_at_lod[lod]);
-    if (part.pairs == 0 && part.singles == 0) return true;
-    if (count == limit || !(difference - difference == 0.0f)) {
-      count = limit + 1;
-      return false;
+  const uint32_t panel_end = joints.panels_at_lod[lod];
+  const Span<uint64_t>& set = instance.changes->joints;
+  for (size_t w = 0; w < set.count; ++w) {
+    for (uint64_t bits = set[w]; bits != 0; bits &= bits - 1) {
+      const size_t control = w * 64 + lowest_bit(bits);
+      const float difference = controls[control] - summed[control];
+      // If there are too many, the caller sets all of these.
+      summed[control] = controls[control];
+      const uint32_t column = joints.column_of_control[control];
+      if (column == kNoColumn || difference == 0.0f) continue;
+      const ColumnPart part = joints.part(column, panel_end);
+      if (part.pairs == 0 && part.singles == 0) continue;
+      if (columns.count == limit) return false;
+      columns.runs[columns.count] = {joints.starts[column], part.pairs, part.singles, difference};
+      columns.numbers[columns.count++] = column;
+      columns.block_count += 2u * part.pairs + part.singles;
+      columns.largest += double{std::fabs(difference)} * rig.changes->largest[column];
     }
-    columns[count++] = {joints.starts[column], part.pairs, part.singles, difference};
-    const uint64_t* const words = runs.of_column.data + size_t{column} * runs.word_count;
-    for (uint32_t w = 0; w < runs.word_count; ++w) marked[w] |= words[w];
-    return true;
-  };
-  for_each_different(rig, controls, summed, rig.control_count, [&](uint32_t first, uint64_t bits) {
-    for (; bits != 0; bits &= bits - 1) {
-      if (!add(first + lowest_bit(bits))) return false;
-    }
-    return true;
-  });
-  return count;
+    set[w] = 0;
+  }
+  return true;
+}
+
+/// Marks the runs of rows that the columns reach and the LOD writes.
+void mark_runs(const Rig& rig, const Changes& changes, uint32_t lod,
+               const ChangedColumns& columns) {
+  const RowRuns& runs = rig.changes->runs;
+  const uint32_t words = runs.word_count;
+  uint64_t* const marked = changes.runs.data;
+  const uint64_t* const at_lod = runs.at_lod.data + size_t{lod} * words;
+  // Writing all takes less time than finding out which of them to write if there are many. ML joints are added
+  // to what their rows write.
+  const uint32_t block_rows = rig.joints.panels[rig.joints.panels_at_lod[lod]].first_block_row;
+  if (!rig.ml.joints.empty() || columns.block_count > 2 * block_rows) {
+    std::copy(at_lod, at_lod + words, marked);
+    return;
+  }
+  clear_set(changes.runs);
+  for (uint32_t i = 0; i < columns.count; ++i) {
+    const uint64_t* const of_column = runs.of_column.data + size_t{columns.numbers[i]} * words;
+    for (uint32_t w = 0; w < words; ++w) marked[w] |= of_column[w];
+  }
+  // Columns may reach past the LOD. Whole words take less time than most of their bits.
+  for (uint32_t w = 0; w < words; ++w) {
+    marked[w] &= at_lod[w];
+    if (bit_count(marked[w]) > 44) marked[w] = at_lod[w];
+  }
 }
 
 /// Marks the joints of the angles in Changes::runs.
@@ -299,33 +334,29 @@ bool add_changed_columns(const Rig& rig, Instance& instance, uint32_t lod) {
   constexpr uint32_t kFew = 16;
   const uint32_t limit = std::min({kFew + changes.summed_count / 2, kMaxChangedColumns,
                                    kMaxRoundings - kOfFrame - changes.roundings});
-  JointRun columns[kMaxChangedColumns];
-  clear_set(changes.runs);
-  const uint32_t count = list_changed_columns(rig, instance, lod, limit, columns);
-  if (count > limit) return false;
-
-  if (count != 0) {
+  ChangedColumns columns;
+  if (!list_changed_columns(rig, instance, lod, limit, columns)) return false;
+  // Sums that overflow would stay infinite. (This fails if a control is not finite, too.)
+  changes.largest += columns.largest;
+  if (!(changes.largest < kLargestFloat / 2)) {
+    drop_sums(instance);
+    return false;
+  }
+  if (columns.count != 0) {
     JointColumnsArgs add;
     const bool fixed = joints.values.empty();
     add.values = fixed ? static_cast<const void*>(joints.fixed_values.data) : joints.values.data;
     add.block_rows = joints.block_rows.data;
-    add.runs = columns;
+    add.runs = columns.runs;
     add.sums = changes.sums.data;
-    add.run_count = count;
+    add.run_count = columns.count;
     add.portable = rig.portable;
     (fixed ? rig.kernels->joint_columns_fixed : rig.kernels->joint_columns)(add);
-    changes.roundings += count + kOfFrame;
+    changes.roundings += columns.count + kOfFrame;
   }
 
-  // Columns may reach past the LOD. ML joints are added to what their rows write. Whole words take less time
-  // than most of their bits.
+  mark_runs(rig, changes, lod, columns);
   const RowRuns& runs = rig.changes->runs;
-  const uint64_t* const at_lod = runs.at_lod.data + size_t{lod} * runs.word_count;
-  const bool all = !rig.ml.joints.empty();
-  for (uint32_t w = 0; w < runs.word_count; ++w) {
-    const uint64_t marked = changes.runs[w] & at_lod[w];
-    changes.runs[w] = all || bit_count(marked) > 44 ? at_lod[w] : marked;
-  }
   FinishRunsArgs finish;
   finish.sums = changes.sums.data;
   finish.scales = joints.scales.empty() ? nullptr : joints.scales.data;
@@ -334,11 +365,7 @@ bool add_changed_columns(const Rig& rig, Instance& instance, uint32_t lod) {
   finish.outputs = runs.outputs.data + size_t{lod} * runs.word_count * 64;
   finish.to = instance.joints_and_angles.data;
   finish.first_words = runs.first_words;
-  finish.row_count = changes.sums.count;
-  if (!rig.kernels->finish_runs(finish)) {
-    drop_sums(instance);
-    return false;
-  }
+  rig.kernels->finish_runs(finish);
   if (rig.quaternion_outputs) mark_turned(rig, changes, finish.outputs);
   return true;
 }
@@ -356,6 +383,14 @@ Uses panels_to_sum(const Rig& rig, const Instance& instance) {
 void note_sums(const Rig& rig, Instance& instance, Uses panels) {
   Changes& changes = *instance.changes;
   std::copy(instance.controls.begin(), instance.controls.end(), changes.summed.begin());
+  clear_set(changes.joints);
+  const Span<uint16_t>& columns = rig.joints.columns;
+  double largest = 0;
+  for (size_t k = 0; k < columns.count; ++k) {
+    largest += double{std::fabs(instance.controls[columns[k]])} * rig.changes->largest[k];
+  }
+  // Panels that are not stale keep the sums of before. (The bound may be NaN.)
+  if (panels == kAllPanels || !(largest <= changes.largest)) changes.largest = largest;
   if (panels != kAllPanels) return;
   changes.all &= ~uint32_t{kStageJoints};
   changes.roundings = 0;

@@ -14,7 +14,7 @@ void place_changes(const Rig& rig, Placer& placer, Instance& instance) {
   Changes& changes = placer.measuring() ? measured : placed[0];
   if (!placer.measuring()) instance.changes = &changes;
   const size_t words = bit_words(rig.control_count);
-  for (Span<uint64_t>* set : {&changes.psds, &changes.channels, &changes.maps}) {
+  for (Span<uint64_t>* set : {&changes.psds, &changes.joints, &changes.channels, &changes.maps}) {
     *set = placer.array<uint64_t>(words);
   }
   const size_t block_rows = rig.joints.panels[rig.joints.panel_count()].first_block_row;

@@ -12,11 +12,12 @@ namespace mien {
 /// With MIEN_REUSE_SUMS: what changed, and the sums of the joint matrix (changes.h).
 struct Changes {
   // [control / 64] bit control % 64: may differ from what the stage last evaluated.
-  Span<uint64_t> psds, channels, maps;
+  Span<uint64_t> psds, joints, channels, maps;
   uint32_t all;  // stages that have to evaluate everything
 
   uint32_t summed_count;  // controls that were not 0 when all sums were computed
   uint32_t roundings;     // of each sum since then, at most
+  double largest;         // bound on the magnitudes of the sums, before and after scaling
   Span<float> sums;       // [packed row] before scaling; without those that this LOD does not have
   Span<float> summed;     // [control] the values that they are the sums for
 

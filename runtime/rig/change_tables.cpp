@@ -2,6 +2,7 @@
 #include "runtime/rig/change_tables.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "runtime/rig/rig.h"
 
@@ -10,18 +11,19 @@ namespace {
 
 // Lists -------------------------------------------------------------------------------------------
 
-void place_lists(size_t lists, size_t numbers, Placer& placer, NumberLists& placed) {
+template <class T>
+void place_lists(size_t lists, size_t items, Placer& placer, Lists<T>& placed) {
   placed.first = placer.array<uint32_t>(lists + 1);
-  placed.numbers = placer.array<uint32_t>(numbers);
+  placed.items = placer.array<T>(items);
 }
 
-/// Calls for_each(f) twice: it calls f(list, number) for all numbers, in order.
-template <class ForEach>
-void fill_lists(NumberLists& lists, ForEach&& for_each) {
-  for_each([&](uint32_t list, uint32_t) { ++lists.first[list + 1]; });
+/// Calls for_each(f) twice: it calls f(list, item) for all items, in order.
+template <class T, class ForEach>
+void fill_lists(Lists<T>& lists, ForEach&& for_each) {
+  for_each([&](uint32_t list, T) { ++lists.first[list + 1]; });
   for (size_t i = 1; i < lists.first.count; ++i) lists.first[i] += lists.first[i - 1];
   // Filling moves each start to the next one; they are moved back afterwards.
-  for_each([&](uint32_t list, uint32_t number) { lists.numbers[lists.first[list]++] = number; });
+  for_each([&](uint32_t list, T item) { lists.items[lists.first[list]++] = item; });
   for (size_t i = lists.first.count - 1; i > 0; --i) lists.first[i] = lists.first[i - 1];
   lists.first[0] = 0;
 }
@@ -37,7 +39,11 @@ void fill_control_lists(const Rig& rig, ChangeTables& tables) {
   fill_lists(tables.psds, [&](auto&& f) {
     for (uint32_t e = 0; e < rig.psds.outputs.count; ++e) {
       const uint32_t first = rig.psds.first_input[e], end = rig.psds.first_input[e + 1];
-      for (uint32_t i = first; i < end; ++i) f(rig.psds.inputs[i], e);
+      for (uint32_t i = first; i < end; ++i) {
+        const uint16_t* const inputs = rig.psds.inputs.data;
+        const uint32_t other = i == first ? end - 1 : first;
+        f(inputs[i], PsdReader{static_cast<uint16_t>(e), inputs[other]});
+      }
     }
   });
   fill_lists(tables.channels, [&](auto&& f) {
@@ -140,6 +146,22 @@ void place_runs(const Rig& rig, uint32_t word_count, Placer& placer, RowRuns& ru
   runs.of_column = placer.array<uint64_t>(rig.joints.columns.count * word_count);
 }
 
+/// The largest magnitude of each column.
+void fill_largest(const JointMatrix& joints, const Span<float>& largest) {
+  for (size_t k = 0; k < joints.columns.count; ++k) {
+    joints.for_each_block(k, joints.panel_count(), [&](uint32_t block, uint32_t block_row) {
+      for (uint32_t r = 0; r < kJointBlockRows; ++r) {
+        const size_t at = size_t{block} * kJointBlockRows + r;
+        const size_t row = size_t{block_row} * kJointBlockRows + r;
+        const float value =
+            joints.values.empty() ? static_cast<float>(joints.fixed_values[at]) : joints.values[at];
+        const float scale = joints.scales.empty() ? 1.0f : std::max(1.0f, joints.scales[row]);
+        largest[k] = std::max(largest[k], std::min(std::fabs(value) * scale, kLargestFloat));
+      }
+    });
+  }
+}
+
 void mark_bit(uint64_t* words, size_t i) { words[i / 64] |= uint64_t{1} << i % 64; }
 
 void fill_runs(const Rig& rig, const PackedRows& rows, RowRuns& runs) {
@@ -202,6 +224,7 @@ const ChangeTables* create_change_tables(const Rig& rig, const Allocator& alloca
       create_object<ChangeTables>(allocator, [&](Placer& placer, ChangeTables& placed) {
         place_control_lists(rig, placer, placed);
         place_runs(rig, runs.word_count, placer, placed.runs);
+        placed.largest = placer.array<float>(joints.columns.count);
       });
   if (!tables) return nullptr;
 
@@ -218,6 +241,7 @@ const ChangeTables* create_change_tables(const Rig& rig, const Allocator& alloca
   tables->runs.word_count = runs.word_count;
   fill_runs(rig, rows, tables->runs);
   fill_column_runs(joints, rows, tables->runs);
+  fill_largest(joints, tables->largest);
   return tables;
 }
 

@@ -11,18 +11,23 @@ namespace mien {
 
 struct Rig;
 
-/// Lists of numbers, one after the other.
-struct NumberLists {
-  Span<uint32_t> first;  // [list] into numbers, one more at the end
-  Span<uint32_t> numbers;
+/// Lists, one after the other.
+template <class T>
+struct Lists {
+  Span<uint32_t> first;  // [list] into items, one more at the end
+  Span<T> items;
 
-  Span<uint32_t> of(size_t list) const {
-    return numbers.slice(first[list], first[list + 1] - first[list]);
-  }
+  Span<T> of(size_t list) const { return items.slice(first[list], first[list + 1] - first[list]); }
 };
 
 /// Words for a set of `count` bits.
 constexpr size_t bit_words(size_t count) { return (count + 63) / 64; }
+
+/// A corrective that reads a control.
+struct PsdReader {
+  uint16_t entry;  // of PsdTable
+  uint16_t other;  // another control that it reads, if any
+};
 
 /// The packed rows in runs, in the order and with the limits of FinishRunsArgs. Each LOD writes all rows of a
 /// run, to neighboring joint values or angles, or none. Rows that others overwrite at a LOD count as not
@@ -39,13 +44,14 @@ struct RowRuns {
 struct ChangeTables : Object {
   static constexpr uint32_t kTag = 0x6D43'4854;
 
-  NumberLists psds;              // [control] entries of PsdTable that read it
-  NumberLists channels;          // [control] entries of ChannelTable that read it
-  NumberLists maps;              // [control] animated maps that read it
-  NumberLists map_rows;          // [animated map] its rows in Rig::maps, ascending
+  Lists<PsdReader> psds;         // [control] correctives that read it
+  Lists<uint32_t> channels;      // [control] entries of ChannelTable that read it
+  Lists<uint32_t> maps;          // [control] animated maps that read it
+  Lists<uint32_t> map_rows;      // [animated map] its rows in Rig::maps, ascending
   bool nested_psds = false;      // some correctives read others
   bool single_channels = false;  // no two entries write one channel
   RowRuns runs;
+  Span<float> largest;  // [column] magnitude of its values, before and after scaling
 };
 
 /// Null if memory ran out.

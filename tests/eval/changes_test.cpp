@@ -213,8 +213,39 @@ TEST(Changes, SumsThatAreNotFiniteAreComputedAnew) {
     pair.evaluate(0);
     if (std::fabs(value) < 1) {
       EXPECT_TRUE(same_results(pair.kept, pair.full)) << value;
+      EXPECT_EQ(pair.changes().roundings, 0u) << value;
     }
   }
+  pair.kept.raw[0] = 0.5f;
+  pair.evaluate(0);
+  EXPECT_GT(pair.changes().roundings, 0u) << "differences are added again";
+}
+
+// Correctives that are 0 and stay so are skipped.
+TEST(Changes, OfCorrectivesWhoseInputsChangeTogether) {
+  Pair pair(generate_dna(MIEN_PRESET_SMALL, 1).get());
+  const Rig& rig = *capi::object(pair.kept.rig);
+  const PsdTable& psds = rig.psds;
+  pair.evaluate(0);
+  uint32_t changed = 0;
+  for (uint32_t e = 0; e < psds.count_at_lod[0]; ++e) {
+    const Span<uint16_t> inputs =
+        psds.inputs.slice(psds.first_input[e], psds.first_input[e + 1] - psds.first_input[e]);
+    if (std::any_of(inputs.begin(), inputs.end(), [&](uint32_t i) { return i >= rig.raw_count; })) {
+      continue;
+    }
+    const float values[][2] = {{0.5f, 0.25f}, {0.0f, 0.0f}, {0.75f, 0.5f},    {-1.0f, 0.5f},
+                               {0.5f, 0.0f},  {0.5f, 1.0f}, {1e-30f, 1e-30f}, {1e-10f, 1e-10f},
+                               {NAN, 0.5f},   {0.5f, 0.5f}, {0.0f, 0.0f}};
+    for (const float* value : values) {
+      for (size_t i = 0; i < inputs.count; ++i) pair.kept.raw[inputs[i]] = value[i != 0];
+      const uint32_t before = bits_of(pair.full.controls[psds.outputs[e]]);
+      pair.evaluate(0);
+      changed += bits_of(pair.full.controls[psds.outputs[e]]) != before;
+      ASSERT_TRUE(same_bits(pair.kept.controls, pair.full.controls)) << e << ' ' << value[0];
+    }
+  }
+  EXPECT_GT(changed, 100u);
 }
 
 TEST(Changes, OfBatchesAndOfSingleCharacters) {

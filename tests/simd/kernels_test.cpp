@@ -632,7 +632,7 @@ TEST(FinishRunsKernel, WritesTheRunsOfTheSet) {
   // Two words of runs of each length, the shortest first, with other rows between them.
   constexpr uint32_t kRuns = 2 * kMaxRunRows * 64, kRows = kRuns * (kMaxRunRows + 1);
   static_assert(kRows % 16 == 0, "whole vectors");
-  constexpr float kUntouched = 12345.0f, kLargest = std::numeric_limits<float>::max();
+  constexpr float kUntouched = 12345.0f;
   alignas(64) float sums[kRows], scales[kRows];
   std::fill(scales, scales + kRows, 0.25f);
   std::vector<uint32_t> rows(kRuns);
@@ -656,7 +656,6 @@ TEST(FinishRunsKernel, WritesTheRunsOfTheSet) {
   args.rows = rows.data();
   args.outputs = outputs.data();
   args.first_words = first_words;
-  args.row_count = kRows;
   for (const KernelTable* kernels : present_kernels()) {
     SCOPED_TRACE(kernels->name);
     for (const float* scale :
@@ -671,28 +670,11 @@ TEST(FinishRunsKernel, WritesTheRunsOfTheSet) {
       }
       args.scales = scale;
       args.to = written.data();
-      EXPECT_TRUE(kernels->finish_runs(args));
+      kernels->finish_runs(args);
       for (size_t i = 0; i < written.size(); ++i) {
         ASSERT_EQ(bits_of(written[i]), bits_of(expected[i])) << i;
       }
-      for (uint32_t row = 0; row < kRows; row += row < 100 || row + 100 > kRows ? 1 : 97) {
-        const float before = sums[row];
-        for (const float value : {std::numeric_limits<float>::infinity(), std::nanf("")}) {
-          sums[row] = value;
-          EXPECT_FALSE(kernels->finish_runs(args)) << row;
-        }
-        sums[row] = -kLargest;
-        EXPECT_TRUE(kernels->finish_runs(args));
-        sums[row] = before;
-      }
     }
-  }
-  // A sum may be finite, and not its value.
-  sums[7] = kLargest;
-  scales[7] = 2;
-  args.scales = scales;
-  for (const KernelTable* kernels : present_kernels()) {
-    EXPECT_FALSE(kernels->finish_runs(args)) << kernels->name;
   }
 }
 
