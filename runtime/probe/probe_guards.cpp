@@ -13,6 +13,7 @@ constexpr float kLeastGain = 0.05f;       // millimeters: smaller gains are not 
 constexpr float kGainStep = 1 / 1024.0f;  // millimeters
 constexpr float kProbeValue = 0.5f;       // of the controls that are tried
 constexpr double kLeastOfHalves = 0.5;    // of the gain of a control, that its counterpart has
+constexpr double kLeastOfPairs = 0.9;     // of that in pairs, where both do nothing alone
 constexpr uint32_t kFitRows = 64;
 
 float rounded(double gain) {
@@ -62,14 +63,22 @@ struct Measured {
   double rest = 0, contact = 0;
 };
 
+/// Whether a control and its counterpart do about the same: alone or, where both do nothing alone, in pairs.
+bool act_alike(const Measured& measured, uint16_t a, uint16_t b) {
+  const double one = rounded(measured.gains[a]), other = rounded(measured.gains[b]);
+  if (std::fabs(one) >= kLeastGain || std::fabs(other) >= kLeastGain) {
+    return one * other >= 0 && std::fabs(other) >= kLeastOfHalves * std::fabs(one);
+  }
+  const auto [less, more] = std::minmax(measured.scores[a], measured.scores[b]);
+  return less >= kLeastOfPairs * more;
+}
+
 /// Puts controls whose counterparts in the other half of the face do about the same beside those.
 void join_halves(const Measured& measured, Span<const uint16_t> mirror, uint16_t* curves,
                  Guard& out) {
   for (uint32_t i = 0; i + 1 < out.count; ++i) {
     uint16_t* const other = std::find(curves + i + 1, curves + out.count, mirror[curves[i]]);
-    if (other == curves + out.count) continue;
-    const double gain = measured.gains[curves[i]], its = measured.gains[*other];
-    if (gain * its < 0 || std::fabs(its) < kLeastOfHalves * std::fabs(gain)) continue;
+    if (other == curves + out.count || !act_alike(measured, curves[i], *other)) continue;
     std::rotate(curves + i + 1, other, other + 1);
     out.together |= 1u << ++i;
   }
@@ -87,16 +96,30 @@ void choose_curves(const Measured& measured, Span<const PairOfControls> pairs,
       measured.scores[c] = std::max(measured.scores[c], std::fabs(measured.pair_gains[p]));
     }
   }
-  const auto by = [](const Span<double>& sizes) {
-    return [&sizes](uint16_t a, uint16_t b) {
-      const double x = std::fabs(sizes[a]), y = std::fabs(sizes[b]);
-      return x != y ? x > y : a < b;
+  // Rounding hides what differs between the halves of a face by chance, and numbers of controls differ between them:
+  // the guard of the other half is to have the counterparts in the same order.
+  const auto by = [&](const Span<double>& sizes) {
+    return [&](uint16_t a, uint16_t b) {
+      const auto size = [](const Span<double>& of, uint16_t c) {
+        return std::fabs(rounded(of[c]));
+      };
+      if (size(sizes, a) != size(sizes, b)) return size(sizes, a) > size(sizes, b);
+      if (size(measured.scores, a) != size(measured.scores, b)) {
+        return size(measured.scores, a) > size(measured.scores, b);
+      }
+      const uint16_t left = std::min(a, mirror[a]), right = std::min(b, mirror[b]);
+      return left != right ? left < right : a < b;
     };
   };
   std::sort(order.begin(), order.end(), by(measured.scores));
   while (out.count < kMaxGuardCurves && out.count < order.count &&
-         measured.scores[order[out.count]] >= kLeastGain) {
+         rounded(measured.scores[order[out.count]]) >= kLeastGain) {
     ++out.count;
+  }
+  // Both halves or none.
+  if (out.count == kMaxGuardCurves && out.count < order.count) {
+    const uint16_t last = order[out.count - 1], next = order[out.count];
+    if (last != next && mirror[last] == next && act_alike(measured, last, next)) --out.count;
   }
   std::sort(order.begin(), order.begin() + out.count, by(measured.gains));
   join_halves(measured, mirror, order.data, out);

@@ -300,7 +300,6 @@ TEST(PlanGuards, RefusesMoreThanAMixHas) {
 
 // Probing -----------------------------------------------------------------------------------------
 
-// The function is a sum; what correctives of pairs take away from the sum is its error.
 TEST(ProbeGuards, FitsTheHeadToHalfAMillimeter) {
   for (uint64_t seed : kSeeds) {
     for (const Guard& guard : head(seed).guards) {
@@ -312,6 +311,42 @@ TEST(ProbeGuards, FitsTheHeadToHalfAMillimeter) {
         EXPECT_GE(std::abs(guard.gains[i - 1]), std::abs(guard.gains[i]));
       }
     }
+  }
+}
+
+// The jaw turns, and the function is linear in each control: measured at a jaw that is half open, it is off by 2 mm
+// when the jaw is wide open. Up to the 0.65 that vowels use, a tenth of a millimeter is left, correctives included.
+TEST(ProbeGuards, FitsTheHeadToATenthOfAMillimeterUpToVowels) {
+  for (uint64_t seed : kSeeds) {
+    GuardedHead& h = head(seed);
+    const auto jaw = static_cast<size_t>(
+        std::find(h.controls.begin(), h.controls.end(), "jawOpen") - h.controls.begin());
+    for (uint32_t g = 0; g < h.standard.count; ++g) {
+      const Kind kind = h.standard.kinds[g];
+      double turn = 0, squares = 0;
+      const auto next = [&turn](double step) {
+        turn += step;
+        return turn - std::floor(turn);
+      };
+      constexpr int kRows = 64;
+      for (int r = 0; r < kRows; ++r) {
+        Pose row(h.controls.size());
+        for (int k = 0; k < 6; ++k) {
+          const auto at = static_cast<size_t>(next(0.6180339887498949) * double(row.size()));
+          row[at] = static_cast<float>(next(0.7548776662466927));
+        }
+        row[jaw] = std::min(row[jaw], 0.65f);
+        const double off = double(guard_distance(h.guards[g], row.data())) - h.distance(kind, row);
+        squares += off * off / kRows;
+      }
+      EXPECT_LT(std::sqrt(squares), 0.1) << guard_name(h.guards[g].kind);
+    }
+    Pose wide(h.controls.size());
+    wide[jaw] = 1;
+    const double off = double(guard_distance(h.guards[h.index(Kind::kTeeth)], wide.data())) -
+                       h.distance(Kind::kTeeth, wide);
+    EXPECT_GT(off, 1.5);
+    EXPECT_LT(off, 3);
   }
 }
 
@@ -478,7 +513,7 @@ TEST(GuardedSpeech, FacesThatAreEvenStayEvenAndMirroredOnesMirrored) {
           }
           const Pose free = over(pose, emotion, 1), held = guards.left_by(pose, free);
           EXPECT_LE(difference(guards.left_by(mirrored(pose), mirrored(free)), mirrored(held)),
-                    0.01f);
+                    1e-4f);
           if (difference(free, mirrored(free)) == 0) {
             ++even;
             EXPECT_LE(difference(held, mirrored(held)), 1e-4f);
