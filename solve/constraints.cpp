@@ -222,7 +222,7 @@ void list_constraint_rows(Frame& f, uint32_t from) {
   // Those of joints, then those of points, some rows at a time.
   for (const bool of_joints : {true, false}) {
     const size_t size = of_joints ? fit.model_gradient.count : fit.position_gradient.count;
-    float* const rows = of_joints ? fit.row_models.data : fit.row_positions.data;
+    float* const rows = of_joints ? fit.row_models.data : fit.moved.data;
     size_t begin = 0;
     while (begin < f.in.constraint_count) {
       size_t count = 0, end = begin;

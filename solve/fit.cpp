@@ -20,24 +20,6 @@ size_t count_of(const MienRig* rig, uint32_t kind) {
   return count;
 }
 
-size_t sample_stride(const MienFitDesc& desc) {
-  return (desc.point_count + kMostSamples - 1) / kMostSamples;
-}
-size_t sample_count(const MienFitDesc& desc) {
-  return desc.point_count ? (desc.point_count - 1) / sample_stride(desc) + 1 : 0;
-}
-
-/// One of each run of points, not always the same: a stride would follow rows of the mesh.
-void choose_samples(const MienFitDesc& desc, uint32_t* out) {
-  const size_t every = sample_stride(desc);
-  uint32_t random = 1;
-  for (size_t s = 0; s < sample_count(desc); ++s) {
-    random = random * 1664525u + 1013904223u;
-    const size_t left = std::min(every, desc.point_count - s * every);
-    out[s] = static_cast<uint32_t>(s * every + (random >> 8) % left);
-  }
-}
-
 void place(const MienFitDesc& desc, Placer& placer, MienFit& fit) {
   placer.array<MienFit>(1);
   const size_t raw = fit.raw_count, all = fit.control_count, joints = fit.joint_count;
@@ -96,14 +78,15 @@ void place(const MienFitDesc& desc, Placer& placer, MienFit& fit) {
     fit.model_gradient = placer.array<float>(matrices);
     fit.constraint_rows = placer.array<float>(kMostConstraints * 3 * std::max(all, raw));
     fit.row_models = placer.array<float>(kRowsAtOnce * matrices);
-    fit.row_positions = placer.array<float>(kRowsAtOnce * fit.position_count * 3);
+    fit.moved = placer.array<float>(kDirections * fit.position_count * 3);
     fit.row_weights = placer.array<double>(kMostConstraints * 3);
     fit.row_changes = placer.array<double>(kMostConstraints * 3);
   }
   if (desc.point_count == 0) return;
   fit.start_surface = placer.array<double>(desc.point_count * 3);
   fit.whole_points = placer.array<MienSolvePoint>(desc.point_count);
-  fit.samples = placer.array<uint32_t>(sample_count(desc));
+  fit.samples = placer.array<uint32_t>(sample_count(desc.point_count, kMostSamples));
+  fit.own_samples = placer.array<uint32_t>(fit.samples.count);
   fit.sample_points = placer.array<MienSolvePoint>(fit.samples.count);
   fit.triangles = placer.array<uint32_t>(fit.triangle_count * 3);
   fit.normals = placer.array<double>(desc.point_count * 3);
@@ -115,7 +98,6 @@ void place(const MienFitDesc& desc, Placer& placer, MienFit& fit) {
   fit.sample_effects = placer.array<float>(all * fit.samples.count * 3);
   fit.step_effects = placer.array<float>(moving * fit.samples.count * 3);
   fit.directions = placer.array<float>(kDirections * raw);
-  fit.moved = placer.array<float>(kDirections * fit.sample_position_count * 3);
   fit.measured = placer.array<uint8_t>(moving);
   fit.row = placer.array<double>(moving + kMostMotion);
   fit.wide = placer.array<double>((moving + kMostMotion) * (moving + kMostMotion));
@@ -295,9 +277,10 @@ MienStatus create_deformed(const MienFitDesc& desc, const MienDeformer* deformer
 
 MienStatus create_point_parts(const MienFitDesc& desc, MienFit& fit, Arena& arena, Parts& parts,
                               MienError* error) {
-  const Span<uint32_t> samples = arena.array<uint32_t>(sample_count(desc));
+  const Span<uint32_t> samples =
+      arena.array<uint32_t>(sample_count(desc.point_count, kMostSamples));
   if (!samples.data) return give_error(error, MIEN_ERROR_MEMORY, "no memory for samples");
-  choose_samples(desc, samples.data);
+  choose_samples(desc.point_count, samples);
   parts.all_sampled = samples.count == desc.point_count;
   if (MienStatus status = choose_positions(
           desc, fit, desc.point_count,
@@ -361,7 +344,7 @@ MienStatus create_parts(const MienFitDesc& desc, MienFit& fit, Arena& arena, Par
 
 void copy_points(const MienFitDesc& desc, const Parts& parts, MienFit& fit) {
   if (desc.point_count == 0) return;
-  choose_samples(desc, fit.samples.data);
+  choose_samples(desc.point_count, fit.samples);
   for (size_t i = 0; i < desc.point_count; ++i) {
     fit.whole_points[i] = desc.points[i];
     fit.points[i] = parts.points.renumbered(desc.points[i]);

@@ -92,7 +92,8 @@ struct MienFit {
   mien::Span<double> kept_targets;  // [point][3], and `lost`, at the best controls
   mien::Span<uint8_t> kept_lost;
   mien::Span<float> position_normals;   // [position of the mesh][3]
-  mien::Span<float> directions, moved;  // kDirections of [raw control]; of [position of samples][3]
+  mien::Span<float> directions, moved;  // kDirections of [raw control]; of [position][3]
+  mien::Span<uint32_t> own_samples;     // of a frame
   mien::Span<float> step_effects;       // [control that may move][sample][3]
   mien::Span<uint8_t> measured;  // [control that may move] its effects are those of this pose
   mien::Span<double> row, wide;  // [motion and free]; that squared
@@ -105,9 +106,9 @@ struct MienFit {
   mien::Span<double> stiffness;         // [control that may move] what moving it alone costs
   // The same of joint values and of points at the neutral pose, without the weights of a frame.
   mien::Span<double> joint_stiffness, point_stiffness;
-  mien::Span<float> kept;                       // [raw control]
-  mien::Span<float> constraint_rows;            // [row][control or raw control]
-  mien::Span<float> row_models, row_positions;  // kRowsAtOnce of [joint][16]; of [position][3]
+  mien::Span<float> kept;             // [raw control]
+  mien::Span<float> constraint_rows;  // [row][control or raw control]
+  mien::Span<float> row_models;       // kRowsAtOnce of [joint][16]; of positions: `moved`
   mien::Span<double> row_residuals, row_weights, row_changes;  // [row]
   mien::Span<float> start_joints;    // [joint value] at the start of a frame
   mien::Span<double> start_surface;  // [point][3]
@@ -127,6 +128,7 @@ namespace mien {
 
 constexpr uint32_t kDirections = 32;  // at a time through derivatives
 constexpr uint32_t kRowsAtOnce = 30;  // of constraints
+static_assert(kRowsAtOnce <= kDirections, "rows of positions are in MienFit::moved");
 constexpr uint32_t kMostConstraints = 64;
 constexpr uint32_t kBlockFrames = 16;  // whose joint values are multiplied together
 

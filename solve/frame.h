@@ -43,6 +43,9 @@ struct Frame {
   bool exact = false;     // steps take the effects of controls on points from the pose at hand
   uint32_t stage = 0;     // controls of later stages are held
   size_t row_count = 0;   // of constraints, at the pose at hand
+  Span<const uint32_t> samples = {};  // points that stand for all
+  bool own_samples = false;           // they are chosen for this frame; else MienFit::samples
+  bool few = false;                   // less than half of the points count
 
   bool has_points() const { return in.points || in.images || in.surface; }
   bool is_locked(uint32_t control) const { return in.stages && in.stages[control] > stage; }
@@ -177,8 +180,12 @@ struct JointFrames {
 
 // Points ------------------------------------------------------------------------------------------------
 
-/// Targets and weights as given; missing ones have no weight.
+/// Targets and weights as given; missing ones have no weight. Chooses samples.
 void read_points(Frame& f);
+/// Of `count` points, at most `most`.
+size_t sample_count(size_t count, size_t most);
+/// Fills `out`, as many as sample_count() says.
+void choose_samples(size_t count, const Span<uint32_t>& out);
 /// The points at the controls of the instance, and, for a surface, their normals.
 void find_points(Frame& f);
 /// Where a point in model space is seen: placed, and in the image if there is one.

@@ -37,7 +37,49 @@ void sum_rows(const MienSolvePoint& point, const float* rows, double* out) {
 
 double squared_length(const double* v) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; }
 
+/// Samples of the points that count, where those of all points are few of them.
+void choose_own_samples(Frame& f) {
+  MienFit& fit = f.fit;
+  const auto counts = [&](uint32_t i) { return fit.weights[i] > 0; };
+  const auto given = static_cast<size_t>(
+      std::count_if(fit.weights.begin(), fit.weights.end(), [](double w) { return w > 0; }));
+  const auto sampled =
+      static_cast<size_t>(std::count_if(fit.samples.begin(), fit.samples.end(), counts));
+  f.samples = fit.samples;
+  f.few = given != 0 && 2 * given < fit.points.count;
+  const size_t count = sample_count(given, fit.samples.count);
+  f.own_samples = f.few && 2 * sampled < count;
+  if (!f.own_samples) return;
+  const Span<uint32_t> own = fit.own_samples.first(count);
+  choose_samples(given, own);
+  uint32_t place = 0;
+  size_t s = 0;
+  for (uint32_t i = 0; s < count; ++i) {
+    if (!counts(i)) continue;
+    if (own[s] == place) own[s++] = i;
+    ++place;
+  }
+  f.samples = own;
+}
+
 }  // namespace
+
+size_t sample_count(size_t count, size_t most) {
+  const size_t every = count == 0 ? 1 : (count + most - 1) / most;
+  return (count + every - 1) / every;
+}
+
+/// One of each run of points, not always the same: a stride would follow rows of the mesh.
+void choose_samples(size_t count, const Span<uint32_t>& out) {
+  if (out.empty()) return;
+  const size_t every = (count + out.count - 1) / out.count;
+  uint32_t random = 1;
+  for (size_t s = 0; s < out.count; ++s) {
+    random = random * 1664525u + 1013904223u;
+    const size_t left = std::min(every, count - s * every);
+    out[s] = static_cast<uint32_t>(s * every + (random >> 8) % left);
+  }
+}
 
 void read_points(Frame& f) {
   MienFit& fit = f.fit;
@@ -57,6 +99,7 @@ void read_points(Frame& f) {
     if (!finite) std::fill(fit.targets.data + 3 * i, fit.targets.data + 3 * i + 3, 0.0);
     f.missing += !finite;
   }
+  choose_own_samples(f);
   if (!f.in.images) return;
   const MienFitCamera& camera = *f.in.camera;
   std::copy(camera.rotation, camera.rotation + 9, f.motion.rotation);

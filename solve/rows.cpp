@@ -8,8 +8,11 @@ namespace mien {
 namespace {
 
 /// What free controls do to the samples at the pose at hand, kDirections at a time.
-void measure_controls(MienFit& fit, size_t free_count) {
-  const size_t width = fit.samples.count * 3, size = fit.sample_position_count * 3;
+void measure_controls(Frame& f, size_t free_count) {
+  MienFit& fit = f.fit;
+  MienDerivatives* const derivatives = f.own_samples ? fit.derivatives : fit.sample_derivatives;
+  const size_t width = f.samples.count * 3,
+               size = (f.own_samples ? fit.position_count : fit.sample_position_count) * 3;
   size_t a = 0;
   while (a < free_count) {
     uint32_t places[kDirections], count = 0;
@@ -22,12 +25,14 @@ void measure_controls(MienFit& fit, size_t free_count) {
       direction[fit.controls[places[k]]] = 1;
     }
     if (count == 0) return;
-    static_cast<void>(mien_derivatives_forward(fit.sample_derivatives, MIEN_POINT_RAW,
-                                               MIEN_POINT_POSITIONS, fit.mesh, count,
-                                               fit.directions.data, fit.moved.data));
+    static_cast<void>(mien_derivatives_forward(derivatives, MIEN_POINT_RAW, MIEN_POINT_POSITIONS,
+                                               fit.mesh, count, fit.directions.data,
+                                               fit.moved.data));
     for (uint32_t k = 0; k < count; ++k) {
       float* to = fit.step_effects.data + places[k] * width;
-      for (const MienSolvePoint& point : fit.sample_points) {
+      for (size_t s = 0; s < f.samples.count; ++s) {
+        const MienSolvePoint& point =
+            f.own_samples ? fit.points[f.samples[s]] : fit.sample_points[s];
         for (size_t axis = 0; axis < 3; ++axis) {
           float sum = 0;
           for (size_t n = 0; n < 3; ++n) {
@@ -44,13 +49,13 @@ void measure_controls(MienFit& fit, size_t free_count) {
 /// The effects of the free controls: those of this pose, or what all controls do at the neutral pose.
 void find_effects(Frame& f, size_t free_count) {
   MienFit& fit = f.fit;
-  const size_t width = fit.samples.count * 3;
-  if (f.exact) {
-    if (fit.sample_derivatives != fit.derivatives) {
+  const size_t width = f.samples.count * 3;
+  if (f.exact || f.own_samples) {
+    if (!f.own_samples && fit.sample_derivatives != fit.derivatives) {
       static_cast<void>(
           mien_derivatives_linearize(fit.sample_derivatives, fit.instance, MIEN_STAGE_ALL));
     }
-    return measure_controls(fit, free_count);
+    return measure_controls(f, free_count);
   }
   for (size_t a = 0; a < free_count; ++a) {
     float* const to = fit.step_effects.data + fit.free[a] * width;
@@ -69,14 +74,14 @@ void add_point_rows(Frame& f, size_t free_count) {
   find_effects(f, free_count);
   double all = 0, sampled = 0;
   for (const double pull : fit.pulls) all += pull;
-  for (const uint32_t i : fit.samples) sampled += fit.pulls[i];
+  for (const uint32_t i : f.samples) sampled += fit.pulls[i];
   if (!(sampled > 0)) return;
   const size_t motion = f.motion_count(), width = motion + free_count;
   double* const wide = fit.wide.data;
   double* const row = fit.row.data;
   std::fill(wide, wide + width * width, 0.0);
-  for (size_t s = 0; s < fit.samples.count; ++s) {
-    const size_t i = fit.samples[s];
+  for (size_t s = 0; s < f.samples.count; ++s) {
+    const size_t i = f.samples[s];
     if (!(fit.pulls[i] > 0)) continue;
     const double scale = std::sqrt(fit.pulls[i] * all / sampled);
     double directions[3][3], residuals[3], moved[3];
@@ -87,8 +92,7 @@ void add_point_rows(Frame& f, size_t free_count) {
       f.motion.turn_back(directions[r], back);
       if (motion != 0) list_motion(f, moved, directions[r], r, row);
       for (size_t a = 0; a < free_count; ++a) {
-        const float* const effect =
-            fit.step_effects.data + (fit.free[a] * fit.samples.count + s) * 3;
+        const float* const effect = fit.step_effects.data + (fit.free[a] * f.samples.count + s) * 3;
         row[motion + a] = back[0] * effect[0] + back[1] * effect[1] + back[2] * effect[2];
       }
       for (size_t a = 0; a < width; ++a) row[a] *= scale;

@@ -290,7 +290,7 @@ void solve_frame(Frame& f, MienFitResult& told) {
     while (present >> (last + 1) != 0) ++last;
     for (f.stage = 0; f.stage <= last; ++f.stage) {
       if ((present >> f.stage & 1) == 0) continue;
-      f.exact = false;
+      f.exact = f.few;  // the metric of points is of all of them
       told.status = solve.run_stage(limit, f.stage == last ? kEnoughDecrease : kEnoughOfStage);
       if (told.status == MIEN_FIT_CANCELED || told.status == MIEN_FIT_TIME) break;
     }

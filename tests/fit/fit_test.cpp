@@ -71,6 +71,47 @@ TEST(Fit, FindsTheControlsOfJoints) {
   EXPECT_GE(met, kPoses * 99 / 100);
 }
 
+// Weights of 0 leave few points: the solve is that of these points alone.
+TEST(Fit, FindsTheControlsOfTheFewPointsThatCount) {
+  Head head;
+  Random random = Random::from_seed(81, 7);
+  const uint32_t count = mesh_of(head.deformer.get(), 0).position_count;
+  constexpr uint32_t kEvery = 250;
+  const std::vector<MienSolvePoint> all = every(count, 1), few = every(count, kEvery);
+  std::vector<float> weights(count);
+  for (uint32_t i = 0; i < count; i += kEvery) weights[i] = 1;
+  const auto fit_of = [&](const std::vector<MienSolvePoint>& points) {
+    MienFitDesc desc = sized<MienFitDesc>();
+    desc.deformer = head.deformer.get();
+    desc.points = points.data();
+    desc.point_count = points.size();
+    return create_fit(head.rig, desc);
+  };
+  const FitHandle whole = fit_of(all), alone = fit_of(few);
+  const std::vector<float> observed = observed_by(alone, head.character.raw.count);
+  for (int pose = 0; pose < 10; ++pose) {
+    const std::vector<float> raw = head.pose(random, 8);
+    const std::vector<float> targets = head.positions(raw);
+    std::vector<float> few_targets;
+    for (uint32_t i = 0; i < count; i += kEvery) {
+      few_targets.insert(few_targets.end(), targets.data() + 3 * i, targets.data() + 3 * i + 3);
+    }
+    MienFitFrame frame = mien_fit_frame_default();
+    frame.prior_weight = 1e-7f;
+    frame.max_iterations = 100;
+    frame.points = few_targets.data();
+    std::vector<float> expected(raw.size()), found(raw.size());
+    MienFitResult result = mien_fit_result_default();
+    ASSERT_EQ(mien_fit_solve(alone.get(), &frame, expected.data(), nullptr), MIEN_OK);
+    frame.points = targets.data();
+    frame.point_weights = weights.data();
+    ASSERT_EQ(mien_fit_solve(whole.get(), &frame, found.data(), &result), MIEN_OK);
+    EXPECT_EQ(result.status, MIEN_FIT_CONVERGED) << pose;
+    EXPECT_LE(result.point_residual, 1e-4) << pose;
+    EXPECT_LE(worst(found, expected, observed), 0.01) << pose;
+  }
+}
+
 TEST(Fit, FindsTheControlsOfPointsThatWereMovedRigidly) {
   Head head;
   Random random = Random::from_seed(81, 2);

@@ -485,6 +485,8 @@ class Options(SolveTest):
         moved = {name for name, value in rows[0].items() if value != 0}
         self.assertTrue({"jawOpen", "browInnerUp"} <= moved, moved)
         self.assertTrue(all(name.startswith(("jaw", "browInnerUp")) for name in moved), moved)
+        again, _ = self.solved(path("one.npy"), "--mesh", mesh, "--controls", "browInnerUp,jawOpen,jaw*")
+        self.assertEqual(again, rows, "the order of the list does not count")
         self.fails(INVALID, "solve", path(HEAD), path("one.npy"), "-o", path("no.json"),
                    "--controls", "jawOpen,nothing", says="nothing")
 
