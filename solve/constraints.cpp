@@ -83,14 +83,22 @@ void compare_points(const MienFitConstraint& c, const double* a, const double* b
   }
 }
 
-Residuals find_residuals(const MienFit& fit, const MienFitConstraint& c, const float* models) {
+/// A point of the rig itself, without its offset.
+void find_own_point(const Frame& f, uint32_t point, double* out) {
+  for (size_t k = 0; k < 3; ++k) {
+    const size_t at = size_t{point} * 3 + k;
+    out[k] = f.fit.surface[at] - (f.in.point_offsets ? double{f.in.point_offsets[at]} : 0.0);
+  }
+}
+
+Residuals find_residuals(const Frame& f, const MienFitConstraint& c, const float* models) {
   Residuals out;
   if (!is_present(c)) return out;
   const float* model = models ? models + size_t{c.joint} * 16 : nullptr;
-  const double *a = nullptr, *b = nullptr;
+  double a[3] = {}, b[3] = {};
   if (!is_of_joint(c.kind)) {
-    a = fit.surface.data + size_t{c.points[0]} * 3;
-    b = fit.surface.data + size_t{c.points[1]} * 3;
+    find_own_point(f, c.points[0], a);
+    if (c.kind == MIEN_CONSTRAINT_POINT_DISTANCE) find_own_point(f, c.points[1], b);
   }
   switch (c.kind) {
     case MIEN_CONSTRAINT_JOINT_POSITION:
@@ -201,7 +209,7 @@ void add_constraint_cost(Frame& f, Cost& cost) {
   for (size_t i = 0; i < f.in.constraint_count; ++i) {
     const MienFitConstraint& c = f.in.constraints[i];
     if (!is_present(c)) continue;
-    const Residuals residuals = find_residuals(fit, c, models_of(fit, c));
+    const Residuals residuals = find_residuals(f, c, models_of(fit, c));
     double squared = 0;
     for (size_t r = 0; r < residuals.count; ++r) {
       squared += square(residuals.values[r]);
@@ -229,7 +237,7 @@ void list_constraint_rows(Frame& f, uint32_t from) {
       for (; end < f.in.constraint_count && count + 3 <= kRowsAtOnce; ++end) {
         const MienFitConstraint& c = f.in.constraints[end];
         if (is_of_joint(c.kind) != of_joints) continue;
-        const Residuals residuals = find_residuals(fit, c, models_of(fit, c));
+        const Residuals residuals = find_residuals(f, c, models_of(fit, c));
         for (size_t r = 0; r < residuals.count; ++r, ++count) {
           add_derivative(fit, c, residuals, r, 1, rows + count * size, rows + count * size);
           fit.row_weights[f.row_count + count] = double{c.weight};

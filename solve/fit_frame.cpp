@@ -52,6 +52,9 @@ MienStatus check_frame(const MienFit& fit, const MienFitFrame& in) {
   for (size_t i = 0; in.point_weights && i < fit.points.count; ++i) {
     if (!is_weight(in.point_weights[i])) return MIEN_ERROR_INVALID_ARGUMENT;
   }
+  for (size_t i = 0; in.point_offsets && i < 3 * fit.points.count; ++i) {
+    if (!std::isfinite(in.point_offsets[i])) return MIEN_ERROR_INVALID_ARGUMENT;
+  }
   if (MienStatus status = check_constraints(fit, in)) return status;
   for (size_t i = 0; in.stages && i < fit.raw_count; ++i) {
     if (in.stages[i] >= kMostStages) return MIEN_ERROR_INVALID_ARGUMENT;

@@ -128,6 +128,8 @@ void find_points(Frame& f) {
     } else {
       sum_rows(point, positions.data, to);
     }
+    for (size_t k = 0; f.in.point_offsets && k < 3; ++k)
+      to[k] += double{f.in.point_offsets[3 * i + k]};
   }
   if (!f.in.surface) return;
   if (fit.whole != fit.deformed) positions = deform(fit.whole);

@@ -164,6 +164,74 @@ TEST(Fit, FindsTheControlsOfPointsThatWereMovedRigidly) {
   }
 }
 
+// Each point of the face in the targets is elsewhere than that of the rig.
+TEST(Fit, OffsetsMakeTheFaceThatOfAnotherPerson) {
+  Head head;
+  Random random = Random::from_seed(81, 9);
+  const uint32_t count = mesh_of(head.deformer.get(), 0).position_count;
+  const std::vector<MienSolvePoint> points = every(count, 7);
+  MienFitDesc desc = sized<MienFitDesc>();
+  desc.deformer = head.deformer.get();
+  desc.points = points.data();
+  desc.point_count = points.size();
+  const FitHandle fit = create_fit(head.rig, desc);
+  const std::vector<float> raw = head.pose(random, 5), surface = head.positions(raw);
+  MienFitCamera camera = {{1500, 1500}, {640, 360}, {1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, -160, 100}};
+  std::vector<float> offsets, targets, images;
+  for (const MienSolvePoint& point : points) {
+    float p[3];
+    for (size_t k = 0; k < 3; ++k) {
+      offsets.push_back(static_cast<float>(random.between(-0.5, 0.5)));
+      p[k] = surface[size_t{point.positions[0]} * 3 + k] + offsets.back();
+    }
+    targets.insert(targets.end(), {-p[1] + 3, p[0] - 2, p[2] + 1});
+    const float z = p[2] + camera.translation[2];
+    for (size_t k = 0; k < 2; ++k) {
+      images.push_back(camera.focal[k] * (p[k] + camera.translation[k]) / z + camera.center[k]);
+    }
+  }
+  const auto off = [&](const MienFitFrame& frame) {
+    std::vector<float> found(raw.size());
+    EXPECT_EQ(mien_fit_solve(fit.get(), &frame, found.data(), nullptr), MIEN_OK);
+    const std::vector<float> solved = head.positions(found);
+    double sum = 0;
+    for (size_t i = 0; i < surface.size(); ++i) sum += std::fabs(double{solved[i]} - surface[i]);
+    return sum / static_cast<double>(surface.size());
+  };
+  for (const bool seen : {false, true}) {
+    MienFitFrame frame = mien_fit_frame_default();
+    frame.points = seen ? nullptr : targets.data();
+    frame.images = seen ? images.data() : nullptr;
+    frame.camera = &camera;
+    frame.rigid = 1;
+    frame.prior_weight = 1e-4f;
+    frame.max_iterations = 200;
+    const double without = off(frame);
+    frame.point_offsets = offsets.data();
+    const double with = off(frame);
+    EXPECT_LE(with, 0.01) << seen;
+    EXPECT_GE(without, 3 * with) << seen;
+  }
+  // A constraint is about the point of the rig.
+  std::vector<float> nothing(points.size() * 3, std::numeric_limits<float>::quiet_NaN());
+  MienFitConstraint place = {};
+  place.kind = MIEN_CONSTRAINT_POINT_POSITION;
+  place.weight = 1;
+  const std::vector<float> rest = head.positions(std::vector<float>(raw.size()));
+  std::copy_n(rest.data() + size_t{points[0].positions[0]} * 3, 3, place.target);
+  MienFitFrame frame = mien_fit_frame_default();
+  frame.points = nothing.data();
+  frame.constraints = &place;
+  frame.constraint_count = 1;
+  frame.point_offsets = offsets.data();
+  std::vector<float> found(raw.size());
+  MienFitResult result = mien_fit_result_default();
+  ASSERT_EQ(mien_fit_solve(fit.get(), &frame, found.data(), &result), MIEN_OK);
+  EXPECT_LT(result.constraint_worst, 1e-4);
+  offsets[4] = std::numeric_limits<float>::infinity();
+  EXPECT_EQ(mien_fit_solve(fit.get(), &frame, found.data(), nullptr), MIEN_ERROR_INVALID_ARGUMENT);
+}
+
 TEST(Fit, FindsControlsOfImages) {
   Head head;
   Random random = Random::from_seed(81, 3);

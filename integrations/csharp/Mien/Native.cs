@@ -741,7 +741,7 @@ namespace Mien.Native {
       new[] { sizeof(MienFitSurfaceDesc), 48 },
       new[] { sizeof(MienFitCamera), 64 },
       new[] { sizeof(MienFitConstraint), 52 },
-      new[] { sizeof(MienFitFrame), 160 },
+      new[] { sizeof(MienFitFrame), 168 },
       new[] { sizeof(MienFitResult), 144 },
     };
   }
@@ -2795,6 +2795,8 @@ namespace Mien.Native {
     public MienFitConstraint* Constraints;
     /// <summary>per raw control of the rig, up to 15: the solve begins with the controls of stage 0 alone, then those of stage 1 move too, and so on, as jaw and eyes before the rest. Each stage may take `max_iterations`. NULL: all move from the start</summary>
     public uint* Stages;
+    /// <summary>x y z per point, in model space: how far the points of the face in the targets are from those of the rig at rest, where it is another person's. Constraints are about the points of the rig. NULL: 0</summary>
+    public float* PointOffsets;
 
     /// <summary>All fields zero but StructSize.</summary>
     public static MienFitFrame Create() {
@@ -4898,8 +4900,8 @@ namespace Mien.Native {
     /// may be NULL. Deterministic unless there is a time limit. Does not allocate or lock.
     /// Fails with MIEN_ERROR_NULL_ARGUMENT if points, images or a surface are given to a fit without points, or
     /// images without a camera, or constraints on joints to one without a deformer,
-    /// MIEN_ERROR_INVALID_ARGUMENT if two kinds of points are given, a stage is above 15, or a weight, a control or a
-    /// number of the camera is not finite, or a weight is negative, MIEN_ERROR_HANDLE if `surface` is none,
+    /// MIEN_ERROR_INVALID_ARGUMENT if two kinds of points are given, a stage is above 15, or a weight, a control, an
+    /// offset or a number of the camera is not finite, or a weight is negative, MIEN_ERROR_HANDLE if `surface` is none,
     /// MIEN_ERROR_INDEX if a constraint has a joint or point that does not exist.</summary>
     [DllImport("mien-solve", CallingConvention = CallingConvention.Cdecl)]
     public static extern Status mien_fit_solve(FitHandle fit, MienFitFrame* frame, float* out_raw, MienFitResult* result);

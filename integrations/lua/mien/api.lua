@@ -1183,6 +1183,7 @@ typedef struct MienFitFrame {
     size_t constraint_count;
     MienFitConstraint const* constraints; /* up to 64, added to all other targets. NULL: none */
     uint32_t const* stages; /* per raw control of the rig, up to 15: the solve begins with the controls of stage 0 alone, then those of stage 1 move too, and so on, as jaw and eyes before the rest. Each stage may take `max_iterations`. NULL: all move from the start */
+    float const* point_offsets; /* x y z per point, in model space: how far the points of the face in the targets are from those of the rig at rest, where it is another person's. Constraints are about the points of the rig. NULL: 0 */
 } MienFitFrame;
 
 /* The result of a solve. */
@@ -2746,8 +2747,8 @@ all raw controls of the rig to `out_raw`; those that may not move keep their val
 may be NULL. Deterministic unless there is a time limit. Does not allocate or lock.
 Fails with MIEN_ERROR_NULL_ARGUMENT if points, images or a surface are given to a fit without points, or
 images without a camera, or constraints on joints to one without a deformer,
-MIEN_ERROR_INVALID_ARGUMENT if two kinds of points are given, a stage is above 15, or a weight, a control or a
-number of the camera is not finite, or a weight is negative, MIEN_ERROR_HANDLE if `surface` is none,
+MIEN_ERROR_INVALID_ARGUMENT if two kinds of points are given, a stage is above 15, or a weight, a control, an
+offset or a number of the camera is not finite, or a weight is negative, MIEN_ERROR_HANDLE if `surface` is none,
 MIEN_ERROR_INDEX if a constraint has a joint or point that does not exist. */
 MienStatus mien_fit_solve(MienFit* fit, MienFitFrame const* frame, float* out_raw, MienFitResult* result);
 
@@ -3261,7 +3262,7 @@ api.sizes = {
   MienFitSurfaceDesc = 48,
   MienFitCamera = 64,
   MienFitConstraint = 52,
-  MienFitFrame = 160,
+  MienFitFrame = 168,
   MienFitResult = 144,
 }
 

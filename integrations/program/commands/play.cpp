@@ -316,6 +316,17 @@ Command add_play_command(CLI::App& app, const Session& session) {
                    "see 'mien help solve'")
       ->type_name("FILE")
       ->group(clock);
+  play->add_option(
+          "--neutral", landmarks.neutral,
+          "Landmarks are of another person, whose face is at rest in the first N\npackets, or "
+          "in a CSV of landmarks (pixels): what that face differs in\nis no expression")
+      ->type_name("N|FILE")
+      ->group(clock);
+  play->add_option("--focal", landmarks.focal,
+                   "Focal length of the camera of landmarks2 in pixels (default: found from\nthe "
+                   "first 60 packets with the face, then kept)")
+      ->type_name("F")
+      ->group(clock);
   play->add_option("--smooth", landmarks.smooth,
                    "Weight of changes from packet to packet against the mean squared\ndistance of "
                    "landmarks (default: 0)")
@@ -397,7 +408,8 @@ Command add_play_command(CLI::App& app, const Session& session) {
       "  mien play scene.json head.dna -o strip.png --every 0.1 --target mouth\n"
       "  mien play scene.json head.dna -o 'frame-%04d.png' --every 0.04\n"
       "  mien play scene.json head.dna --live livelink://:11111 --send vmc://127.0.0.1:39539\n"
-      "  mien play scene.json head.dna --live landmarks2://:11112 --landmarks points.json\n\n"
+      "  mien play scene.json head.dna --live landmarks2://:11112 --landmarks points.json \\\n"
+      "      --neutral 60 --sparse 0.1\n\n"
       "Packets of landmarks are JSON: {\"time\": 1.5, \"size\": [1280, 720], \"landmarks\": "
       "[[0.51, 0.4],\n...]}; see docs/face-capture.md.\n"
       "--live and --send play in real time, for --seconds or until Ctrl-C; then outputs are "

@@ -51,7 +51,7 @@ std::unique_ptr<live::LiveInput> open_live(const RealTimeOptions& options, const
     return std::make_unique<live::LiveInput>(
         address, delay,
         open_landmark_solver(options.landmarks, address.protocol == live::Protocol::kLandmarks2,
-                             rig.rig, rig.deformer, rig.shown),
+                             rig.rig, rig.deformer, rig.shown, session),
         rig.rig, session);
   }
   return std::make_unique<live::LiveInput>(address, delay, options.device, rig.rig, names, session);
@@ -71,7 +71,8 @@ void RealTime::check(const RealTimeOptions& options) {
                "add --live livelink://:11111");
   }
   if (solves_landmarks(options)) {
-    check_landmark_options(options.landmarks);
+    const live::Address from = live::parse_address("--live", options.live, false);
+    check_landmark_options(options.landmarks, from.protocol == live::Protocol::kLandmarks2);
   } else if (const char* option = options.landmarks.named()) {
     fail_usage(option, "no landmarks come in", "add --live landmarks3://:11112");
   }

@@ -10,7 +10,7 @@
 #include <numeric>
 
 #include "integrations/program/commands/landmark_sets.h"
-#include "integrations/program/commands/solve_landmarks.h"
+#include "integrations/program/commands/solve_neutral.h"
 #include "integrations/program/commands/solve_output.h"
 #include "integrations/program/commands/solve_target.h"
 #include "integrations/program/io/controls.h"
@@ -48,6 +48,10 @@ void check_command(const SolveCommand& command, TargetKind kind) {
     fail_usage("--focal", "it is found together with a camera that moves",
                "give landmarks2 and --rigid, or leave it out");
   }
+  if (!command.neutral.empty() && (!landmarks || !command.rigid)) {
+    fail_usage("--neutral", "it is of landmarks, and of a head that is anywhere",
+               landmarks ? "add --rigid" : "leave it out");
+  }
   if (!command.reach.empty() && kind != TargetKind::kSurface) {
     fail_usage("--reach", "the target is no surface", "leave it out, or add --kind surface");
   }
@@ -80,6 +84,7 @@ void check_placing(const SolveCommand& command) {
         {"--first", command.first},
         {"--keys", command.keys},
         {"--report", command.report},
+        {"--neutral", command.neutral},
         {"--pictures", command.images}}) {
     if (!word.empty()) fail_usage(option, "nothing is solved", "leave it out");
   }
@@ -120,6 +125,13 @@ std::vector<uint32_t> list_used_points(const SolveTarget& target) {
   return used;
 }
 
+/// Moves the numbers of the points of a fit to the front.
+void keep_used(const std::vector<uint32_t>& used, size_t per_point, float* row) {
+  for (size_t i = 0; i < used.size(); ++i) {
+    std::copy_n(row + per_point * used[i], per_point, row + per_point * i);
+  }
+}
+
 Fit create_fit(const SolvedRig& rig, const SolveTarget& target,
                const std::vector<uint32_t>& moving) {
   auto desc = sized<MienFitDesc>();
@@ -137,6 +149,44 @@ Fit create_fit(const SolvedRig& rig, const SolveTarget& target,
   MienFit* fit = nullptr;
   check(mien_fit_create(rig.rig, &desc, &fit, &error), &error, "cannot solve", rig.shown);
   return Fit(fit);
+}
+
+/// The target becomes that of a face like the rig's, by what --neutral says of the person.
+void adapt_to_neutral(const NeutralOption& option, const SolveCommand& command,
+                      const SolvedRig& rig, const Fit& fit, SolveTarget& target,
+                      const Session& session) {
+  const bool images = target.kind == TargetKind::kLandmarks2;
+  const size_t width = images ? 2 : 3;
+  std::vector<std::vector<float>> rows;
+  if (option.file.empty()) {
+    for (size_t f = 0; f < std::min(option.frame_count, target.frame_count); ++f) {
+      target.read(f, rows.emplace_back(target.width).data());
+    }
+  } else {
+    rows = read_neutral_rows(option.file, images, target.point_names);
+  }
+  const std::vector<uint32_t> used = list_used_points(target);
+  std::vector<MienSolvePoint> points;
+  for (const uint32_t i : used) points.push_back(target.points[i]);
+  for (std::vector<float>& row : rows) keep_used(used, width, row.data());
+  NeutralFinder finder(fit.get(), rig, points, images);
+  const NeutralFace found =
+      measure_neutral_rows(finder, rows, target.camera, command.focal,
+                           shown_name(option.file.empty() ? command.target.path : option.file));
+  note(session, "the neutral face is known: " + found.text());
+
+  NeutralFace whole = found;
+  whole.known.assign(target.points.size(), 0);
+  whole.offsets.assign(3 * target.points.size(), 0);
+  for (size_t i = 0; i < used.size(); ++i) {
+    whole.known[used[i]] = found.known[i];
+    std::copy_n(found.offsets.data() + 3 * i, 3, whole.offsets.data() + size_t{3} * used[i]);
+  }
+  target.point_offsets = whole.offsets;
+  target.read = [read = target.read, whole, width](size_t frame, float* row) {
+    read(frame, row);
+    whole.adapt(row, width);
+  };
 }
 
 void note_frames_without_data(const SolvedTake& take, const Session& session) {
@@ -178,6 +228,9 @@ SolvedTake solve_take(const SolveCommand& command, const SolvedRig& rig, const S
   frame.camera = frame.images ? &camera : nullptr;
   frame.focal = command.focal ? 1 : 0;
   frame.point_weights = joints || !masked ? nullptr : weights.data();
+  std::vector<float> offsets = target.point_offsets;
+  if (!offsets.empty()) keep_used(used, 3, offsets.data());
+  frame.point_offsets = offsets.empty() ? nullptr : offsets.data();
   frame.robust_scale = parse_weight("--robust", command.robust);
   frame.surface_reach = take.reach = parse_weight("--reach", command.reach);
   frame.rigid = command.rigid ? 1 : 0;
@@ -193,9 +246,7 @@ SolvedTake solve_take(const SolveCommand& command, const SolvedRig& rig, const S
   for (size_t f = 0; f < target.frame_count; ++f) {
     progress.at(f);
     target.read(f, row.data());
-    for (size_t i = 0; i < used.size(); ++i) {
-      std::copy_n(row.data() + per_point * used[i], per_point, row.data() + per_point * i);
-    }
+    keep_used(used, per_point, row.data());
     const FitSurface surface = surfaces ? create_surface(target.read_surface(f)) : nullptr;
     frame.surface = surface.get();
     auto result = sized<MienFitResult>();
@@ -256,13 +307,14 @@ void solve_file(const SolveCommand& command, const Session& session) {
                "give one such as 60, 29.97 or 30000/1001");
   }
   const float keys = parse_weight("--keys", command.keys);
+  const NeutralOption neutral = parse_neutral(command.neutral);
   parse_weight("--smooth", command.smooth);
   parse_weight("--sparse", command.sparse);
   parse_weight("--robust", command.robust);
   parse_weight("--reach", command.reach);
   std::vector<std::string> inputs = {command.rig, command.target.path};
   for (const std::string& other :
-       {command.target.from, command.target.landmarks, command.target.mask}) {
+       {command.target.from, command.target.landmarks, command.target.mask, neutral.file}) {
     if (!other.empty()) inputs.push_back(other);
   }
   if (ends_with(command.output.path, ".clip")) {
@@ -284,12 +336,13 @@ void solve_file(const SolveCommand& command, const Session& session) {
   const std::vector<uint32_t> moving = command.controls.empty()
                                            ? std::vector<uint32_t>{}
                                            : find_moving(command.controls, rig.rig, rig.shown);
-  const SolveTarget target = open_target(command.target, kind, rig, session);
+  SolveTarget target = open_target(command.target, kind, rig, session);
   if (target.frame_count > kMostSolvedFrames) {
     fail(kInvalid, "cannot solve", shown_name(command.target.path),
          "it has more than 10,000,000 frames", "solve it in parts");
   }
   const Fit fit = create_fit(rig, target, moving);
+  if (neutral.given()) adapt_to_neutral(neutral, command, rig, fit, target, session);
   SolvedTake take = solve_take(command, rig, target, fit, session);
   take.rig = rig.file ? read_string(*rig.file, "desc.name") : rig.shown;
   take.rate = rate.known() ? rate : target.rate.known() ? target.rate : Rate{60, 1};
@@ -381,6 +434,12 @@ Command add_solve_command(CLI::App& app, const Session& session) {
   solve->add_flag("--focal", options->focal,
                   "Find the focal length of the camera too, with --rigid");
   solve
+      ->add_option(
+          "--neutral", options->neutral,
+          "Landmarks are of another person, whose face is at rest in the first N\nframes, or "
+          "in a CSV like TARGET: what that face differs in is no\nexpression. With --rigid")
+      ->type_name("N|FILE");
+  solve
       ->add_option("--robust", options->robust,
                    "Points farther off than S count less, such as wrong landmarks: in the\nunit of "
                    "the rig, or pixels (default: all count)")
@@ -445,6 +504,7 @@ Command add_solve_command(CLI::App& app, const Session& session) {
       "  mien solve head.dna scan.obj --kind surface --rigid --reach 2 -o take.json\n"
       "  mien solve head.dna animation.glb --kind joints -o take.clip\n"
       "  mien solve head.dna face.csv --landmarks points.json -o take.clip --smooth 0.01\n"
+      "  mien solve head.dna face.csv --landmarks points.json --rigid --neutral 60 -o take.clip\n"
       "  mien solve other.dna scene.json --from head.dna -o other.clip\n"
       "  mien solve head.dna --place-landmarks 68 -o points.json");
   return {solve, [options, &session] { solve_file(*options, session); }};

@@ -12,7 +12,7 @@ namespace mien::cli {
 struct SolveCommand {
   TargetOptions target;
   std::string rig, controls, first, rate, keys, smooth, sparse, robust, reach, report, images;
-  std::string place;
+  std::string place, neutral;
   bool rigid = false, focal = false;
   OutputFile output;
 };

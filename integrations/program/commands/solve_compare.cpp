@@ -178,12 +178,18 @@ std::vector<SolvedMark> compare_landmarks(const SolvedTake& take, const SolveTar
     for (int k = 0; k < 3; ++k) {
       mark.solved += load3(positions, target.points[i].positions[k]) * target.points[i].weights[k];
     }
+    // Another person's landmarks are compared with theirs, and drawn where they are on the rig.
+    const Vec3 offset =
+        target.point_offsets.empty() ? Vec3{} : load3(target.point_offsets.data(), i);
+    mark.solved += offset;
     if (images) {
       if (!compare_image(camera_of(take, target, f), from, mark)) continue;
     } else {
       mark.target = turn(frame.rotation, load3(from, 0) - load3(frame.translation, 0), true);
       mark.distance = length(mark.target - mark.solved);
     }
+    mark.solved = mark.solved - offset;
+    mark.target = mark.target - offset;
     marks.push_back(mark);
   }
   return marks;

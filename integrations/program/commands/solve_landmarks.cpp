@@ -9,7 +9,6 @@
 #include "integrations/program/io/input.h"
 #include "integrations/program/io/json_check.h"
 #include "integrations/program/io/nearest_name.h"
-#include "integrations/program/io/take.h"
 #include "integrations/program/io/text.h"
 
 namespace mien::cli {
@@ -144,41 +143,52 @@ PlacedLandmarks read_places(const TargetOptions& options, const SolvedRig& rig) 
   return out;
 }
 
-SolveTarget read_landmarks(const TargetOptions& options, bool images, const SolvedRig& rig) {
-  const PlacedLandmarks landmarks = read_places(options, rig);
-  auto take = std::make_shared<Take>(parse_csv_take(read_text(options.path, "cannot read target"),
-                                                    shown_name(options.path), true));
+LandmarkTable read_landmark_table(const std::string& path, bool images) {
+  LandmarkTable table;
+  table.take = parse_csv_take(read_text(path, "cannot read target"), shown_name(path), true);
   const std::vector<std::string> axes =
       images ? std::vector<std::string>{".x", ".y"} : std::vector<std::string>{".x", ".y", ".z"};
-  SolveTarget target;
-  for (size_t c = 0; c < take->names.size(); c += axes.size()) {
-    const std::string& first = take->names[c];
+  const std::vector<std::string>& columns = table.take.names;
+  for (size_t c = 0; c < columns.size(); c += axes.size()) {
+    const std::string& first = columns[c];
     const std::string name = ends_with(first, ".x") ? first.substr(0, first.size() - 2) : first;
     for (size_t k = 0; k < axes.size(); ++k) {
-      if (c + k < take->names.size() && take->names[c + k] == name + axes[k]) continue;
-      fail(kInvalid, "cannot solve", take->shown + ", column " + std::to_string(c + k + 2),
+      if (c + k < columns.size() && columns[c + k] == name + axes[k]) continue;
+      fail(kInvalid, "cannot solve", table.take.shown + ", column " + std::to_string(c + k + 2),
            "a column " + one_line(name) + axes[k] + " is missing there",
            images ? "the header is time,NAME.x,NAME.y,..."
                   : "the header is time,NAME.x,NAME.y,NAME.z,...");
     }
-    target.points.push_back(find_point(landmarks, name, take->shown));
-    target.point_names.push_back(name);
+    table.names.push_back(name);
   }
-  if (target.points.empty()) {
-    fail(kInvalid, "cannot solve", take->shown, "it has no landmarks",
+  if (table.names.empty()) {
+    fail(kInvalid, "cannot solve", table.take.shown, "it has no landmarks",
          "the header is time,NAME.x,NAME.y,...");
   }
+  return table;
+}
+
+SolveTarget read_landmarks(const TargetOptions& options, bool images, const SolvedRig& rig) {
+  const PlacedLandmarks landmarks = read_places(options, rig);
+  const auto table =
+      std::make_shared<const LandmarkTable>(read_landmark_table(options.path, images));
+  SolveTarget target;
+  for (const std::string& name : table->names) {
+    target.points.push_back(find_point(landmarks, name, table->take.shown));
+  }
+  target.point_names = table->names;
   if (images && !landmarks.camera) {
-    fail(kInvalid, "cannot solve", options.landmarks.empty() ? take->shown : landmarks.shown,
+    fail(kInvalid, "cannot solve", options.landmarks.empty() ? table->take.shown : landmarks.shown,
          "there is no camera for landmarks in images",
          "add \"camera\": {\"focal\": [fx, fy], \"center\": [cx, cy]} to --landmarks FILE");
   }
   target.camera = landmarks.camera;
-  target.rate = find_rate(take->times);
-  target.frame_count = take->row_count;
-  target.width = take->names.size();
-  target.read = [take](size_t frame, float* row) {
-    std::copy_n(take->values.data() + frame * take->names.size(), take->names.size(), row);
+  target.rate = find_rate(table->take.times);
+  target.frame_count = table->take.row_count;
+  target.width = table->take.names.size();
+  target.read = [table](size_t frame, float* row) {
+    const size_t width = table->take.names.size();
+    std::copy_n(table->take.values.data() + frame * width, width, row);
   };
   return target;
 }

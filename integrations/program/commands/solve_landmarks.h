@@ -5,6 +5,7 @@
 #include <map>
 
 #include "integrations/program/commands/solve_target.h"
+#include "integrations/program/io/take.h"
 
 namespace mien::cli {
 
@@ -17,6 +18,13 @@ struct PlacedLandmarks {
 };
 /// Without a file, the mesh alone.
 PlacedLandmarks read_places(const TargetOptions& options, const SolvedRig& rig);
+
+/// A CSV of landmarks: their names, in the order of the columns.
+struct LandmarkTable {
+  Take take;
+  std::vector<std::string> names;
+};
+LandmarkTable read_landmark_table(const std::string& path, bool images);
 
 bool knows_rotation(const MienFitCamera& camera);
 

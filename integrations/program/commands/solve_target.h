@@ -74,6 +74,7 @@ struct SolveTarget {
   std::vector<MienSolvePoint> points;    // empty: joints
   std::vector<std::string> point_names;  // of landmarks; else empty
   std::vector<float> weights;            // of each point or joint value, as --mask says; empty: 1
+  std::vector<float> point_offsets;      // MienFitFrame.point_offsets of another person; else empty
   std::optional<MienFitCamera> camera;   // of images
   Rate rate;                             // unknown if the file has none
   /// Writes the numbers of a frame. Missing ones are NaN.

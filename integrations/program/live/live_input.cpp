@@ -235,6 +235,11 @@ void LiveInput::use_landmarks(const uint8_t* bytes, size_t size) {
     ++faceless_;
     return;
   }
+  if (outcome == LandmarkSolver::Outcome::kNeutral) {
+    ++neutral_;
+    solved_at_ = arrived;
+    return;
+  }
   const double used = static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
   cpu_sum_ += used;
   cpu_most_ = std::max(cpu_most_, used);
@@ -296,6 +301,7 @@ std::string LiveInput::summary() const {
   add(twice_, "repeated");
   add(foreign_, "of another device");
   add(strange_, "of another time");
+  add(neutral_, "of the neutral face");
   add(faceless_, "without the face");
   add(unsolved_, "not solved for lack of time");
   add(cut_short_, "solved in part for lack of time");

@@ -24,12 +24,13 @@ struct LandmarkSolver {
   enum class Outcome {
     kSolved,
     kCutShort,  // by the time; the best controls so far
+    kNeutral,   // the face at rest, which is being measured
     kNoFace,    // too few landmarks, or they are not those of the face
   };
   LandmarkNames names;
   std::vector<uint16_t> curves;  // raw controls that the landmarks determine
   double seconds = 0;            // that solving may take in a frame
-  /// Writes all raw controls of the rig, unless there is no face. Each solve starts from the one before, but `anew`
+  /// Writes all raw controls of the rig, where it solved. Each solve starts from the one before, but `anew`
   /// from rest.
   std::function<Outcome(const LandmarkPacket& packet, double seconds, bool anew, float* raw)> solve;
 };
@@ -107,7 +108,7 @@ class LiveInput {
   double solving_ = 0;      // seconds in this frame
   int64_t solved_at_ = -1;  // negative: never
   std::set<std::string> noted_;
-  uint64_t solved_ = 0, cut_short_ = 0, unsolved_ = 0, faceless_ = 0;
+  uint64_t solved_ = 0, cut_short_ = 0, unsolved_ = 0, faceless_ = 0, neutral_ = 0;
   double cpu_sum_ = 0, cpu_most_ = 0;  // seconds of the processor for each solve
 
   uint64_t packets_ = 0, damaged_ = 0, foreign_ = 0, twice_ = 0, late_ = 0, strange_ = 0;

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """`mien play --live landmarks3://` and `landmarks2://`: landmarks of a known motion, sent as packets, give its controls
-and its surface; faces that are lost, packets that are damaged or of another size, and clear refusals.
+and its surface, also of another person, whose face is at rest at first; faces that are lost, packets that are damaged or of another size, and clear refusals.
 
     landmarks_test.py path/to/mien [unittest options]      (or MIEN_BIN=path/to/mien)
 """
@@ -15,7 +15,7 @@ import unittest
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path[:0] = [HERE, os.path.join(HERE, "..", "..", "..", "tests", "support")]
 from live_test import Listener, by_the_clock, curve  # noqa: E402
-from program import INVALID, USAGE, ProgramTest, main, make, make_folder, path, read, write  # noqa: E402
+from program import FILE, INVALID, USAGE, ProgramTest, main, make, make_folder, path, read, write  # noqa: E402
 
 HEAD = "head.dna"
 POSES = [{"jawOpen": 0.6}, {"mouthSmileLeft": 0.8, "mouthSmileRight": 0.8, "jawOpen": 0.2},
@@ -32,12 +32,12 @@ def setUpModule():
     write("empty.json", "{}")
 
 
-def skin(pose, made={}):
+def skin(pose, head=HEAD, made={}):
     """Positions of the first mesh in a pose, in the unit of the rig."""
-    key = json.dumps(pose, sort_keys=True)
+    key = head + json.dumps(pose, sort_keys=True)
     if key not in made:
         sets = [word for control, value in pose.items() for word in ("--set", f"{control}={value}")]
-        make("export", path(HEAD), "-o", path("posed.obj"), "--lod", "0", "--force", *sets)
+        make("export", path(head), "-o", path("posed.obj"), "--lod", "0", "--force", *sets)
         text = read("posed.obj").decode().split("\no ")[1]
         made[key] = [[100 * float(x) for x in line.split()[1:4]] for line in text.splitlines() if line.startswith("v ")]
     return made[key]
@@ -68,8 +68,8 @@ class Landmarks(ProgramTest):
         points = {str(i): n for i, n in enumerate(self.numbers)}
         return write(name, json.dumps({"points": points, **more}))
 
-    def marks(self, pose, angle=0.0, see=lambda p: p):
-        points = skin(pose)
+    def marks(self, pose, angle=0.0, see=lambda p: p, head=HEAD):
+        points = skin(pose, head)
         return [[round(x, 4) for x in see(turned(points[n], angle))] for n in self.numbers]
 
     def frames(self, played):
@@ -134,6 +134,92 @@ class Landmarks(ProgramTest):
                 played, said = self.play("landmarks2", POSES[:2], packet, "--sparse", "0.01", *PATIENT)
                 self.assert_shows(played, POSES[:2], 0.1, 0.1)
                 self.assertNotIn("damaged", said)
+
+    def another_person(self):
+        if not os.path.exists(path("other.dna")):
+            make("demo-head", "--seed", "7", "-o", path("person.dna"))
+            make("convert", path("person.dna"), "--lods", "0", "-o", path("other.dna"))
+        return "other.dna"
+
+    def table(self, name, poses, see=lambda p: p, axes="xyz", scale=1.0):
+        """CSV of another person's landmarks, while the head turns."""
+        other = self.another_person()
+        self.places(camera={"focal": [SIZE[0]] * 2, "center": [SIZE[0] / 2, SIZE[1] / 2]})
+        lines = ["time," + ",".join(f"{i}.{axis}" for i in range(len(self.numbers)) for axis in axes)]
+        for k, pose in enumerate(poses):
+            marks = self.marks(pose, 0.2 * math.sin(k / 3), see, other)
+            lines.append(",".join(f"{x:.6f}" for x in (k / 60, *(scale * x for p in marks for x in p))))
+        return write(name, "\n".join(lines) + "\n")
+
+    def solved(self, table, *options):
+        """Controls of each frame, and the residual."""
+        make("solve", path(HEAD), table, "--landmarks", path("points.json"), "--rigid", "-o", path("solved.json"),
+             "--report", path("report.json"), "--force", *options)
+        return self.frames(json.loads(read("solved.json"))), json.loads(read("report.json"))["residual"]["rms"]
+
+    def error(self, frames, poses):
+        """Root mean square over all controls of the rig."""
+        names = list(frames[0])
+        squares = [(frame[name] - pose.get(name, 0)) ** 2 for frame, pose in zip(frames, poses) for name in names]
+        return math.sqrt(sum(squares) / len(squares))
+
+    def test_another_person_offline(self):
+        """Controls of a known motion; in meters, too, since the size is found; by first frames and by a file."""
+        poses = [{}, {}, *POSES]
+
+        def pixels(p):
+            return [x * size for x, size in zip(seen(p), SIZE)]
+        for see, axes, scale, sparse in ((lambda p: p, "xyz", 0.01, "0.002"), (pixels, "xy", 1.0, "0.1")):
+            with self.subTest(axes=axes):
+                table = self.table("face.csv", poses, see, axes, scale)
+                neutral = self.table("neutral.csv", [{}, {}, {}], see, axes, scale)
+                # What would be without: in the unit of the rig.
+                plain = self.table("plain.csv", poses, see, axes, 1.0)
+                frames, residual = self.solved(plain, "--sparse", sparse)
+                before = self.error(frames[2:], POSES)
+                for option in "2", neutral:
+                    frames, known = self.solved(table, "--sparse", sparse, "--neutral", option)
+                    self.assertLess(self.error(frames[2:], POSES), before / 1.5, option)
+                    self.assertLess(self.error(frames[2:], POSES), 0.08, option)
+                    self.assertLess(known, residual / 2, option)
+                    self.assertLess(max(frames[0].values()), 0.05, "rest is rest")
+
+    @by_the_clock
+    def test_another_person_live(self):
+        """The first packets are the face at rest, which nothing plays."""
+        other = self.another_person()
+        self.places()
+        for scheme, see, sparse in ("landmarks3", lambda p: p, "0.002"), ("landmarks2", seen, "0.1"):
+            def packet(k, pose):
+                marks = self.marks(pose, 0.15 * math.sin(k / 20), see, other)
+                return json.dumps({"time": k / 60, "size": SIZE, "landmarks": marks})
+            played, said = self.play(scheme, [{}, *POSES[:2]], packet, "--neutral", "18", "--sparse", sparse, *PATIENT)
+            self.assertIn("waiting for a neutral face in 18 packets", said)
+            self.assertIn("the neutral face is known", said)
+            self.assertIn("18 of the neutral face", said)
+            self.assert_shows(played, POSES[:2], 0.2, 0.12)
+        # From a file, nothing waits.
+        neutral = self.table("neutral.csv", [{}, {}])
+
+        def packet_in_space(k, pose):
+            return json.dumps(self.marks(pose, 0.15 * math.sin(k / 20), head=other))
+        played, said = self.play("landmarks3", POSES[:1], packet_in_space, "--neutral", neutral, *PATIENT)
+        self.assert_shows(played, POSES[:1], 0.2, 0.12)
+        self.assertNotIn("waiting", said)
+
+    @by_the_clock
+    def test_the_focal_length_is_kept(self):
+        """Found from the first packets, said once, and near that of the camera; or given."""
+        self.places()
+
+        def packet(k, pose):
+            return json.dumps({"size": SIZE, "landmarks": self.marks(pose, 0.3 * math.sin(k / 20), seen)})
+        _, said = self.play("landmarks2", [POSES[0]] * 2, packet, "--sparse", "0.1", *PATIENT, hold=35)
+        self.assertEqual(said.count("the focal length is"), 1, said)
+        found = float(said.partition("the focal length is ")[2].split()[0])
+        self.assertAlmostEqual(found / SIZE[0], 1, delta=0.1)
+        _, said = self.play("landmarks2", POSES[:1], packet, "--focal", str(SIZE[0]), "--sparse", "0.1", *PATIENT)
+        self.assertNotIn("the focal length is", said)
 
     @by_the_clock
     def test_a_face_that_is_lost_and_found(self):
@@ -206,7 +292,15 @@ class Landmarks(ProgramTest):
         self.fails(USAGE, *play, local, "--landmarks", places, "--names", places, says="--names")
         self.fails(USAGE, *play, local, "--landmarks", places, "--device", "x", says="--device")
         self.fails(USAGE, *play, "landmarks://:1", "--landmarks", places, says="landmarks3://")
-        for option in "--landmarks", "--smooth", "--sparse", "--robust", "--solve-time":
+        self.fails(USAGE, *play, local, "--landmarks", places, "--focal", "900", says="no camera")
+        self.fails(USAGE, *play, local, "--landmarks", places, "--neutral", "0", says="--neutral")
+        self.fails(FILE, *play, local, "--landmarks", places, "--neutral", path("missing.csv"), says="missing.csv")
+        self.fails(INVALID, *play, local, "--landmarks", places, "--neutral",
+                   write("other.csv", "time,ear.x,ear.y,ear.z\n0,1,2,3\n"), says="none of the landmarks")
+        for words, says in ((("--neutral", "60"), "--rigid"), (("--rigid", "--neutral", "0"), "from 1 to")):
+            self.fails(USAGE, "solve", path(HEAD), write("face.csv", "time,0.x,0.y,0.z\n0,1,2,3\n"), "--landmarks",
+                       places, "-o", path("no.json"), *words, says=says)
+        for option in "--landmarks", "--neutral", "--focal", "--smooth", "--sparse", "--robust", "--solve-time":
             self.fails(USAGE, *play, "livelink://127.0.0.1:0", option, "0.5", says=option)
         self.fails(INVALID, *play, local, "--landmarks", write("none.json", "{}"), says="no points")
         self.fails(INVALID, *play, local, "--landmarks", write("none.json", '{"points": {"a": 999999999}}'),

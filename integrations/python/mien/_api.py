@@ -3355,6 +3355,7 @@ class MienFitFrame(Structure):
         ("constraint_count", c_size_t),
         ("constraints", POINTER(MienFitConstraint)),
         ("stages", c_void_p),
+        ("point_offsets", c_void_p),
     ]
     struct_size: Any
     joints: Any
@@ -3381,6 +3382,7 @@ class MienFitFrame(Structure):
     constraint_count: Any
     constraints: Any
     stages: Any
+    point_offsets: Any
 
     def __init__(self, *,
                  joints: Any = None,
@@ -3406,8 +3408,9 @@ class MienFitFrame(Structure):
                  focal: bool = False,
                  constraint_count: int = 0,
                  constraints: Any = None,
-                 stages: Any = None) -> None:
-        super().__init__(160)
+                 stages: Any = None,
+                 point_offsets: Any = None) -> None:
+        super().__init__(168)
         self.joints = joints
         self.points = points
         self.images = images
@@ -3432,6 +3435,7 @@ class MienFitFrame(Structure):
         self.constraint_count = constraint_count
         self.constraints = constraints
         self.stages = stages
+        self.point_offsets = point_offsets
 
 
 class MienFitResult(Structure):
@@ -5768,15 +5772,15 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
     ),
     "mien_fit_solve": (
         (Status.INVALID_ARGUMENT,
-         "two kinds of points are given, a stage is above 15, or a weight, a control or "
-         "a number of the camera is not finite, or a weight is negative"),
+         "two kinds of points are given, a stage is above 15, or a weight, a control, an"
+         " offset or a number of the camera is not finite, or a weight is negative"),
         (Status.INDEX,
          "a constraint has a joint or point that does not exist"),
     ),
     "mien_fit_solve_frames": (
         (Status.INVALID_ARGUMENT,
-         "two kinds of points are given, a stage is above 15, or a weight, a control or "
-         "a number of the camera is not finite, or a weight is negative"),
+         "two kinds of points are given, a stage is above 15, or a weight, a control, an"
+         " offset or a number of the camera is not finite, or a weight is negative"),
         (Status.INDEX,
          "a constraint has a joint or point that does not exist"),
     ),

@@ -209,7 +209,8 @@ class Fit(Closable):
               joint_weight: float = 0, rigid: bool = False, max_iterations: int = 0,
               max_seconds: float = 0, canceled: Any = None, surface: Optional[FitSurface] = None,
               surface_reach: float = 0, focal: bool = False,
-              constraints: Sequence[FitConstraint] = (), stages: Any = None) -> FitResult:
+              constraints: Sequence[FitConstraint] = (), stages: Any = None,
+              point_offsets: Any = None) -> FitResult:
         """The controls of a frame. Targets of NaN are missing.
 
         joints:   as `Instance.joints`
@@ -222,6 +223,8 @@ class Fit(Closable):
                   length too. A camera with a rotation of zeros is unknown.
         constraints: up to 64 `FitConstraint`, added to the other targets
         stages:   0 to 15 for each raw control: those of 0 move first, alone, then those of 1 too, and so on
+        point_offsets: (points, 3): how far the points of the face in the targets are from those of the rig at
+                  rest, where it is another person's
         """
         terms = dict(locals())
         del terms["self"]
@@ -247,7 +250,8 @@ class Fit(Closable):
              symmetric_weight: float = 0, robust_scale: float = 0, joint_weight: float = 0, rigid: bool = False,
              max_iterations: int = 0, max_seconds: float = 0, canceled: Any = None,
              surface: Optional[FitSurface] = None, surface_reach: float = 0, focal: bool = False,
-             constraints: Sequence[FitConstraint] = (), stages: Any = None) -> List[FitResult]:
+             constraints: Sequence[FitConstraint] = (), stages: Any = None,
+             point_offsets: Any = None) -> List[FitResult]:
         kept: List[Any] = []
 
         def rows(values: Any, size: int, what: str) -> Any:
@@ -263,6 +267,7 @@ class Fit(Closable):
             points=rows(points, count * 3 * self._point_count, "points"),
             images=rows(images, count * 2 * self._point_count, "images"),
             point_weights=rows(point_weights, count * self._point_count, "point_weights"),
+            point_offsets=rows(point_offsets, 3 * self._point_count, "point_offsets"),
             start=rows(start, self._raw_count, "start"), prior=rows(prior, self._raw_count, "prior"),
             prior_weight=prior_weight, smooth_weight=smooth_weight, sparse_weight=sparse_weight,
             symmetric_weight=symmetric_weight, robust_scale=robust_scale, joint_weight=joint_weight,

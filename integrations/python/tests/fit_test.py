@@ -193,6 +193,24 @@ class Fits(unittest.TestCase):
         with self.assertRaises(mien.Error):
             mien.FitSurface([[1, 2, 3]], [[0, 0, 1]])
 
+    def test_another_persons_points(self):
+        """Points that are elsewhere at rest, by as much as is told."""
+        deformer, face = deformer_of(), posed()
+        pose = deformer.instance()
+        pose.update(face)
+        pose.deform(0)
+        points = numpy.array(pose.positions(0))
+        offsets = numpy.random.default_rng(4).uniform(-1, 1, points.shape)
+        with mien.Fit(rig_of(), deformer) as fit:
+            told = fit.solve(points=points + offsets, point_offsets=offsets, start=face.raw_controls)
+            plain = fit.solve(points=points + offsets, start=face.raw_controls)
+            self.assertLess(told.point_worst, 1e-3)
+            self.assertGreater(plain.point_residual, 0.1)
+            with self.assertRaises(mien.ArgumentError):
+                fit.solve(points=points, point_offsets=offsets[1:])
+            with self.assertRaises(mien.ArgumentError):
+                fit.solve(points=points, point_offsets=offsets * numpy.nan)
+
     def test_constraints_and_stages(self):
         rig = rig_of()
         fit = mien.Fit(rig, deformer_of(), positions=[0, 1, 2])

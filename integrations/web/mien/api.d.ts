@@ -2327,6 +2327,10 @@ export interface FitFrame {
    * per raw control of the rig, up to 15: the solve begins with the controls of stage 0 alone, then those of stage 1 move too, and so on, as jaw and eyes before the rest. Each stage may take `max_iterations`. NULL: all move from the start
    */
   stages?: Uint32Array | readonly number[];
+  /**
+   * x y z per point, in model space: how far the points of the face in the targets are from those of the rig at rest, where it is another person's. Constraints are about the points of the rig. NULL: 0
+   */
+  pointOffsets?: Float32Array | readonly number[];
 }
 
 /** The result of a solve. */
@@ -3978,8 +3982,8 @@ export interface Exports {
    * may be NULL. Deterministic unless there is a time limit. Does not allocate or lock.
    * Fails with MIEN_ERROR_NULL_ARGUMENT if points, images or a surface are given to a fit without points, or
    * images without a camera, or constraints on joints to one without a deformer,
-   * MIEN_ERROR_INVALID_ARGUMENT if two kinds of points are given, a stage is above 15, or a weight, a control or a
-   * number of the camera is not finite, or a weight is negative, MIEN_ERROR_HANDLE if `surface` is none,
+   * MIEN_ERROR_INVALID_ARGUMENT if two kinds of points are given, a stage is above 15, or a weight, a control, an
+   * offset or a number of the camera is not finite, or a weight is negative, MIEN_ERROR_HANDLE if `surface` is none,
    * MIEN_ERROR_INDEX if a constraint has a joint or point that does not exist.
    */
   mien_fit_solve(fit: number, frame: number, out_raw: number, result: number): number;

@@ -1117,7 +1117,7 @@ export const layouts = {
     distances: [40, "f32", 2],
     weight: [48, "f32"],
   } },
-  FitFrame: { size: 104, sized: true, fields: {
+  FitFrame: { size: 112, sized: true, fields: {
     joints: [4, "*f32"],
     points: [8, "*f32"],
     images: [12, "*f32"],
@@ -1142,6 +1142,7 @@ export const layouts = {
     constraintCount: [92, "u32"],
     constraints: [96, "*FitConstraint", "constraintCount"],
     stages: [100, "*u32"],
+    pointOffsets: [104, "*f32"],
   } },
   FitResult: { size: 144, sized: true, fields: {
     status: [4, "u32"],

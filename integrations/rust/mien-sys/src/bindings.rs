@@ -3637,6 +3637,10 @@ pub struct MienFitFrame {
     /// then those of stage 1 move too, and so on, as jaw and eyes before the rest. Each stage may
     /// take `max_iterations`. NULL: all move from the start.
     pub stages: *const u32,
+    /// X y z per point, in model space: how far the points of the face in the targets are from
+    /// those of the rig at rest, where it is another person's. Constraints are about the points of
+    /// the rig. NULL: 0.
+    pub point_offsets: *const f32,
 }
 
 impl Default for MienFitFrame {
@@ -5592,9 +5596,9 @@ extern "C" {
     /// Fails with `MIEN_ERROR_NULL_ARGUMENT` if points, images or a surface are given to a fit
     /// without points, or images without a camera, or constraints on joints to one without a
     /// deformer, `MIEN_ERROR_INVALID_ARGUMENT` if two kinds of points are given, a stage is above
-    /// 15, or a weight, a control or a number of the camera is not finite, or a weight is
-    /// negative, `MIEN_ERROR_HANDLE` if `surface` is none, `MIEN_ERROR_INDEX` if a constraint has
-    /// a joint or point that does not exist.
+    /// 15, or a weight, a control, an offset or a number of the camera is not finite, or a weight
+    /// is negative, `MIEN_ERROR_HANDLE` if `surface` is none, `MIEN_ERROR_INDEX` if a constraint
+    /// has a joint or point that does not exist.
     pub fn mien_fit_solve(fit: *mut MienFit, frame: *const MienFitFrame, out_raw: *mut f32, result: *mut MienFitResult) -> MienStatus;
 
     /// Solves `count` frames of a motion, each from the result of the one before. `joints`,

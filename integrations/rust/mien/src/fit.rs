@@ -217,6 +217,9 @@ pub struct FitFrame<'a> {
     /// too, and so on, as jaw and eyes before the rest. Each stage may take `max_iterations`. `None`: all move from
     /// the start.
     pub stages: Option<&'a [u32]>,
+    /// For each point, in model space: how far the points of the face in the targets are from those of the rig at rest,
+    /// where it is another person's. `None`: 0.
+    pub point_offsets: Option<&'a [[f32; 3]]>,
 }
 
 /// The result of a solve.
@@ -575,6 +578,7 @@ impl Fit {
         check_length(frame.point_weights, rows(points)?, "point_weights: not one per point")?;
         check_length(frame.start, raw, "start: not all raw controls")?;
         check_length(frame.prior, raw, "prior: not all raw controls")?;
+        check_length(frame.point_offsets, points, "point_offsets: not one for each point")?;
         check_length(frame.stages, raw, "stages: not one for each raw control")?;
         check_length(Some(out), rows(raw)?, "out: not room for all raw controls")
     }
@@ -635,6 +639,7 @@ impl FitFrame<'_> {
             constraint_count: self.constraints.len(),
             constraints: constraints.as_ptr(),
             stages: pointer(self.stages),
+            point_offsets: pointer(self.point_offsets),
             ..Default::default()
         })
     }

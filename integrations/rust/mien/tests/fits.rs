@@ -89,6 +89,22 @@ fn points_and_images_and_surfaces() {
     assert_eq!(result.missing_points, 1);
     assert!(result.point_residual < 0.02 * size && result.point_worst < size);
 
+    // The face of another person, whose points are elsewhere at rest.
+    let offsets: Vec<[f32; 3]> = (0..target.len()).map(|i| [(i % 3) as f32, 0.0, 0.5]).collect();
+    let other: Vec<[f32; 3]> =
+        target.iter().zip(&offsets).map(|(p, o)| [p[0] + o[0], p[1] + o[1], p[2] + o[2]]).collect();
+    let raw = posed(&rig).raw_controls().to_vec();
+    let frame = FitFrame {
+        points: Some(&other),
+        point_offsets: Some(&offsets),
+        start: Some(&raw),
+        ..Default::default()
+    };
+    let result = fit.solve(&frame, &mut found).unwrap();
+    assert!(result.point_worst < 1e-3 * size, "{}", result.point_worst);
+    let short = FitFrame { point_offsets: Some(&offsets[1..]), ..frame };
+    assert!(fit.solve(&short, &mut found).is_err());
+
     // The rest, as a camera sees it.
     let camera = FitCamera {
         focal: [500.0; 2],
