@@ -116,6 +116,30 @@ MienStatus mien_deformer_influences(const MienDeformer* deformer, uint32_t mesh,
   return MIEN_OK;
 }
 
+MienStatus mien_deformer_triangles(const MienDeformer* deformer, uint32_t mesh,
+                                   uint32_t* out_triangles, size_t count) {
+  if (MienStatus status = check(deformer)) return status;
+  if (mesh >= object(deformer)->meshes.count) return MIEN_ERROR_INDEX;
+  const DeformMesh& shape = object(deformer)->meshes[mesh];
+  if (count < size_t{3} * shape.triangle_count) return MIEN_ERROR_INVALID_ARGUMENT;
+  if (shape.triangle_count == 0) return MIEN_OK;
+  if (!out_triangles) return MIEN_ERROR_NULL_ARGUMENT;
+  const bool written = write_triangles(shape, object(deformer)->allocator, out_triangles);
+  return written ? MIEN_OK : MIEN_ERROR_MEMORY;
+}
+
+MienStatus mien_deformer_texture_coordinates(const MienDeformer* deformer, uint32_t mesh,
+                                             float* out_coordinates, size_t count) {
+  if (MienStatus status = check(deformer)) return status;
+  if (mesh >= object(deformer)->meshes.count) return MIEN_ERROR_INDEX;
+  const DeformMesh& shape = object(deformer)->meshes[mesh];
+  if (count < size_t{2} * shape.vertex_count) return MIEN_ERROR_INVALID_ARGUMENT;
+  if (shape.vertex_count == 0) return MIEN_OK;
+  if (!out_coordinates) return MIEN_ERROR_NULL_ARGUMENT;
+  write_texture_coordinates(shape, out_coordinates);
+  return MIEN_OK;
+}
+
 MienStatus mien_deformer_target(const MienDeformer* deformer, uint32_t mesh, uint32_t target,
                                 float* out_deltas, size_t count) {
   if (MienStatus status = check(deformer)) return status;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // mien_rig_create() of mien/rig.h and mien_deformer_create() of mien/deform.h: what needs the compiler.
+#include <cmath>
+
 #include "capi/dna_handle.h"
 #include "runtime/load/compile/compile_deformer.h"
 #include "runtime/load/compile/compile_rig.h"
@@ -59,6 +61,11 @@ MienStatus mien_deformer_create(const MienDna* dna, const MienRig* rig,
                     {"MienDeformerDesc.storage", known.storage, MIEN_STORAGE_16_BIT}},
                    error);
   if (in_range != MIEN_OK) return in_range;
+  if (!(known.delta_error >= 0) || !std::isfinite(known.delta_error)) {
+    return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
+                      "MienDeformerDesc.delta_error is %g: give a distance, or 0",
+                      known.delta_error);
+  }
   const Rig& of = *object(rig);
   const KernelTable* kernels = of.kernels;
   if (known.isa != MIEN_ISA_BEST) {
@@ -79,6 +86,7 @@ MienStatus mien_deformer_create(const MienDna* dna, const MienRig* rig,
   options.fix_weights = known.weights == MIEN_WEIGHTS_FIX;
   options.tangents = known.with_tangents != 0;
   options.half_storage = known.storage == MIEN_STORAGE_16_BIT;
+  options.delta_error = known.delta_error;
   if (known.normals != MIEN_NORMALS_DEFAULT) options.normals = static_cast<Normals>(known.normals);
   Deformer* deformer = nullptr;
   Error detail;

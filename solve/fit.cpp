@@ -207,14 +207,18 @@ void copy_desc(const MienFitDesc& desc, MienFit& fit) {
   }
 }
 
-void copy_triangles(const MienFitDesc& desc, MienFit& fit) {
-  if (desc.point_count == 0) return;
+/// False if memory ran out.
+bool copy_triangles(const MienFitDesc& desc, MienFit& fit) {
+  if (desc.point_count == 0) return true;
   MienMesh mesh = mien_mesh_default();
   static_cast<void>(mien_deformer_mesh(desc.deformer, fit.mesh, &mesh));
-  for (size_t i = 0; i < fit.triangles.count; ++i) {
-    fit.triangles[i] = mesh.vertex_position_indices.data[mesh.triangles.data[i]];
+  if (mien_deformer_triangles(desc.deformer, fit.mesh, fit.triangles.data, fit.triangles.count) !=
+      MIEN_OK) {
+    return false;
   }
+  for (uint32_t& corner : fit.triangles) corner = mesh.vertex_position_indices.data[corner];
   fit.inward = signed_volume(mesh.positions.data, fit.triangles.data, fit.triangle_count) < 0;
+  return true;
 }
 
 /// Positions that points read, ascending, and the deformer of them.
@@ -407,7 +411,7 @@ MienStatus mien_fit_create(const MienRig* rig, const MienFitDesc* desc, MienFit*
   fit->block_size = sizes.size();
   copy_desc(known, *fit);
   copy_points(known, parts, *fit);
-  copy_triangles(known, *fit);
+  const bool copied = copy_triangles(known, *fit);
   for (const uint32_t column : span_of(pattern_of(*fit).columns)) ++fit->first_entry[column + 1];
   for (size_t c = 0; c < fit->raw_count; ++c) fit->first_entry[c + 1] += fit->first_entry[c];
   std::copy(fit->raw.begin(), fit->raw.end(), fit->initial.begin());
@@ -415,7 +419,7 @@ MienStatus mien_fit_create(const MienRig* rig, const MienFitDesc* desc, MienFit*
   fit->tag = kFitTag;
   const MienDeformer* const deformer =
       parts.points.deformer ? parts.points.deformer : known.deformer;
-  if (!measure_rig(*fit, deformer, arena)) {
+  if (!copied || !measure_rig(*fit, deformer, arena)) {
     mien_fit_destroy(fit);
     return give_error(error, MIEN_ERROR_MEMORY, "no memory to measure the rig");
   }

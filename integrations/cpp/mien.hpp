@@ -683,6 +683,14 @@ class Deformer : public Owner<MienDeformer, mien_deformer_destroy> {
     const MienStatus status = mien_deformer_influences(get(), mesh, position, &joints, &weights);
     return {status, Influences{view(joints), view(weights)}};
   }
+  /// Fills three vertices for each triangle of the mesh, with any storage.
+  Status triangles(uint32_t mesh, Span<uint32_t> out) const {
+    return mien_deformer_triangles(get(), mesh, out.data(), out.size());
+  }
+  /// Fills u v for each vertex of the mesh, with any storage.
+  Status texture_coordinates(uint32_t mesh, Span<float> out) const {
+    return mien_deformer_texture_coordinates(get(), mesh, out.data(), out.size());
+  }
   /// Fills x y z for each position of the mesh.
   Status target(uint32_t mesh, uint32_t target, Span<float> out) const {
     return mien_deformer_target(get(), mesh, target, out.data(), out.size());

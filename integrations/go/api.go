@@ -1004,9 +1004,11 @@ type DeformerDesc struct {
 	Normals Normals
 	// compute tangents, for mien_deformer_instance_write_vertices()
 	WithTangents uint32
-	// MIEN_STORAGE_... of blend shape deltas and skin weights. With 16 bits they are integers with scales. See docs/deformation.md, 2.1 "16-bit storage"
+	// MIEN_STORAGE_... of blend shape deltas, skin weights, texture coordinates and triangles. With 16 bits these are integers with scales, and triangles follow from faces. See docs/deformation.md, 2.1 "16-bit storage"
 	Storage   Storage
 	allocator unsafe.Pointer
+	// largest rounding error of a coordinate of a delta that 16-bit storage may make to store deltas with 10 bits, in translation units. 0: 2^-18 of the size of the mesh, which is also the least
+	DeltaError float64
 }
 
 // Properties of a deformer.
@@ -1394,7 +1396,7 @@ var structSizes = [][2]uintptr{
 	{unsafe.Sizeof(InstanceDesc{}), 16},
 	{unsafe.Sizeof(InstanceStatistics{}), 40},
 	{unsafe.Sizeof(BatchDesc{}), 24},
-	{unsafe.Sizeof(DeformerDesc{}), 40},
+	{unsafe.Sizeof(DeformerDesc{}), 48},
 	{unsafe.Sizeof(DeformerInfo{}), 64},
 	{unsafe.Sizeof(DeformerInstanceDesc{}), 24},
 	{unsafe.Sizeof(BakedDesc{}), 24},

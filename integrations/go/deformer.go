@@ -60,9 +60,9 @@ type Mesh struct {
 	Positions                               []float32
 	Normals                                 []float32 // x y z per vertex
 	Tangents                                []float32 // x y z w per vertex; empty without DeformerDesc.WithTangents
-	TextureCoordinates                      []float32 // u v per vertex
+	TextureCoordinates                      []float32 // u v per vertex; empty with 16-bit storage: Deformer.TextureCoordinates
 	VertexPositionIndices                   []uint32
-	Triangles                               []uint32 // three vertices each
+	Triangles                               []uint32 // three vertices each; empty with 16-bit storage: Deformer.Triangles
 	TargetChannels                          []uint16 // the blend shape channel of each target
 }
 
@@ -88,6 +88,36 @@ func (d *Deformer) Mesh(mesh int) (result Mesh, err error) {
 		Triangles:             longs(found.triangles),
 		TargetChannels:        indices(found.target_channels),
 	}, nil
+}
+
+// Triangles returns the triangles of a mesh, three vertices each, with any storage.
+func (d *Deformer) Triangles(mesh int) ([]uint32, error) {
+	if !d.use() {
+		return nil, ErrClosed
+	}
+	defer d.done()
+	found := C.MienMesh{struct_size: C.size_t(unsafe.Sizeof(C.MienMesh{}))}
+	if err := check(C.mien_deformer_mesh(d.c(), C.uint32_t(mesh), &found), "no such mesh"); err != nil {
+		return nil, err
+	}
+	result := make([]uint32, 3*int(found.triangle_count))
+	return result, check(C.mien_deformer_triangles(d.c(), C.uint32_t(mesh), (*C.uint32_t)(first(result)),
+		C.size_t(len(result))), "triangles")
+}
+
+// TextureCoordinates returns u v per vertex of a mesh, with any storage.
+func (d *Deformer) TextureCoordinates(mesh int) ([]float32, error) {
+	if !d.use() {
+		return nil, ErrClosed
+	}
+	defer d.done()
+	found := C.MienMesh{struct_size: C.size_t(unsafe.Sizeof(C.MienMesh{}))}
+	if err := check(C.mien_deformer_mesh(d.c(), C.uint32_t(mesh), &found), "no such mesh"); err != nil {
+		return nil, err
+	}
+	result := make([]float32, 2*int(found.vertex_count))
+	return result, check(C.mien_deformer_texture_coordinates(d.c(), C.uint32_t(mesh), (*C.float)(first(result)),
+		C.size_t(len(result))), "texture coordinates")
 }
 
 // Mirror returns the counterpart of each curve in the other half of the face, for MixDesc.Mirror: raw controls, then

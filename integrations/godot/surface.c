@@ -21,11 +21,17 @@ void surface_close(Surface* surface) {
 }
 
 /* The neutral mesh as the arrays of Mesh.ArrayType. Godot counts v from the top of a texture. */
-static GdVariant arrays_of(const MienMesh* mesh) {
-  const size_t count = mesh->vertex_count;
+static GdVariant arrays_of(const MienDeformer* deformer, uint32_t index, const MienMesh* mesh) {
+  const size_t count = mesh->vertex_count, corners = (size_t)3 * mesh->triangle_count;
   float* values = malloc(count * 3 * sizeof *values);
+  uint32_t* triangles = malloc(corners * sizeof *triangles);
   GdVariant arrays = gd_empty(GD_ARRAY);
-  if (!values) return arrays;
+  if (!values || !triangles ||
+      mien_deformer_triangles(deformer, index, triangles, corners) != MIEN_OK) {
+    free(triangles);
+    free(values);
+    return arrays;
+  }
   for (int kind = 0; kind < ARRAY_MAX; ++kind) {
     GdVariant array;
     if (kind == 0) {
@@ -38,19 +44,19 @@ static GdVariant arrays_of(const MienMesh* mesh) {
     } else if (kind == ARRAY_NORMAL) {
       array = gd_packed(GD_PACKED_VECTOR3, mesh->normals.data, count, POSITION_SIZE);
     } else if (kind == ARRAY_TEX_UV) {
-      for (size_t v = 0; v < count; ++v) {
-        values[2 * v] = mesh->texture_coordinates.data[2 * v];
-        values[2 * v + 1] = 1 - mesh->texture_coordinates.data[2 * v + 1];
-      }
-      array = gd_packed(GD_PACKED_VECTOR2, values, count, 2 * sizeof(float));
+      const int has_uvs =
+          mien_deformer_texture_coordinates(deformer, index, values, 2 * count) == MIEN_OK;
+      for (size_t v = 0; has_uvs && v < count; ++v) values[2 * v + 1] = 1 - values[2 * v + 1];
+      array = has_uvs ? gd_packed(GD_PACKED_VECTOR2, values, count, 2 * sizeof(float)) : gd_nil();
     } else if (kind == ARRAY_INDEX) {
-      array = gd_packed(GD_PACKED_INT32, mesh->triangles.data, mesh->triangles.count, 4);
+      array = gd_packed(GD_PACKED_INT32, triangles, corners, 4);
     } else {
       array = gd_nil();
     }
     GdVariant nothing = gd_call(&arrays, &gd_names.append, &array, 1);
     gd.variant_destroy(&nothing);
   }
+  free(triangles);
   free(values);
   return arrays;
 }
@@ -94,7 +100,7 @@ static int open_surface(Surface* surface, const Face* face, uint32_t index, GdOb
   surface->rid = gd_call(&surface->mesh, &gd_names.get_rid, NULL, 0);
   surface->instance = gd.object_get_instance_id(instance);
   surface->vertex_count = mesh.vertex_count;
-  GdVariant arguments[5] = {gd_int(PRIMITIVE_TRIANGLES), arrays_of(&mesh), gd_empty(GD_ARRAY),
+  GdVariant arguments[5] = {gd_int(PRIMITIVE_TRIANGLES), arrays_of(face->deformer, index, &mesh), gd_empty(GD_ARRAY),
                             gd_empty(GD_DICTIONARY), gd_int(FLAG_USE_DYNAMIC_UPDATE)};
   GdVariant nothing = gd_call(&surface->mesh, &gd_names.add_surface_from_arrays, arguments, 5);
   gd.variant_destroy(&nothing);

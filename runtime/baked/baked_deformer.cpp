@@ -9,7 +9,7 @@ namespace mien {
 namespace {
 
 /// To be raised whenever the list of numbers or arrays, or the meaning of one, changes.
-constexpr uint32_t kDeformerPartVersion = 5;
+constexpr uint32_t kDeformerPartVersion = 6;
 
 static_assert(sizeof(SkinRun) == 24 && sizeof(TargetRun) == 16 && sizeof(FixedRun) == 12,
               "no padding");
@@ -26,8 +26,10 @@ void visit_deformer(AnyDeformer& deformer, Visitor& visitor) {
   arrays(skeleton.order);
   for (auto& mesh : deformer.meshes) {
     numbers(mesh.position_count, mesh.vertex_count, mesh.triangle_count, mesh.max_influences,
-            mesh.target_count, mesh.delta_count, mesh.weight_scale);
-    arrays(mesh.vertex_position_indices, mesh.triangles, mesh.target_channels,
+            mesh.target_count, mesh.delta_count, mesh.weight_scale, mesh.coordinate_origin[0],
+            mesh.coordinate_origin[1], mesh.coordinate_step[0], mesh.coordinate_step[1],
+            mesh.turned_faces);
+    arrays(mesh.vertex_position_indices, mesh.triangles, mesh.corner_vertices, mesh.target_channels,
            mesh.position_indices, mesh.skin_runs, mesh.joints, mesh.first_target_run,
            mesh.target_runs, mesh.fixed_runs, mesh.delta_indices, mesh.faces,
            mesh.first_adjacent_face, mesh.adjacent_faces, mesh.first_vertex, mesh.vertices,
@@ -36,8 +38,8 @@ void visit_deformer(AnyDeformer& deformer, Visitor& visitor) {
   arrays(skeleton.neutral, skeleton.neutral_angles, skeleton.bind, skeleton.inverse_bind);
   for (auto& mesh : deformer.meshes) {
     arrays(mesh.positions, mesh.normals, mesh.tangents, mesh.texture_coordinates,
-           mesh.sorted_positions, mesh.weights, mesh.fixed_weights, mesh.deltas, mesh.fixed_deltas,
-           mesh.sorted_normals, mesh.neutral_directions);
+           mesh.fixed_coordinates, mesh.sorted_positions, mesh.weights, mesh.fixed_weights,
+           mesh.deltas, mesh.fixed_deltas, mesh.sorted_normals, mesh.neutral_directions);
   }
 }
 

@@ -64,6 +64,11 @@ bool check_skeleton(const DeformerChecker& c, bool full) {
          c.ok(!full || is_ordered(skeleton), "order of joints");
 }
 
+/// Floats, or integers in 16-bit storage.
+bool is_either(size_t floats, size_t integers, uint64_t count, bool half_storage) {
+  return (floats == count && integers == 0) || (half_storage && floats == 0 && integers == count);
+}
+
 /// What callers see, in the order of the file.
 bool check_mesh_arrays(const DeformerChecker& c, const DeformMesh& mesh) {
   const uint64_t positions = mesh.position_count, vertices = mesh.vertex_count;
@@ -71,10 +76,12 @@ bool check_mesh_arrays(const DeformerChecker& c, const DeformMesh& mesh) {
                   mesh.positions.count == positions * 3 + 1 &&
                   mesh.normals.count == vertices * 3 + 1 &&
                   mesh.tangents.count == (c.deformer.has_tangents ? vertices * 4 : 0) &&
-                  mesh.texture_coordinates.count == vertices * 2 &&
+                  is_either(mesh.texture_coordinates.count, mesh.fixed_coordinates.count,
+                            vertices * 2, c.deformer.half_storage) &&
                   mesh.vertex_position_indices.count == vertices &&
                   below(mesh.vertex_position_indices, positions) &&
-                  mesh.triangles.count == uint64_t{mesh.triangle_count} * 3 &&
+                  (mesh.triangles.count == uint64_t{mesh.triangle_count} * 3 ||
+                   (c.deformer.half_storage && mesh.triangles.empty())) &&
                   below(mesh.triangles, vertices),
               "vertices of a mesh") &&
          c.ok(mesh.target_channels.count == mesh.target_count &&
@@ -206,6 +213,20 @@ bool lists_hard_positions(const DeformMesh& mesh) {
   return next == mesh.hard_positions.end();
 }
 
+/// As many triangles as follow from the faces. Whether `corner_vertices` has one for each corner that reads it is not
+/// known here: write_triangles() looks.
+bool check_triangles(const DeformMesh& mesh) {
+  if (!mesh.triangles_follow()) return mesh.corner_vertices.count == 0;
+  uint64_t triangles = 0;
+  for (size_t f = 0; f < mesh.face_count(); ++f) {
+    uint32_t corners[4];
+    triangles += static_cast<uint64_t>(mesh.face_corners(f, corners)) - 2;
+  }
+  return triangles == mesh.triangle_count && mesh.vertex_count != 0 &&
+         mesh.corner_vertices.count <= mesh.faces.count &&
+         all_below(mesh.corner_vertices, mesh.vertex_count);
+}
+
 bool check_surface(const DeformerChecker& c, const DeformMesh& mesh) {
   const size_t positions = mesh.position_count;
   return c.ok(mesh.faces.count % 4 == 0 && mesh.faces.count / 4 <= ~uint32_t{0} &&
@@ -219,6 +240,7 @@ bool check_surface(const DeformerChecker& c, const DeformMesh& mesh) {
                   is_runs(mesh.first_vertex, positions, mesh.vertices.count) &&
                   mesh.first_vertex[positions] == mesh.vertex_count && check_vertex_lists(mesh),
               "vertices of positions") &&
+         c.ok(check_triangles(mesh), "triangles") &&
          c.ok(mesh.sorted_normals.count ==
                   (c.deformer.half_storage ? 0 : size_t{mesh.vertex_count} * 4),
               "normals of positions") &&

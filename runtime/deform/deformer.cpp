@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "runtime/base/arena.h"
 #include "simd/deform_kernels.h"
 #include "simd/kernels.h"
 
@@ -77,6 +78,52 @@ void find_influences(const DeformMesh& mesh, uint32_t position, Span<const uint1
   const size_t row = run.first_weight + size_t{sorted_index - run.first} * run.influences;
   joints = mesh.joints.slice(row, run.influences);
   weights = mesh.weights.slice(row, run.influences);
+}
+
+bool write_triangles(const DeformMesh& mesh, const Allocator& allocator, uint32_t* out) {
+  if (!mesh.triangles_follow()) {
+    std::copy(mesh.triangles.begin(), mesh.triangles.end(), out);
+    return true;
+  }
+  constexpr uint32_t kSeveral = ~uint32_t{0};  // or none
+  Arena scratch(allocator);
+  const Span<uint32_t> vertex_of = scratch.array<uint32_t>(mesh.position_count);
+  if (!vertex_of.data && mesh.position_count != 0) return false;
+  for (uint32_t i = 0; i < mesh.position_count; ++i) {
+    const uint32_t first = mesh.first_vertex[i];
+    const bool one = mesh.first_vertex[i + 1] - first == 1;
+    vertex_of[mesh.position_of(i)] = one ? mesh.vertices[first] & ~kHardEdge : kSeveral;
+  }
+  size_t next = 0;
+  for (size_t f = 0; f < mesh.face_count(); ++f) {
+    uint32_t corners[4];
+    const int count = mesh.face_corners(f, corners);
+    for (int k = 0; k < count; ++k) {
+      uint32_t vertex = vertex_of[corners[k]];
+      // A damaged file may list too few.
+      if (vertex == kSeveral) {
+        vertex = next < mesh.corner_vertices.count ? mesh.corner_vertices[next++] : 0;
+      }
+      corners[k] = vertex;
+    }
+    for (int k = 2; k < count; ++k) {
+      *out++ = corners[0];
+      *out++ = corners[k - 1];
+      *out++ = corners[k];
+    }
+  }
+  return true;
+}
+
+void write_texture_coordinates(const DeformMesh& mesh, float* out) {
+  if (mesh.fixed_coordinates.empty()) {
+    std::copy(mesh.texture_coordinates.begin(), mesh.texture_coordinates.end(), out);
+    return;
+  }
+  for (size_t i = 0; i < mesh.fixed_coordinates.count; ++i) {
+    const float steps = static_cast<float>(mesh.fixed_coordinates[i]);
+    out[i] = mesh.coordinate_origin[i % 2] + steps * mesh.coordinate_step[i % 2];
+  }
 }
 
 void write_target(const DeformMesh& mesh, uint32_t target, float* out) {

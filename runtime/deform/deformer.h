@@ -66,7 +66,9 @@ constexpr uint32_t kMaxFixedInfluences = 64, kMaxFixedDeltas = 1 << 28;
 struct DeformMesh {
   uint32_t position_count = 0, vertex_count = 0, triangle_count = 0;
   uint32_t max_influences = 0, target_count = 0;
-  float weight_scale = 0;  // of fixed_weights
+  float weight_scale = 0;                                            // of fixed_weights
+  float coordinate_origin[2] = {0, 0}, coordinate_step[2] = {0, 0};  // of fixed_coordinates
+  bool turned_faces = false;  // `faces` are wound against the file
   uint64_t delta_count = 0;
   uint64_t lods = 0;  // bit l: LOD l shows the mesh
 
@@ -74,10 +76,11 @@ struct DeformMesh {
   Span<float> positions;                   // [position] x y z, + 1
   Span<float> normals;                     // [vertex] x y z, unit, + 1
   Span<float> tangents;                    // [vertex] x y z, unit, w 1 or -1; if requested
-  Span<float> texture_coordinates;         // [vertex] u v
+  Span<float> texture_coordinates;         // [vertex] u v; or
+  Span<uint16_t> fixed_coordinates;        // [vertex] u v: origin + step * number
   Span<uint32_t> vertex_position_indices;  // [vertex]
-  Span<uint32_t> triangles;                // [triangle][3] vertices
-  Span<uint16_t> target_channels;          // [target]
+  Span<uint32_t> triangles;        // [triangle][3] vertices; empty if they follow from faces
+  Span<uint16_t> target_channels;  // [target]
 
   // Skin weights.
   Span<uint16_t> position_indices;  // [sorted index] position, minus the first of its window
@@ -98,6 +101,7 @@ struct DeformMesh {
   // Normals. A face has four positions; a triangle repeats the last. Its area vector
   // (p2 - p0) x (p3 - p1) / 2 points out of the mesh.
   IndexList faces;                     // [face][4] positions
+  IndexList corner_vertices;           // with triangles that follow: see write_triangles()
   Span<uint32_t> first_adjacent_face;  // [sorted index], + 1
   IndexList adjacent_faces;            // faces around each position
   Span<uint32_t> first_vertex;         // [sorted index], + 1
@@ -113,6 +117,12 @@ struct DeformMesh {
   }
   uint32_t block_count() const { return (position_count + kBlockPositions - 1) / kBlockPositions; }
   uint32_t face_count() const { return static_cast<uint32_t>(faces.count / 4); }
+  bool triangles_follow() const { return triangles.empty() && triangle_count != 0; }
+  /// The corners of a face, in the order of the file; returns how many it has.
+  int face_corners(size_t face, uint32_t* corners) const {
+    for (size_t k = 0; k < 4; ++k) corners[k] = faces[face * 4 + (turned_faces ? 4 - k : k) % 4];
+    return corners[3] == corners[2] ? 3 : 4;
+  }
   uint32_t position_of(uint32_t sorted_index) const {
     return window_of(sorted_index) + position_indices[sorted_index];
   }
@@ -213,6 +223,14 @@ void for_each_weights(const KernelTable& kernels, const DeformMesh& mesh, const 
 /// The joints that move a position, in file order, and their weights. Not for fixed_weights.
 void find_influences(const DeformMesh& mesh, uint32_t position, Span<const uint16_t>& joints,
                      Span<const float>& weights);
+
+/// Writes three vertices per triangle, wound as in the file. Where triangles follow from faces, each face is two of them,
+/// or one if it repeats its last position; a corner is the only vertex of its position, or else the next one of
+/// `corner_vertices`. False if memory ran out, of which the latter takes four bytes for each position, temporarily.
+bool write_triangles(const DeformMesh& mesh, const Allocator& allocator, uint32_t* out);
+
+/// Writes u v per vertex.
+void write_texture_coordinates(const DeformMesh& mesh, float* out);
 
 /// Writes x y z per position: the delta of a target at weight 1, in file order.
 void write_target(const DeformMesh& mesh, uint32_t target, float* out);

@@ -360,6 +360,13 @@ TEST(CheckBakedDeformer, CountsAndIndices) {
       {"a position twice in the order",
        [](Deformer&, DeformMesh& m) { m.position_indices[1] = m.position_indices[0]; }},
       {"16-bit storage with floats", [](Deformer& d, DeformMesh&) { d.half_storage = true; }},
+      {"triangles that are not there", [](Deformer&, DeformMesh& m) { m.triangles = {}; }},
+      {"corners of triangles that do not follow",
+       [](Deformer&, DeformMesh& m) { m.corner_vertices = m.faces; }},
+      {"texture coordinates twice",
+       [](Deformer&, DeformMesh& m) {
+         m.fixed_coordinates = {m.joints.data, m.texture_coordinates.count};
+       }},
       {"normals that are no choice",
        [](Deformer& d, DeformMesh&) { d.normals = Normals::kDefault; }},
       {"more faces than can be numbered",
@@ -377,6 +384,46 @@ TEST(CheckBakedDeformer, CountsAndIndices) {
     contradiction.make(deformer, deformer.meshes[0]);
     EXPECT_EQ(check_deformer(deformer, true, error), Status::kBakedStructure);
   }
+}
+
+// In 16-bit storage triangles follow from faces.
+TEST(CheckBakedDeformer, TrianglesOfFaces) {
+  Arena arena(default_allocator());
+  dna::DnaView view = dna::tiny_rig(arena);
+  view.geom.meshes[0].layouts.positions = dna::be<uint32_t>(arena, {0, 1, 4, 3, 4, 1});
+  view.geom.meshes[0].faces[0].layout_indices = dna::be<uint32_t>(arena, {0, 1, 2, 3});
+  view.geom.meshes[0].faces[1].layout_indices = dna::be<uint32_t>(arena, {5, 4, 3});
+  const Bytes bytes = write_view(view);
+  const DnaHandle dna = open_dna(bytes);
+  const RigHandle rig = create_rig(dna.get());
+  MienDeformerDesc desc = {};
+  desc.storage = MIEN_STORAGE_16_BIT;
+  const Bytes file = bake(rig.get(), create_deformer(dna.get(), rig.get(), desc).get());
+  const auto expect = [&](Status expected, void (*make)(DeformMesh & mesh)) {
+    OpenBaked opened(file);
+    Deformer& deformer = const_cast<Deformer&>(opened.deformer_arrays());
+    DeformMesh& mesh = deformer.meshes[0];
+    ASSERT_TRUE(mesh.triangles_follow());
+    ASSERT_EQ(mesh.corner_vertices.count, 4u);
+    make(mesh);
+    Error error;
+    EXPECT_EQ(check_deformer(deformer, true, error), expected);
+    if (expected != Status::kOk) return;
+    std::vector<uint32_t> triangles(9);
+    ASSERT_TRUE(write_triangles(mesh, default_allocator(), triangles.data()));
+    for (const uint32_t vertex : triangles) EXPECT_LT(vertex, mesh.vertex_count);
+  };
+  expect(Status::kOk, [](DeformMesh&) {});
+  // Too few corners, which the check does not count, are the first vertex.
+  expect(Status::kOk, [](DeformMesh& m) { m.corner_vertices.count = 1; });
+  expect(Status::kBakedStructure, [](DeformMesh& m) { ++m.triangle_count; });
+  expect(Status::kBakedStructure, [](DeformMesh& m) { --m.triangle_count; });
+  expect(Status::kBakedStructure, [](DeformMesh& m) { m.faces.count -= 4; });
+  expect(Status::kBakedStructure, [](DeformMesh& m) { m.faces.set(3, m.faces[2]); });
+  expect(Status::kBakedStructure, [](DeformMesh& m) { m.corner_vertices.count = 9; });
+  expect(Status::kBakedStructure, [](DeformMesh& m) { m.corner_vertices.set(2, m.vertex_count); });
+  expect(Status::kBakedStructure, [](DeformMesh& m) { --m.fixed_coordinates.count; });
+  expect(Status::kBakedStructure, [](DeformMesh& m) { m.fixed_coordinates = {}; });
 }
 
 // In 16-bit storage each run of a target says where its numbers are, and how many bits they have.

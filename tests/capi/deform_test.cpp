@@ -36,12 +36,16 @@ struct Influences {
 
 std::vector<Outcome> calls_on(MienDeformer* deformer) {
   float deltas[18];
+  uint32_t corners[12];
   Caller c;
   c.into_struct<MienDeformerInfo>("info", [&](auto* o) { return mien_deformer_info(deformer, o); });
   c.into_struct<MienMesh>("mesh", [&](auto* o) { return mien_deformer_mesh(deformer, 0, o); });
   c.plain<Influences>("influences", [&](auto* o) {
     return mien_deformer_influences(deformer, 0, 0, &o->joints, &o->weights);
   });
+  c.nothing("triangles", [&] { return mien_deformer_triangles(deformer, 0, corners, 12); });
+  c.nothing("texture_coordinates",
+            [&] { return mien_deformer_texture_coordinates(deformer, 0, deltas, 12); });
   c.nothing("target", [&] { return mien_deformer_target(deformer, 0, 0, deltas, 18); });
   c.plain<MienFloatView>("bind", [&](auto* o) { return mien_deformer_bind_matrices(deformer, o); });
   c.plain<MienFloatView>("inverse_bind",
@@ -155,6 +159,12 @@ TEST_F(DeformMisuse, IndicesPastTheEnd) {
             MIEN_ERROR_INDEX);
   EXPECT_EQ(mien_deformer_influences(deformer, 0, 6, &influences.joints, &influences.weights),
             MIEN_ERROR_INDEX);
+  uint32_t corners[12];
+  EXPECT_EQ(mien_deformer_triangles(deformer, 1, corners, 12), MIEN_ERROR_INDEX);
+  EXPECT_EQ(mien_deformer_texture_coordinates(deformer, 1, deltas, 12), MIEN_ERROR_INDEX);
+  EXPECT_EQ(mien_deformer_triangles(deformer, 0, corners, 11), MIEN_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(mien_deformer_texture_coordinates(deformer, 0, deltas, 11),
+            MIEN_ERROR_INVALID_ARGUMENT);
   EXPECT_EQ(mien_deformer_target(deformer, 1, 0, deltas, 18), MIEN_ERROR_INDEX);
   EXPECT_EQ(mien_deformer_target(deformer, 0, 1, deltas, 18), MIEN_ERROR_INDEX);
   EXPECT_EQ(mien_deformer_instance_deform(deformer_instance, 1, 0, nullptr), MIEN_ERROR_INDEX);
@@ -171,6 +181,8 @@ TEST_F(DeformMisuse, OutputsThatAreNotThere) {
   EXPECT_EQ(mien_deformer_mesh(deformer, 0, nullptr), MIEN_ERROR_NULL_ARGUMENT);
   EXPECT_EQ(mien_deformer_influences(deformer, 0, 0, nullptr, &view), MIEN_ERROR_NULL_ARGUMENT);
   EXPECT_EQ(mien_deformer_influences(deformer, 0, 0, &joints, nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_deformer_triangles(deformer, 0, nullptr, 12), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_deformer_texture_coordinates(deformer, 0, nullptr, 12), MIEN_ERROR_NULL_ARGUMENT);
   EXPECT_EQ(mien_deformer_target(deformer, 0, 0, nullptr, 18), MIEN_ERROR_NULL_ARGUMENT);
   EXPECT_EQ(mien_deformer_bind_matrices(deformer, nullptr), MIEN_ERROR_NULL_ARGUMENT);
   EXPECT_EQ(mien_deformer_inverse_bind_matrices(deformer, nullptr), MIEN_ERROR_NULL_ARGUMENT);

@@ -278,9 +278,7 @@ class ExerciseBakedRun {
       if (mien_deformer_mesh(deformer, m, &mesh) != MIEN_OK) broke("no mesh");
       if (mesh.positions.count != size_t{3} * mesh.position_count ||
           mesh.normals.count != size_t{3} * mesh.vertex_count ||
-          mesh.texture_coordinates.count != size_t{2} * mesh.vertex_count ||
           mesh.vertex_position_indices.count != mesh.vertex_count ||
-          mesh.triangles.count != size_t{3} * mesh.triangle_count ||
           mesh.target_channels.count != mesh.target_count) {
         broke("counts of a mesh");
       }
@@ -289,6 +287,14 @@ class ExerciseBakedRun {
       read(mesh.texture_coordinates);
       check_below(mesh.vertex_position_indices, mesh.position_count);
       check_below(mesh.triangles, mesh.vertex_count);
+      std::vector<uint32_t> corners(size_t{3} * mesh.triangle_count);
+      std::vector<float> uvs(size_t{2} * mesh.vertex_count);
+      if (mien_deformer_triangles(deformer, m, corners.data(), corners.size()) != MIEN_OK ||
+          mien_deformer_texture_coordinates(deformer, m, uvs.data(), uvs.size()) != MIEN_OK) {
+        broke("no triangles");
+      }
+      check_below(MienIndex32View{corners.data(), corners.size()}, mesh.vertex_count);
+      read(MienFloatView{uvs.data(), uvs.size()});
       check_below(mesh.target_channels, deformer_info_.channel_count);
       for (uint32_t p = 0; p < mesh.position_count; ++p) {
         MienIndex16View joints = {};

@@ -53,6 +53,26 @@ namespace Mien {
       return new ReadOnlyView<ushort>(Handle, joints.Data, joints.Count);
     }
 
+    /// <summary>The triangles of a mesh, three vertices each, with any storage.</summary>
+    public uint[] Triangles(int mesh) {
+      var triangles = new uint[3 * Mesh(mesh).TriangleCount];
+      fixed (uint* first = triangles) {
+        MienException.Check(Functions.mien_deformer_triangles(Handle, (uint)mesh, first,
+                                                              (UIntPtr)triangles.Length), "no such mesh");
+      }
+      return triangles;
+    }
+
+    /// <summary>The texture coordinates of a mesh, u v per vertex, with any storage.</summary>
+    public float[] TextureCoordinates(int mesh) {
+      var coordinates = new float[2 * Mesh(mesh).VertexCount];
+      fixed (float* first = coordinates) {
+        MienException.Check(Functions.mien_deformer_texture_coordinates(Handle, (uint)mesh, first,
+                                                                        (UIntPtr)coordinates.Length), "no such mesh");
+      }
+      return coordinates;
+    }
+
     /// <summary>The displacements of a blend shape target of a mesh: x y z per position.</summary>
     public float[] Target(int mesh, int target) {
       var deltas = new float[3 * Mesh(mesh).PositionCount];
@@ -119,6 +139,7 @@ namespace Mien {
     internal Mesh(DeformerHandle owner, MienMesh found) {
       PositionCount = (int)found.PositionCount;
       VertexCount = (int)found.VertexCount;
+      TriangleCount = (int)found.TriangleCount;
       TargetCount = (int)found.TargetCount;
       MaxInfluences = (int)found.MaxInfluences;
       Lods = found.Lods;
@@ -135,6 +156,7 @@ namespace Mien {
 
     public int PositionCount { get; private set; }
     public int VertexCount { get; private set; }
+    public int TriangleCount { get; private set; }
     public int TargetCount { get; private set; }
 
     /// <summary>Of one position.</summary>
@@ -152,12 +174,12 @@ namespace Mien {
     /// <summary>x y z w per vertex; empty without MienDeformerDesc.WithTangents.</summary>
     public ReadOnlyView<float> Tangents { get; private set; }
 
-    /// <summary>u v per vertex.</summary>
+    /// <summary>u v per vertex; empty with 16-bit storage: see Deformer.TextureCoordinates().</summary>
     public ReadOnlyView<float> TextureCoordinates { get; private set; }
 
     public ReadOnlyView<uint> VertexPositionIndices { get; private set; }
 
-    /// <summary>Three vertices each.</summary>
+    /// <summary>Three vertices each; empty with 16-bit storage: see Deformer.Triangles().</summary>
     public ReadOnlyView<uint> Triangles { get; private set; }
 
     /// <summary>The blend shape channel of each target.</summary>

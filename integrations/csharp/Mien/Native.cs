@@ -661,7 +661,7 @@ namespace Mien.Native {
       new[] { sizeof(MienInstanceDesc), 16 },
       new[] { sizeof(MienInstanceStatistics), 40 },
       new[] { sizeof(MienBatchDesc), 24 },
-      new[] { sizeof(MienDeformerDesc), 40 },
+      new[] { sizeof(MienDeformerDesc), 48 },
       new[] { sizeof(MienDeformerInfo), 64 },
       new[] { sizeof(MienMesh), 152 },
       new[] { sizeof(MienDeformerInstanceDesc), 24 },
@@ -1190,9 +1190,11 @@ namespace Mien.Native {
     public Normals Normals;
     /// <summary>compute tangents, for mien_deformer_instance_write_vertices()</summary>
     public uint WithTangents;
-    /// <summary>MIEN_STORAGE_... of blend shape deltas and skin weights. With 16 bits they are integers with scales. See docs/deformation.md, 2.1 "16-bit storage"</summary>
+    /// <summary>MIEN_STORAGE_... of blend shape deltas, skin weights, texture coordinates and triangles. With 16 bits these are integers with scales, and triangles follow from faces. See docs/deformation.md, 2.1 "16-bit storage"</summary>
     public Storage Storage;
     public MienAllocator* Allocator;
+    /// <summary>largest rounding error of a coordinate of a delta that 16-bit storage may make to store deltas with 10 bits, in translation units. 0: 2^-18 of the size of the mesh, which is also the least</summary>
+    public double DeltaError;
 
     /// <summary>All fields zero but StructSize.</summary>
     public static MienDeformerDesc Create() {
@@ -1253,11 +1255,11 @@ namespace Mien.Native {
     public MienFloatView Normals;
     /// <summary>4 floats per vertex: x y z w, see MienVertexOutput; empty unless MienDeformerDesc.with_tangents was set</summary>
     public MienFloatView Tangents;
-    /// <summary>2 floats per vertex: u v, as in the file</summary>
+    /// <summary>2 floats per vertex: u v, as in the file; may be empty with 16-bit storage: see mien_deformer_texture_coordinates()</summary>
     public MienFloatView TextureCoordinates;
     /// <summary>one index per vertex: its position</summary>
     public MienIndex32View VertexPositionIndices;
-    /// <summary>3 indices per triangle: vertices, wound as in the file; faces with more corners become fans about their first corner</summary>
+    /// <summary>3 indices per triangle: vertices, wound as in the file; faces with more corners become fans about their first corner. May be empty with 16-bit storage: see mien_deformer_triangles()</summary>
     public MienIndex32View Triangles;
     /// <summary>one index per target: its blend shape channel; in file order</summary>
     public MienIndex16View TargetChannels;
@@ -3606,7 +3608,7 @@ namespace Mien.Native {
     /// if the number or the names of joints, channels or meshes differ from those of the rig,
     /// MIEN_ERROR_DNA_VALUE if a joint is its own ancestor or a position, delta or weight is not finite,
     /// MIEN_ERROR_DNA_LIMIT if a position has more than 65535 influences, MIEN_ERROR_ISA if the requested
-    /// instruction set is not available.
+    /// instruction set is not available, MIEN_ERROR_INVALID_ARGUMENT if `delta_error` is negative or not finite.
     /// See docs/deformation.md.</summary>
     [DllImport("mien", CallingConvention = CallingConvention.Cdecl)]
     public static extern Status mien_deformer_create(DnaHandle dna, RigHandle rig, MienDeformerDesc* desc, out IntPtr out_deformer, MienError* error);
@@ -3633,6 +3635,22 @@ namespace Mien.Native {
     /// Fails with MIEN_ERROR_INDEX if there is no such mesh.</summary>
     [DllImport("mien", CallingConvention = CallingConvention.Cdecl)]
     public static extern Status mien_deformer_mesh(DeformerHandle deformer, uint mesh, MienMesh* out_mesh);
+
+    /// <summary>Writes the triangles of a mesh to `out_triangles`: 3 indices per triangle, as in MienMesh.triangles, with any
+    /// storage. `count` is the capacity of `out_triangles`, in indices. With 16-bit storage takes memory for the
+    /// duration of the call, 4 bytes per position, from the allocator of the deformer.
+    /// Fails with MIEN_ERROR_INDEX if there is no such mesh, MIEN_ERROR_INVALID_ARGUMENT if `count` is less than
+    /// 3 * MienMesh.triangle_count.</summary>
+    [DllImport("mien", CallingConvention = CallingConvention.Cdecl)]
+    public static extern Status mien_deformer_triangles(DeformerHandle deformer, uint mesh, uint* out_triangles, UIntPtr count);
+
+    /// <summary>Writes the texture coordinates of a mesh to `out_coordinates`: 2 floats per vertex, u v, with any storage. With
+    /// 16-bit storage they are off by at most 1/131070 of the range of the mesh. `count` is the capacity of
+    /// `out_coordinates`, in floats.
+    /// Fails with MIEN_ERROR_INDEX if there is no such mesh, MIEN_ERROR_INVALID_ARGUMENT if `count` is less than
+    /// 2 * MienMesh.vertex_count.</summary>
+    [DllImport("mien", CallingConvention = CallingConvention.Cdecl)]
+    public static extern Status mien_deformer_texture_coordinates(DeformerHandle deformer, uint mesh, float* out_coordinates, UIntPtr count);
 
     /// <summary>Returns the influences of a position, as used for skinning: `out_joints` gets one index per influence,
     /// `out_weights` gets one float per influence. There may be none.

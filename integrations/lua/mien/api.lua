@@ -277,8 +277,9 @@ typedef struct MienDeformerDesc {
     uint32_t weights; /* MIEN_WEIGHTS_... */
     uint32_t normals; /* MIEN_NORMALS_...: what MIEN_NORMALS_DEFAULT means for this deformer */
     uint32_t with_tangents; /* compute tangents, for mien_deformer_instance_write_vertices() */
-    uint32_t storage; /* MIEN_STORAGE_... of blend shape deltas and skin weights. With 16 bits they are integers with scales. See docs/deformation.md, 2.1 "16-bit storage" */
+    uint32_t storage; /* MIEN_STORAGE_... of blend shape deltas, skin weights, texture coordinates and triangles. With 16 bits these are integers with scales, and triangles follow from faces. See docs/deformation.md, 2.1 "16-bit storage" */
     MienAllocator const* allocator;
+    double delta_error; /* largest rounding error of a coordinate of a delta that 16-bit storage may make to store deltas with 10 bits, in translation units. 0: 2^-18 of the size of the mesh, which is also the least */
 } MienDeformerDesc;
 
 /* Properties of a deformer. */
@@ -311,9 +312,9 @@ typedef struct MienMesh {
     MienFloatView positions; /* 3 floats per position: x y z */
     MienFloatView normals; /* 3 floats per vertex: x y z, unit length */
     MienFloatView tangents; /* 4 floats per vertex: x y z w, see MienVertexOutput; empty unless MienDeformerDesc.with_tangents was set */
-    MienFloatView texture_coordinates; /* 2 floats per vertex: u v, as in the file */
+    MienFloatView texture_coordinates; /* 2 floats per vertex: u v, as in the file; may be empty with 16-bit storage: see mien_deformer_texture_coordinates() */
     MienIndex32View vertex_position_indices; /* one index per vertex: its position */
-    MienIndex32View triangles; /* 3 indices per triangle: vertices, wound as in the file; faces with more corners become fans about their first corner */
+    MienIndex32View triangles; /* 3 indices per triangle: vertices, wound as in the file; faces with more corners become fans about their first corner. May be empty with 16-bit storage: see mien_deformer_triangles() */
     MienIndex16View target_channels; /* one index per target: its blend shape channel; in file order */
 } MienMesh;
 
@@ -1631,7 +1632,7 @@ Fails with MIEN_ERROR_DNA_LAYER if `dna` was opened without MIEN_LAYER_GEOMETRY,
 if the number or the names of joints, channels or meshes differ from those of the rig,
 MIEN_ERROR_DNA_VALUE if a joint is its own ancestor or a position, delta or weight is not finite,
 MIEN_ERROR_DNA_LIMIT if a position has more than 65535 influences, MIEN_ERROR_ISA if the requested
-instruction set is not available.
+instruction set is not available, MIEN_ERROR_INVALID_ARGUMENT if `delta_error` is negative or not finite.
 See docs/deformation.md. */
 MienStatus mien_deformer_create(MienDna const* dna, MienRig const* rig, MienDeformerDesc const* desc, MienDeformer** out_deformer, MienError* error);
 
@@ -1653,6 +1654,20 @@ MienStatus mien_deformer_info(MienDeformer const* deformer, MienDeformerInfo* ou
 /* Returns a neutral mesh.
 Fails with MIEN_ERROR_INDEX if there is no such mesh. */
 MienStatus mien_deformer_mesh(MienDeformer const* deformer, uint32_t mesh, MienMesh* out_mesh);
+
+/* Writes the triangles of a mesh to `out_triangles`: 3 indices per triangle, as in MienMesh.triangles, with any
+storage. `count` is the capacity of `out_triangles`, in indices. With 16-bit storage takes memory for the
+duration of the call, 4 bytes per position, from the allocator of the deformer.
+Fails with MIEN_ERROR_INDEX if there is no such mesh, MIEN_ERROR_INVALID_ARGUMENT if `count` is less than
+3 * MienMesh.triangle_count. */
+MienStatus mien_deformer_triangles(MienDeformer const* deformer, uint32_t mesh, uint32_t* out_triangles, size_t count);
+
+/* Writes the texture coordinates of a mesh to `out_coordinates`: 2 floats per vertex, u v, with any storage. With
+16-bit storage they are off by at most 1/131070 of the range of the mesh. `count` is the capacity of
+`out_coordinates`, in floats.
+Fails with MIEN_ERROR_INDEX if there is no such mesh, MIEN_ERROR_INVALID_ARGUMENT if `count` is less than
+2 * MienMesh.vertex_count. */
+MienStatus mien_deformer_texture_coordinates(MienDeformer const* deformer, uint32_t mesh, float* out_coordinates, size_t count);
 
 /* Returns the influences of a position, as used for skinning: `out_joints` gets one index per influence,
 `out_weights` gets one float per influence. There may be none.
@@ -3182,7 +3197,7 @@ api.sizes = {
   MienInstanceDesc = 16,
   MienInstanceStatistics = 40,
   MienBatchDesc = 24,
-  MienDeformerDesc = 40,
+  MienDeformerDesc = 48,
   MienDeformerInfo = 64,
   MienMesh = 152,
   MienDeformerInstanceDesc = 24,

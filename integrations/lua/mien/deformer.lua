@@ -57,6 +57,26 @@ function Deformer:mesh(mesh)
   return result
 end
 
+-- The triangles of a mesh, three vertices each, as a C array, and its length; with any storage.
+function Deformer:triangles(mesh)
+  local handle, found = open(self, Deformer), object.info("MienMesh")
+  check(lib.mien_deformer_mesh(handle, mesh, found), "no mesh " .. tostring(mesh))
+  local count = 3 * tonumber(found.triangle_count)
+  local result = ffi.new("uint32_t[?]", math.max(count, 1))
+  check(lib.mien_deformer_triangles(handle, mesh, result, count), "triangles")
+  return result, count
+end
+
+-- u v of each vertex of a mesh, as a C array, and its length; with any storage.
+function Deformer:texture_coordinates(mesh)
+  local handle, found = open(self, Deformer), object.info("MienMesh")
+  check(lib.mien_deformer_mesh(handle, mesh, found), "no mesh " .. tostring(mesh))
+  local count = 2 * tonumber(found.vertex_count)
+  local result = ffi.new("float[?]", math.max(count, 1))
+  check(lib.mien_deformer_texture_coordinates(handle, mesh, result, count), "texture coordinates")
+  return result, count
+end
+
 -- A new character in the neutral pose. options: fields of MienDeformerInstanceDesc.
 function Deformer:instance(options)
   local handle, out = open(self, Deformer), ffi.new("MienDeformerInstance*[1]")

@@ -149,9 +149,8 @@ struct SolveDrawing {
     const float* const positions = scene.positions(mesh);
     SurfaceMesh out;
     out.positions.assign(positions, positions + size_t{3} * mesh.neutral.position_count);
-    for (size_t i = 0; i < mesh.neutral.triangles.count; ++i) {
-      out.triangles.push_back(
-          mesh.neutral.vertex_position_indices.data[mesh.neutral.triangles.data[i]]);
+    for (const uint32_t vertex : mesh.triangles) {
+      out.triangles.push_back(mesh.neutral.vertex_position_indices.data[vertex]);
     }
     return out;
   }

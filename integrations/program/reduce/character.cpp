@@ -10,7 +10,7 @@ void must(MienStatus status, const MienError* error = nullptr, const std::string
 }  // namespace
 
 Character::Character(const MienDna* dna, const MienRigDesc& desc, uint32_t deformer_storage,
-                     const std::string& shown) {
+                     double delta_error, const std::string& shown) {
   auto error = sized<MienError>();
   MienRig* made_rig = nullptr;
   must(mien_rig_create(dna, &desc, &made_rig, &error), &error, shown);
@@ -18,6 +18,7 @@ Character::Character(const MienDna* dna, const MienRigDesc& desc, uint32_t defor
   MienDeformer* made_deformer = nullptr;
   MienDeformerDesc geometry = mien_deformer_desc_default();
   geometry.storage = deformer_storage;
+  geometry.delta_error = delta_error;
   must(mien_deformer_create(dna, made_rig, &geometry, &made_deformer, &error), &error, shown);
   deformer.reset(made_deformer);
   MienInstance* made_instance = nullptr;

@@ -15,8 +15,9 @@ struct Character {
   Instance instance;
   DeformerInstance pose;
 
+  /// `delta_error` as in MienDeformerDesc.
   Character(const MienDna* dna, const MienRigDesc& desc, uint32_t deformer_storage,
-            const std::string& shown);
+            double delta_error, const std::string& shown);
 
   MienMutableFloatView raw() const;
   void evaluate(uint32_t lod);

@@ -35,28 +35,35 @@ Reduced reduce_rig(const MienDna* dna, const ReduceOptions& options) {
   constexpr double kOfStorage = 0.5, kOfDeformer = 0.5;  // the share that each may take
   MienRigDesc exact = options.rig, desc = options.rig;
   exact.storage = MIEN_STORAGE_32_BIT;
-  Character original(dna, exact, MIEN_STORAGE_32_BIT, options.shown);
+  Character original(dna, exact, MIEN_STORAGE_32_BIT, 0, options.shown);
   Reduced reduced;
   reduced.tolerances = options.tolerances;
   find_regions(original, reduced.tolerances);
   Pruning pruning(dna, original, reduced.tolerances);
   const auto measure = [&](double limit) {
     reduced.dna = pruning.prune(reduced.limits);
-    Character character(reduced.dna.get(), desc, reduced.deformer_storage, options.shown);
+    Character character(reduced.dna.get(), desc, reduced.deformer_storage, reduced.delta_error,
+                        options.shown);
     reduced.proof = prove(original, character, reduced.tolerances, limit, options.performances);
     reduced.after = sizes_of(character, pruning);
     reduced.rig = std::move(character.rig);
     reduced.deformer = std::move(character.deformer);
     return reduced.proof.share <= limit;
   };
+  // The best one first; the error of deltas as a share of the tolerance.
   constexpr struct {
     uint32_t rig, deformer;
-  } kStorages[] = {{MIEN_STORAGE_16_BIT, MIEN_STORAGE_16_BIT},
-                   {MIEN_STORAGE_32_BIT, MIEN_STORAGE_16_BIT},
-                   {MIEN_STORAGE_32_BIT, MIEN_STORAGE_32_BIT}};
+    double delta_error;
+  } kStorages[] = {{MIEN_STORAGE_16_BIT, MIEN_STORAGE_16_BIT, 0.25},
+                   {MIEN_STORAGE_16_BIT, MIEN_STORAGE_16_BIT, 0.125},
+                   {MIEN_STORAGE_16_BIT, MIEN_STORAGE_16_BIT, 0.0625},
+                   {MIEN_STORAGE_16_BIT, MIEN_STORAGE_16_BIT, 0},
+                   {MIEN_STORAGE_32_BIT, MIEN_STORAGE_16_BIT, 0},
+                   {MIEN_STORAGE_32_BIT, MIEN_STORAGE_32_BIT, 0}};
   for (const auto& storage : kStorages) {
     desc.storage = std::max(storage.rig, options.rig.storage);
     reduced.deformer_storage = storage.deformer;
+    reduced.delta_error = storage.delta_error * reduced.tolerances.least();
     if (measure(kOfStorage)) break;
   }
   reduced.storage = desc.storage;
@@ -126,6 +133,7 @@ std::string reduction_json(const Reduced& reduced, const std::string& unit) {
   const auto name = [](uint32_t storage) { return storage == MIEN_STORAGE_16_BIT ? "f16" : "f32"; };
   root["storage"] = name(reduced.storage);
   root["deformer_storage"] = name(reduced.deformer_storage);
+  root["delta_error"] = reduced.delta_error;
   root["limits"] = {{"matrix", reduced.limits.matrix}, {"deformer", reduced.limits.deformer}};
   root["before"] = sizes(reduced.before);
   root["after"] = sizes(reduced.after);

@@ -33,6 +33,7 @@ struct Reduced {
   Rig rig;
   Deformer deformer;
   uint32_t storage = 0, deformer_storage = 0;  // MIEN_STORAGE_... that were chosen
+  double delta_error = 0;                      // MienDeformerDesc.delta_error that was chosen
   PruneLimits limits;
   Tolerances tolerances{0.0};  // with their regions
   Sizes before, after;

@@ -64,7 +64,7 @@ void take_material(PosedScene& scene, SceneMesh& mesh, const Session& session) {
   mesh.material = mesh_material(mesh.mesh_class);
   const SurfaceMaterial* from = scene.materials.find(mesh.name);
   if (!from) return;
-  if (mesh.neutral.texture_coordinates.count != 0) {
+  if (!mesh.texture_coordinates.empty()) {
     for (size_t k = 0; k < kTextureKinds; ++k) {
       mesh.textures[k] = find_texture(scene, from->textures[k], session);
     }
@@ -89,6 +89,15 @@ SceneMesh make_mesh(PosedScene& scene, uint32_t mesh, const std::string& name,
   made.neutral = sized<MienMesh>();
   check(mien_deformer_mesh(scene.deformer.get(), mesh, &made.neutral), nullptr, kCannot,
         scene.shown);
+  made.triangles.resize(size_t{3} * made.neutral.triangle_count);
+  made.texture_coordinates.resize(size_t{2} * made.neutral.vertex_count);
+  check(mien_deformer_triangles(scene.deformer.get(), mesh, made.triangles.data(),
+                                made.triangles.size()),
+        nullptr, kCannot, scene.shown);
+  check(
+      mien_deformer_texture_coordinates(scene.deformer.get(), mesh, made.texture_coordinates.data(),
+                                        made.texture_coordinates.size()),
+      nullptr, kCannot, scene.shown);
   const uint32_t positions = made.neutral.position_count;
   if (scene.file.dna) {
     VertexColors colors = read_vertex_colors(scene.file.dna.get(), name, positions);
@@ -165,12 +174,12 @@ std::vector<render::Surface> PosedScene::surfaces() const {
     surface.normals = normals.data;
     surface.vertex_position_indices = mesh.neutral.vertex_position_indices.data;
     surface.vertex_count = mesh.neutral.vertex_count;
-    surface.triangles = mesh.neutral.triangles.data;
+    surface.triangles = mesh.triangles.data();
     surface.triangle_count = mesh.neutral.triangle_count;
     if (!mesh.colors.empty()) surface.colors = mesh.colors.data();
     if (!mesh.inner_edges.empty()) surface.inner_edges = mesh.inner_edges.data();
     surface.material = mesh.material;
-    surface.texture_coordinates = mesh.neutral.texture_coordinates.data;
+    surface.texture_coordinates = mesh.texture_coordinates.data();
     surface.color_texture = mesh.textures[size_t(TextureKind::kBaseColor)];
     surface.normal_texture = mesh.textures[size_t(TextureKind::kNormal)];
     surface.roughness_texture = mesh.textures[size_t(TextureKind::kRoughness)];

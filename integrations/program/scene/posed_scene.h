@@ -25,8 +25,10 @@ struct SceneMesh {
   std::string name;
   MeshClass mesh_class;
   MienMesh neutral;
-  std::vector<uint8_t> colors;       // r g b of each position, or empty
-  std::vector<uint8_t> inner_edges;  // of each triangle, for wireframes
+  std::vector<uint32_t> triangles;         // three vertices each
+  std::vector<float> texture_coordinates;  // u v of each vertex
+  std::vector<uint8_t> colors;             // r g b of each position, or empty
+  std::vector<uint8_t> inner_edges;        // of each triangle, for wireframes
   render::Material material;
   std::array<const render::Texture*, kTextureKinds> textures;  // of the scene; null: none
 };

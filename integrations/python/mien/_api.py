@@ -1358,6 +1358,7 @@ class MienDeformerDesc(Structure):
         ("with_tangents", c_uint32),
         ("storage", c_uint32),
         ("allocator", POINTER(MienAllocator)),
+        ("delta_error", c_double),
     ]
     struct_size: Any
     isa: Any
@@ -1367,6 +1368,7 @@ class MienDeformerDesc(Structure):
     with_tangents: Any
     storage: Any
     allocator: Any
+    delta_error: Any
 
     def __init__(self, *,
                  isa: int = 0,
@@ -1375,8 +1377,9 @@ class MienDeformerDesc(Structure):
                  normals: int = 0,
                  with_tangents: bool = False,
                  storage: int = 0,
-                 allocator: Any = None) -> None:
-        super().__init__(40)
+                 allocator: Any = None,
+                 delta_error: float = 0) -> None:
+        super().__init__(48)
         self.isa = isa
         self.compose = compose
         self.weights = weights
@@ -1384,6 +1387,7 @@ class MienDeformerDesc(Structure):
         self.with_tangents = with_tangents
         self.storage = storage
         self.allocator = allocator
+        self.delta_error = delta_error
 
 
 class MienDeformerInfo(Structure):
@@ -4418,7 +4422,7 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
     ),
     "mien_deformer_create": (
         (Status.INVALID_ARGUMENT,
-         "an argument is outside its range"),
+         "`delta_error` is negative or not finite"),
         (Status.MISMATCH,
          "the number or the names of joints, channels or meshes differ from those of the"
          " rig"),
@@ -4445,6 +4449,18 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
     ),
     "mien_deformer_info": (),
     "mien_deformer_mesh": (
+        (Status.INDEX,
+         "there is no such mesh"),
+    ),
+    "mien_deformer_triangles": (
+        (Status.INVALID_ARGUMENT,
+         "`count` is less than 3 * MienMesh.triangle_count"),
+        (Status.INDEX,
+         "there is no such mesh"),
+    ),
+    "mien_deformer_texture_coordinates": (
+        (Status.INVALID_ARGUMENT,
+         "`count` is less than 2 * MienMesh.vertex_count"),
         (Status.INDEX,
          "there is no such mesh"),
     ),
@@ -5893,6 +5909,8 @@ FUNCTIONS: Tuple[Tuple[str, Any, Tuple[Any, ...]], ...] = (
     ("mien_deformer_destroy", None, (MienDeformer,)),
     ("mien_deformer_info", c_int32, (MienDeformer, POINTER(MienDeformerInfo))),
     ("mien_deformer_mesh", c_int32, (MienDeformer, c_uint32, POINTER(MienMesh))),
+    ("mien_deformer_triangles", c_int32, (MienDeformer, c_uint32, c_void_p, c_size_t)),
+    ("mien_deformer_texture_coordinates", c_int32, (MienDeformer, c_uint32, c_void_p, c_size_t)),
     ("mien_deformer_influences", c_int32, (MienDeformer, c_uint32, c_uint32,
      POINTER(MienIndex16View), POINTER(MienFloatView))),
     ("mien_deformer_target", c_int32, (MienDeformer, c_uint32, c_uint32, c_void_p, c_size_t)),
@@ -6135,6 +6153,8 @@ class Library:
     mien_deformer_destroy: Any
     mien_deformer_info: Any
     mien_deformer_mesh: Any
+    mien_deformer_triangles: Any
+    mien_deformer_texture_coordinates: Any
     mien_deformer_influences: Any
     mien_deformer_target: Any
     mien_deformer_bind_matrices: Any

@@ -39,9 +39,9 @@ class Mesh:
       positions:           float32 (positions, 3)
       normals:             float32 (vertices, 3), unit length
       tangents:            float32 (vertices, 4), x y z and w; empty unless asked for
-      texture_coordinates: float32 (vertices, 2), as in the file
+      texture_coordinates: float32 (vertices, 2), as in the file; a copy with 16-bit storage
       vertex_position_indices:    uint32 (vertices,): position of each vertex
-      triangles:           uint32 (triangles, 3): vertices, wound as in the file
+      triangles:           uint32 (triangles, 3): vertices, wound as in the file; a copy with 16-bit storage
       target_channels:     uint16 (targets,): channel of each blend shape target
       max_influences:     joints that hold the position that most of them hold
       delta_count:         moved positions over all targets
@@ -52,14 +52,25 @@ class Mesh:
             shape = (of.count // width, width) if width else None
             return array_over(handle, of.data, of.count, code, False, shape)
 
+        def copy(write: Any, code: str, rows: int, width: int) -> Any:
+            values, address = new_array(code, rows * width)
+            status = write(handle, index, address, rows * width)
+            if status:
+                fail(status, f"mesh {index}")
+            return shaped(values, (rows, width))
+
         self.index, self.name = index, name
         self.lods: List[int] = [lod for lod in range(64) if mesh.lods >> lod & 1]
         self.positions: Floats = view(mesh.positions, "f", 3)
         self.normals: Floats = view(mesh.normals, "f", 3)
         self.tangents: Floats = view(mesh.tangents, "f", 4)
-        self.texture_coordinates: Floats = view(mesh.texture_coordinates, "f", 2)
+        self.texture_coordinates: Floats = (
+            view(mesh.texture_coordinates, "f", 2) if mesh.texture_coordinates.count or not mesh.vertex_count
+            else copy(lib.mien_deformer_texture_coordinates, "f", mesh.vertex_count, 2))
         self.vertex_position_indices: Any = view(mesh.vertex_position_indices, "I")
-        self.triangles: Any = view(mesh.triangles, "I", 3)
+        self.triangles: Any = (
+            view(mesh.triangles, "I", 3) if mesh.triangles.count or not mesh.triangle_count
+            else copy(lib.mien_deformer_triangles, "I", mesh.triangle_count, 3))
         self.target_channels: Indices = view(mesh.target_channels, "H")
         self.position_count: int = mesh.position_count
         self.vertex_count: int = mesh.vertex_count
@@ -91,8 +102,10 @@ class Deformer(Closable):
     weights: whether skin weights are mended, see `Weights`
     normals: what `DeformerInstance.deform` makes if it is not told, see `Normals`
     with_tangents: computes tangents, for `DeformerInstance.write_vertices`
-    storage: `Storage.BIT_16` stores blend shapes and skin weights with 16 bits; then `influences`
-             is an error
+    storage: `Storage.BIT_16` stores blend shapes, skin weights and texture coordinates with 16 bits; then
+             `influences` is an error
+    delta_error: largest error of a coordinate of a delta that 16-bit storage may make to store it with 10
+             bits, in translation units; 0: 2^-18 of the size of the mesh
     """
 
     __slots__ = ("info", "_mesh_names")
@@ -100,12 +113,13 @@ class Deformer(Closable):
     @raises("mien_deformer_create")
     def __init__(self, dna: Dna, rig: Rig, isa: int = Isa.BEST, compose: int = Compose.PRODUCT,
                  weights: int = Weights.AS_STORED, normals: int = Normals.DEFAULT,
-                 with_tangents: bool = False, storage: int = Storage.BIT_32) -> None:
+                 with_tangents: bool = False, storage: int = Storage.BIT_32,
+                 delta_error: float = 0) -> None:
         desc = _api.MienDeformerDesc(isa=uint32(isa, "isa"), compose=uint32(compose, "compose"),
                                      weights=uint32(weights, "weights"),
                                      normals=uint32(normals, "normals"),
                                      with_tangents=bool(with_tangents),
-                                     storage=uint32(storage, "storage"))
+                                     storage=uint32(storage, "storage"), delta_error=float(delta_error))
         handle, error = DeformerHandle(), MienError()
         status = lib.mien_deformer_create(dna._open(), rig._open(), _byref(desc), _byref(handle),
                                           _byref(error))
@@ -150,7 +164,8 @@ class Deformer(Closable):
         self.info: DeformerInfo = DeformerInfo._of(info)
         self._mesh_names = rig.names(Kind.MESH)
 
-    @raises("mien_deformer_mesh")
+    @raises("mien_deformer_mesh", "mien_deformer_triangles", "mien_deformer_texture_coordinates",
+            but=(Status.INVALID_ARGUMENT,))
     def mesh(self, mesh: Union[int, str]) -> Mesh:
         """A neutral mesh, by index or by name."""
         if isinstance(mesh, str):

@@ -1027,9 +1027,13 @@ export interface DeformerDesc {
   /** compute tangents, for mien_deformer_instance_write_vertices() */
   withTangents?: boolean;
   /**
-   * MIEN_STORAGE_... of blend shape deltas and skin weights. With 16 bits they are integers with scales. See docs/deformation.md, 2.1 "16-bit storage"
+   * MIEN_STORAGE_... of blend shape deltas, skin weights, texture coordinates and triangles. With 16 bits these are integers with scales, and triangles follow from faces. See docs/deformation.md, 2.1 "16-bit storage"
    */
   storage?: Storage;
+  /**
+   * largest rounding error of a coordinate of a delta that 16-bit storage may make to store deltas with 10 bits, in translation units. 0: 2^-18 of the size of the mesh, which is also the least
+   */
+  deltaError?: number;
 }
 
 /** Properties of a deformer. */
@@ -1076,12 +1080,14 @@ export interface Mesh {
    * 4 floats per vertex: x y z w, see MienVertexOutput; empty unless MienDeformerDesc.with_tangents was set
    */
   readonly tangents: Float32Array;
-  /** 2 floats per vertex: u v, as in the file */
+  /**
+   * 2 floats per vertex: u v, as in the file; may be empty with 16-bit storage: see mien_deformer_texture_coordinates()
+   */
   readonly textureCoordinates: Float32Array;
   /** one index per vertex: its position */
   readonly vertexPositionIndices: Uint32Array;
   /**
-   * 3 indices per triangle: vertices, wound as in the file; faces with more corners become fans about their first corner
+   * 3 indices per triangle: vertices, wound as in the file; faces with more corners become fans about their first corner. May be empty with 16-bit storage: see mien_deformer_triangles()
    */
   readonly triangles: Uint32Array;
   /** one index per target: its blend shape channel; in file order */
@@ -2804,7 +2810,7 @@ export interface Exports {
    * if the number or the names of joints, channels or meshes differ from those of the rig,
    * MIEN_ERROR_DNA_VALUE if a joint is its own ancestor or a position, delta or weight is not finite,
    * MIEN_ERROR_DNA_LIMIT if a position has more than 65535 influences, MIEN_ERROR_ISA if the requested
-   * instruction set is not available.
+   * instruction set is not available, MIEN_ERROR_INVALID_ARGUMENT if `delta_error` is negative or not finite.
    * See docs/deformation.md.
    */
   mien_deformer_create(dna: number, rig: number, desc: number, out_deformer: number, error: number): number;
@@ -2829,6 +2835,22 @@ export interface Exports {
    * Fails with MIEN_ERROR_INDEX if there is no such mesh.
    */
   mien_deformer_mesh(deformer: number, mesh: number, out_mesh: number): number;
+  /**
+   * Writes the triangles of a mesh to `out_triangles`: 3 indices per triangle, as in MienMesh.triangles, with any
+   * storage. `count` is the capacity of `out_triangles`, in indices. With 16-bit storage takes memory for the
+   * duration of the call, 4 bytes per position, from the allocator of the deformer.
+   * Fails with MIEN_ERROR_INDEX if there is no such mesh, MIEN_ERROR_INVALID_ARGUMENT if `count` is less than
+   * 3 * MienMesh.triangle_count.
+   */
+  mien_deformer_triangles(deformer: number, mesh: number, out_triangles: number, count: number): number;
+  /**
+   * Writes the texture coordinates of a mesh to `out_coordinates`: 2 floats per vertex, u v, with any storage. With
+   * 16-bit storage they are off by at most 1/131070 of the range of the mesh. `count` is the capacity of
+   * `out_coordinates`, in floats.
+   * Fails with MIEN_ERROR_INDEX if there is no such mesh, MIEN_ERROR_INVALID_ARGUMENT if `count` is less than
+   * 2 * MienMesh.vertex_count.
+   */
+  mien_deformer_texture_coordinates(deformer: number, mesh: number, out_coordinates: number, count: number): number;
   /**
    * Returns the influences of a position, as used for skinning: `out_joints` gets one index per influence,
    * `out_weights` gets one float per influence. There may be none.

@@ -517,13 +517,14 @@ export const layouts = {
     capacity: [4, "u32"],
     tasks: [8, "u32"],
   } },
-  DeformerDesc: { size: 32, sized: true, fields: {
+  DeformerDesc: { size: 40, sized: true, fields: {
     isa: [4, "u32"],
     compose: [8, "u32"],
     weights: [12, "u32"],
     normals: [16, "u32"],
     withTangents: [20, "bool"],
     storage: [24, "u32"],
+    deltaError: [32, "f64"],
   } },
   DeformerInfo: { size: 64, sized: true, fields: {
     isa: [4, "u32"],
@@ -1199,6 +1200,8 @@ export const calls = {
   mien_rig_evaluate_twist_swing: "ppuu",
   mien_deformer_create_subset: "pupuppp",
   mien_deformer_mesh: "pup",
+  mien_deformer_triangles: "pupu",
+  mien_deformer_texture_coordinates: "pupu",
   mien_deformer_influences: "puupp",
   mien_deformer_target: "puupu",
   mien_deformer_instance_update_from_values: "ppupu",

@@ -50,6 +50,25 @@ export class Deformer extends Handle {
     });
   }
 
+  /** A copy of the triangles of a mesh, three vertices each, with any storage. */
+  triangles(mesh) {
+    return this.#copy("u32", "mien_deformer_triangles", mesh, 3 * this.mesh(mesh).triangleCount);
+  }
+
+  /** A copy of the texture coordinates of a mesh, u v per vertex, with any storage. */
+  textureCoordinates(mesh) {
+    return this.#copy("f32", "mien_deformer_texture_coordinates", mesh, 2 * this.mesh(mesh).vertexCount);
+  }
+
+  #copy(type, name, mesh, count) {
+    const { memory } = this;
+    return memory.withScratch((scratch) => {
+      const out = scratch.take(Math.max(1, count) * 4);
+      this.call(name, mesh, out, count);
+      return memory.array(type, out, count).slice();
+    });
+  }
+
   /** A copy of a blend shape target: three floats per position. */
   target(mesh, target) {
     const { memory } = this;

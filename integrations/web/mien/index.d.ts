@@ -440,6 +440,10 @@ export interface Deformer extends Handle {
   mesh(index: number): Mesh;
   /** The number of vertices of each mesh. */
   readonly vertexCounts: readonly number[];
+  /** A copy of the triangles, three vertices each, with any storage. */
+  triangles(mesh: number): Uint32Array;
+  /** A copy of the texture coordinates, u v per vertex, with any storage. */
+  textureCoordinates(mesh: number): Float32Array;
   influences(mesh: number, position: number): { joints: Uint16Array; weights: Float32Array };
   /** A copy of a blend shape target: three floats per position. */
   target(mesh: number, target: number): Float32Array;

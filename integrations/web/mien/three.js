@@ -195,19 +195,21 @@ export class FaceObject extends Group {
   #makeMesh(index) {
     const { rig } = this;
     const { deformer } = rig;
+    // Copies first: they may take memory, and views of the mesh are valid until it grows.
+    const triangles = deformer.triangles(index);
+    const coordinates = deformer.textureCoordinates(index);
     const neutral = deformer.mesh(index);
     const name = rig.name(Kind.MESH, index);
     const kind = meshClass(name);
     const indices = neutral.vertexPositionIndices.slice();
-    const triangles = neutral.triangles.slice();
-    if (isWoundInward(neutral)) {
+    if (isWoundInward({ ...neutral, triangles })) {
       for (let i = 0; i < triangles.length; i += 3) [triangles[i + 1], triangles[i + 2]] = [triangles[i + 2], triangles[i + 1]];
     }
     const geometry = new BufferGeometry();
     geometry.setIndex(new BufferAttribute(triangles, 1));
     geometry.setAttribute("position", new BufferAttribute(expand(neutral.positions, 3, indices), 3));
     geometry.setAttribute("normal", new BufferAttribute(neutral.normals.slice(), 3));
-    geometry.setAttribute("uv", new BufferAttribute(neutral.textureCoordinates.slice(), 2));
+    geometry.setAttribute("uv", new BufferAttribute(coordinates, 2));
     geometry.computeBoundingSphere();
     geometry.boundingSphere.radius *= 1.3; // for every expression
 

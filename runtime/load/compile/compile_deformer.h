@@ -17,6 +17,7 @@ struct DeformOptions {
   bool fix_weights = false;
   bool tangents = false;
   bool half_storage = false;
+  double delta_error = 0;  // as in MienDeformerDesc
 };
 
 /// Compiles the geometry of a checked view. kMismatch if its joints, channels or meshes are not those of
@@ -47,9 +48,13 @@ struct MeshPlan {
   float largest_packed = 0;    // runs of smaller numbers are packed
   Span<FixedBlock> fixed_blocks;
   size_t triangle_count = 0, face_count = 0, hard_count = 0;
-  Span<Vec3> directions;  // [position] outward recomputed neutral normal
-  Span<uint8_t> hard;     // [position] 1: it has vertices on hard edges
-  bool inward = false;    // the faces, as the file winds them, point into the mesh
+  Span<Vec3> directions;          // [position] outward recomputed neutral normal
+  Span<uint8_t> hard;             // [position] 1: it has vertices on hard edges
+  bool inward = false;            // the faces, as the file winds them, point into the mesh
+  bool triangles_follow = false;  // from faces; then also:
+  Span<uint8_t> vertex_counts;    // [position] 0, 1, or 2: several
+  size_t corner_count = 0;        // of those at positions without exactly one vertex
+  bool fixed_coordinates = false;
 };
 
 /// A mesh of the DNA, and the data that its compilation needs.
@@ -69,6 +74,26 @@ inline void place_indices(size_t count, size_t limit, Placer& placer, IndexList&
                           size_t alignment) {
   list = limit <= 0x10000 ? IndexList(placer.array<uint16_t>(count, alignment))
                           : IndexList(placer.array<uint32_t>(count, alignment));
+}
+
+/// Calls f(three vertices) for each triangle of the file, the fans of its faces.
+template <class F>
+void for_each_triangle(const dna::Mesh& mesh, F&& f) {
+  for (const dna::Face& face : mesh.faces) {
+    const dna::Array<uint32_t>& vertices = face.layout_indices;
+    for (uint32_t i = 2; i < vertices.count; ++i) {
+      const uint32_t triangle[3] = {vertices[0], vertices[i - 1], vertices[i]};
+      f(triangle);
+    }
+  }
+}
+
+/// The texture coordinates of a vertex; 0 if there are none.
+inline void read_coordinates(const dna::Mesh& mesh, uint32_t vertex, float* uv) {
+  const bool any = mesh.texture_coordinates.us.count != 0;
+  const uint32_t at = any ? mesh.layouts.texture_coordinates[vertex] : 0;
+  uv[0] = any ? float(mesh.texture_coordinates.us[at]) : 0;
+  uv[1] = any ? float(mesh.texture_coordinates.vs[at]) : 0;
 }
 
 /// `value`, at most 32767 scales, in units of a scale.

@@ -16,8 +16,8 @@ using dna::BlendShapeTarget;
 constexpr float kPackedLimit = 511;  // largest number of 10 bits
 constexpr uint32_t kGroups = kBlockPositions / kGroupPositions;
 
-/// Packed numbers are off by at most 2^-18 of the size of the mesh.
-float largest_packed_of(const dna::Vec3Array& positions) {
+/// Packed numbers are off by at most 2^-18 of the size of the mesh, or as much as the caller allows.
+float largest_packed_of(const dna::Vec3Array& positions, double delta_error) {
   float size = 0;
   for (const auto* axis : {&positions.xs, &positions.ys, &positions.zs}) {
     float least = INFINITY, most = -INFINITY;
@@ -27,7 +27,8 @@ float largest_packed_of(const dna::Vec3Array& positions) {
     }
     size = std::max(size, most - least);
   }
-  return size * (2 * kPackedLimit / 0x1p18f);
+  const double asked = std::min(delta_error * 2 * double{kPackedLimit}, double{FLT_MAX});
+  return std::max(size * (2 * kPackedLimit / 0x1p18f), static_cast<float>(asked));
 }
 
 /// One target, spread over the positions of its mesh.
@@ -109,7 +110,7 @@ Status plan_fixed_targets(const MeshSource& source, MeshPlan& plan) {
   if (!spread.start(source)) return source.no_memory();
   plan.fixed_blocks = source.scratch.array<FixedBlock>(spread.blocks.count);
   if (!plan.fixed_blocks.data && spread.blocks.count != 0) return source.no_memory();
-  plan.largest_packed = largest_packed_of(source.mesh.positions);
+  plan.largest_packed = largest_packed_of(source.mesh.positions, source.options.delta_error);
   plan.delta_count = 0;
   for (const BlendShapeTarget& target : source.mesh.blend_shape_targets) {
     spread.spread(target, plan.sorted_indices);

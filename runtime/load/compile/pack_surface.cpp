@@ -25,18 +25,47 @@ Vec3 load(const float* from) { return {from[0], from[1], from[2]}; }
 size_t faces_for(size_t corners) { return corners < 3 ? 0 : (corners - 1) / 2; }
 
 /// Splits a polygon of the file into a fan of quads, the last of which may be a triangle, and calls
-/// f(positions of its four corners).
+/// f(its four vertices). A triangle repeats its last one.
 template <class F>
-void for_each_face(const Mesh& mesh, F&& f) {
+void for_each_quad(const Mesh& mesh, F&& f) {
   for (const dna::Face& face : mesh.faces) {
     const Array<uint32_t>& vertices = face.layout_indices;
-    const auto position = [&](uint32_t i) { return mesh.layouts.positions[vertices[i]]; };
     for (uint32_t i = 1; i + 1 < vertices.count; i += 2) {
       const uint32_t last = std::min(i + 2, vertices.count - 1);
-      const uint32_t corners[4] = {position(0), position(i), position(i + 1), position(last)};
-      f(corners);
+      const uint32_t corners[4] = {vertices[0], vertices[i], vertices[i + 1], vertices[last]};
+      f(corners, last - i + 2);
     }
   }
+}
+
+/// The same with positions in place of vertices.
+template <class F>
+void for_each_face(const Mesh& mesh, F&& f) {
+  for_each_quad(mesh, [&](const uint32_t* vertices, uint32_t) {
+    uint32_t corners[4];
+    for (int k = 0; k < 4; ++k) corners[k] = mesh.layouts.positions[vertices[k]];
+    f(corners);
+  });
+}
+
+/// Calls f(vertex) for each corner of the quads whose vertex does not follow from its position.
+template <class F>
+void for_each_listed_corner(const Mesh& mesh, const MeshPlan& plan, F&& f) {
+  for_each_quad(mesh, [&](const uint32_t* vertices, uint32_t count) {
+    for (uint32_t k = 0; k < count; ++k) {
+      if (plan.vertex_counts[mesh.layouts.positions[vertices[k]]] != 1) f(vertices[k]);
+    }
+  });
+}
+
+/// Whether DeformMesh::triangles can be left out: no quad looks like a triangle.
+bool triangles_follow(const Mesh& mesh) {
+  bool follow = true;
+  for_each_quad(mesh, [&](const uint32_t* vertices, uint32_t count) {
+    const Array<uint32_t>& positions = mesh.layouts.positions;
+    follow = follow && (count == 3 || positions[vertices[2]] != positions[vertices[3]]);
+  });
+  return follow;
 }
 
 bool repeats(const uint32_t* corners, int i) {
@@ -77,6 +106,40 @@ bool faces_point_inward(const MeshSource& source, Span<const Vec3> directions) {
   return (dot(cross(row(0), row(1)), row(2)) < 0) != clockwise;
 }
 
+/// Numbers of coordinates, from their least value in steps of 1/65535 of their range.
+constexpr double kCoordinateSteps = 65535;
+
+bool are_finite(const dna::TextureCoordinates& uvs) {
+  for (uint32_t i = 0; i < uvs.us.count; ++i) {
+    if (!std::isfinite(uvs.us[i]) || !std::isfinite(uvs.vs[i])) return false;
+  }
+  return true;
+}
+
+void fix_coordinates(const Mesh& source, DeformMesh& mesh) {
+  double least[2] = {INFINITY, INFINITY}, most[2] = {-INFINITY, -INFINITY};
+  float uv[2];
+  for (uint32_t v = 0; v < mesh.vertex_count; ++v) {
+    read_coordinates(source, v, uv);
+    for (int k = 0; k < 2; ++k) {
+      least[k] = std::min(least[k], double{uv[k]});
+      most[k] = std::max(most[k], double{uv[k]});
+    }
+  }
+  for (int k = 0; k < 2; ++k) {
+    mesh.coordinate_origin[k] = static_cast<float>(least[k]);
+    mesh.coordinate_step[k] = static_cast<float>((most[k] - least[k]) / kCoordinateSteps);
+  }
+  for (uint32_t v = 0; v < mesh.vertex_count; ++v) {
+    read_coordinates(source, v, uv);
+    for (int k = 0; k < 2; ++k) {
+      const double range = most[k] - least[k];
+      const double steps = range > 0 ? (uv[k] - least[k]) / range * kCoordinateSteps : 0;
+      mesh.fixed_coordinates[size_t{v} * 2 + k] = static_cast<uint16_t>(std::lround(steps));
+    }
+  }
+}
+
 void fill_vertices(const Mesh& source, DeformMesh& mesh) {
   for (uint32_t p = 0; p < mesh.position_count; ++p) {
     float* at = mesh.positions.data + size_t{p} * 3;
@@ -84,25 +147,30 @@ void fill_vertices(const Mesh& source, DeformMesh& mesh) {
     at[1] = source.positions.ys[p];
     at[2] = source.positions.zs[p];
   }
-  const auto& uvs = source.texture_coordinates;
   for (uint32_t v = 0; v < mesh.vertex_count; ++v) {
     mesh.vertex_position_indices[v] = source.layouts.positions[v];
-    if (uvs.us.count != 0) {
-      const uint32_t uv = source.layouts.texture_coordinates[v];
-      mesh.texture_coordinates[size_t{v} * 2] = uvs.us[uv];
-      mesh.texture_coordinates[size_t{v} * 2 + 1] = uvs.vs[uv];
-    }
     store(stored_normal(source, v), mesh.normals.data + size_t{v} * 3);
   }
-  size_t corner = 0;
-  for (const dna::Face& face : source.faces) {
-    const Array<uint32_t>& vertices = face.layout_indices;
-    for (uint32_t i = 2; i < vertices.count; ++i) {
-      mesh.triangles[corner++] = vertices[0];
-      mesh.triangles[corner++] = vertices[i - 1];
-      mesh.triangles[corner++] = vertices[i];
+  if (mesh.fixed_coordinates.empty()) {
+    for (uint32_t v = 0; v < mesh.vertex_count; ++v) {
+      read_coordinates(source, v, mesh.texture_coordinates.data + size_t{v} * 2);
     }
+  } else {
+    fix_coordinates(source, mesh);
   }
+}
+
+void fill_triangles(const Mesh& source, const MeshPlan& plan, DeformMesh& mesh) {
+  size_t corner = 0;
+  if (plan.triangles_follow) {
+    for_each_listed_corner(source, plan,
+                           [&](uint32_t vertex) { mesh.corner_vertices.set(corner++, vertex); });
+    return;
+  }
+  for_each_triangle(source, [&](const uint32_t* vertices) {
+    std::copy(vertices, vertices + 3, mesh.triangles.data + corner);
+    corner += 3;
+  });
 }
 
 /// Starts of a counting sort: turns the counts of list[i], in first[i + 1], into their start. Adding
@@ -176,6 +244,17 @@ Status plan_surface(const MeshSource& source, MeshPlan& plan) {
   }
   const Mesh& mesh = source.mesh;
   const uint32_t positions = mesh.positions.xs.count;
+  plan.fixed_coordinates = source.options.half_storage && are_finite(mesh.texture_coordinates);
+  plan.triangles_follow = source.options.half_storage && triangles_follow(mesh);
+  if (plan.triangles_follow) {
+    plan.vertex_counts = source.scratch.array<uint8_t>(positions);
+    if (positions != 0 && !plan.vertex_counts.data) return source.no_memory();
+    for (uint32_t v = 0; v < mesh.layouts.positions.count; ++v) {
+      uint8_t& count = plan.vertex_counts[mesh.layouts.positions[v]];
+      count = static_cast<uint8_t>(std::min(count + 1, 2));
+    }
+    for_each_listed_corner(mesh, plan, [&](uint32_t) { ++plan.corner_count; });
+  }
   plan.directions = source.scratch.array<Vec3>(positions);
   plan.hard = source.scratch.array<uint8_t>(positions);
   if (positions != 0 && (!plan.directions.data || !plan.hard.data)) return source.no_memory();
@@ -207,9 +286,14 @@ void place_surface(const MeshPlan& plan, const DeformOptions& options, Placer& p
   mesh.positions = placer.array<float>(positions * 3 + 1, alignment);
   mesh.normals = placer.array<float>(vertices * 3 + 1, alignment);
   mesh.tangents = placer.array<float>(options.tangents ? vertices * 4 : 0, alignment);
-  mesh.texture_coordinates = placer.array<float>(vertices * 2, alignment);
+  mesh.texture_coordinates =
+      placer.array<float>(plan.fixed_coordinates ? 0 : vertices * 2, alignment);
+  mesh.fixed_coordinates =
+      placer.array<uint16_t>(plan.fixed_coordinates ? vertices * 2 : 0, alignment);
   mesh.vertex_position_indices = placer.array<uint32_t>(vertices, alignment);
-  mesh.triangles = placer.array<uint32_t>(plan.triangle_count * 3, alignment);
+  mesh.triangles =
+      placer.array<uint32_t>(plan.triangles_follow ? 0 : plan.triangle_count * 3, alignment);
+  place_indices(plan.corner_count, vertices, placer, mesh.corner_vertices, alignment);
   place_indices(plan.face_count * 4, positions, placer, mesh.faces, alignment);
   mesh.first_adjacent_face = placer.array<uint32_t>(positions + 1, alignment);
   place_indices(plan.face_count * 4, plan.face_count, placer, mesh.adjacent_faces, alignment);
@@ -222,9 +306,11 @@ void place_surface(const MeshPlan& plan, const DeformOptions& options, Placer& p
 
 Status fill_surface(const MeshSource& source, const MeshPlan& plan, DeformMesh& mesh) {
   fill_vertices(source.mesh, mesh);
+  fill_triangles(source.mesh, plan, mesh);
   fill_faces(source.mesh, plan, mesh);
   fill_vertex_lists(plan, mesh);
 
+  mesh.turned_faces = plan.inward;
   if (plan.inward) {
     for (size_t f = 0; f < mesh.face_count(); ++f) {
       const uint32_t second = mesh.faces[f * 4 + 1];

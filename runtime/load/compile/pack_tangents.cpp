@@ -44,15 +44,17 @@ Vec3 perpendicular(Vec3 n) {
 }
 
 /// Adds the tangent of one triangle to its three vertices.
-void add_triangle(const DeformMesh& mesh, const uint32_t* triangle, bool inward,
-                  Span<TangentSums> vertices) {
+void add_triangle(const dna::Mesh& source, const DeformMesh& mesh, const uint32_t* triangle,
+                  bool inward, Span<TangentSums> vertices) {
   Vec3 p[3];
   double u[3], v[3];
   for (int k = 0; k < 3; ++k) {
     p[k] =
         load_tangent(mesh.positions.data + size_t{mesh.vertex_position_indices[triangle[k]]} * 3);
-    u[k] = mesh.texture_coordinates[size_t{triangle[k]} * 2];
-    v[k] = mesh.texture_coordinates[size_t{triangle[k]} * 2 + 1];
+    float uv[2];
+    read_coordinates(source, triangle[k], uv);
+    u[k] = uv[0];
+    v[k] = uv[1];
   }
   const double u1 = u[1] - u[0], v1 = v[1] - v[0], u2 = u[2] - u[0], v2 = v[2] - v[0];
   const double area = u1 * v2 - v1 * u2;
@@ -78,9 +80,9 @@ void add_triangle(const DeformMesh& mesh, const uint32_t* triangle, bool inward,
 Status fill_tangents(const MeshSource& source, bool inward, DeformMesh& mesh) {
   const Span<TangentSums> vertices = source.scratch.array<TangentSums>(mesh.vertex_count);
   if (mesh.vertex_count != 0 && !vertices.data) return source.no_memory();
-  for (uint32_t t = 0; t < mesh.triangle_count; ++t) {
-    add_triangle(mesh, mesh.triangles.data + size_t{t} * 3, inward, vertices);
-  }
+  for_each_triangle(source.mesh, [&](const uint32_t* triangle) {
+    add_triangle(source.mesh, mesh, triangle, inward, vertices);
+  });
   for (uint32_t v = 0; v < mesh.vertex_count; ++v) {
     const TangentSums& vertex = vertices[v];
     const int mirrored = vertex.angles[1] > vertex.angles[0];

@@ -44,6 +44,16 @@ struct Changed {
 
 // What is told ------------------------------------------------------------------------------------
 
+std::vector<uint32_t> triangles_of(const Mesh& source) {
+  std::vector<uint32_t> triangles;
+  for (const Face& face : source.faces) {
+    for (uint32_t i = 2; i < face.layout_indices.count; ++i) {
+      for (uint32_t k : {0u, i - 1, i}) triangles.push_back(face.layout_indices[k]);
+    }
+  }
+  return triangles;
+}
+
 TEST(CompileDeformer, TellsTheMeshAsTheFileHasIt) {
   DeformRigOptions options;
   options.rows = 30;
@@ -76,15 +86,137 @@ TEST(CompileDeformer, TellsTheMeshAsTheFileHasIt) {
         const uint32_t stored = source.layouts.normals[v];
         EXPECT_GT(n[0] * source.normals.xs[stored] + n[2] * source.normals.zs[stored], 0);
       }
-      std::vector<uint32_t> triangles;
-      for (const Face& face : source.faces) {
-        for (uint32_t i = 2; i < face.layout_indices.count; ++i) {
-          for (uint32_t k : {0u, i - 1, i}) triangles.push_back(face.layout_indices[k]);
-        }
-      }
+      const std::vector<uint32_t> triangles = triangles_of(source);
       ASSERT_EQ(mesh.triangles.count, triangles.size());
       for (size_t i = 0; i < triangles.size(); ++i) EXPECT_EQ(mesh.triangles.data[i], triangles[i]);
     }
+  }
+}
+
+void expect_triangles(const MienDeformer* deformer, uint32_t m, const Mesh& source) {
+  const std::vector<uint32_t> expected = triangles_of(source);
+  std::vector<uint32_t> written(expected.size() + 1, 12345);
+  ASSERT_EQ(mesh_of(deformer, m).triangle_count * size_t{3}, expected.size());
+  ASSERT_EQ(mien_deformer_triangles(deformer, m, written.data(), expected.size()), MIEN_OK);
+  EXPECT_EQ(written.back(), 12345u) << "one too many";
+  written.pop_back();
+  EXPECT_EQ(written, expected);
+}
+
+MienDeformerDesc half_storage() {
+  MienDeformerDesc desc = sized<MienDeformerDesc>();
+  desc.storage = MIEN_STORAGE_16_BIT;
+  return desc;
+}
+
+TEST(CompileDeformer, TellsTrianglesAndTextureCoordinatesWithAnyStorage) {
+  DeformRigOptions options;
+  options.rows = 30;
+  options.columns = 40;
+  for (uint32_t seed = 0; seed < 4; ++seed) {
+    options.clockwise = seed % 2;
+    Deformed d(random_deform_rig(seed, options));
+    const DeformerHandle half = create_deformer(d.dna.get(), d.rig.get(), half_storage());
+    for (uint32_t m = 0; m < options.meshes; ++m) {
+      const Mesh& source = d.dna->view.geom.meshes[m];
+      const MienMesh exact = mesh_of(d.deformer.get(), m), mesh = mesh_of(half.get(), m);
+      expect_triangles(d.deformer.get(), m, source);
+      expect_triangles(half.get(), m, source);
+      EXPECT_EQ(mesh.texture_coordinates.count, 0u);
+      std::vector<float> uvs(mesh.vertex_count * size_t{2}), own = uvs;
+      ASSERT_EQ(mien_deformer_texture_coordinates(d.deformer.get(), m, own.data(), own.size()),
+                MIEN_OK);
+      ASSERT_EQ(mien_deformer_texture_coordinates(half.get(), m, uvs.data(), uvs.size()), MIEN_OK);
+      EXPECT_EQ(memcmp(own.data(), exact.texture_coordinates.data, own.size() * sizeof(float)), 0);
+      for (int k = 0; k < 2; ++k) {
+        float least = INFINITY, most = -INFINITY;
+        double off = 0;
+        for (size_t i = k; i < own.size(); i += 2) {
+          least = std::min(least, own[i]);
+          most = std::max(most, own[i]);
+          off = std::max(off, std::fabs(double{uvs[i]} - own[i]));
+        }
+        EXPECT_GT(off, 0) << "floats are left";
+        EXPECT_LE(off, (double{most} - least) / 131070 + 1e-6 * std::fabs(most));
+      }
+    }
+  }
+}
+
+// Triangles follow from faces of positions; where a position has several vertices, their corners are listed.
+TEST(CompileDeformer, TellsTrianglesOfAllFacesIn16BitStorage) {
+  struct {
+    const char* what;
+    std::vector<uint32_t> positions;           // of vertices
+    std::vector<std::vector<uint32_t>> faces;  // of vertices
+    bool follow;
+  } const all[] = {
+      {"quads and triangles", {0, 1, 2, 3, 4, 5}, {{0, 1, 4, 3}, {1, 2, 5}, {1, 5, 4}}, true},
+      {"larger faces", {0, 1, 2, 3, 4, 5}, {{0, 1, 2, 5, 4}, {0, 1, 2, 5, 4, 3}}, true},
+      {"lines are dropped", {0, 1, 2, 3, 4, 5}, {{0, 1}, {3}, {}, {0, 1, 4, 3}}, true},
+      {"seams", {0, 1, 4, 3, 4, 1}, {{0, 1, 2, 3}, {5, 4, 3}, {1, 5, 4, 0}}, true},
+      {"a position twice in a face", {0, 1, 2, 3, 4, 5}, {{0, 1, 0, 4}, {0, 0, 1, 4}}, true},
+      {"a vertex that looks like a triangle", {0, 1, 2, 3, 4, 5}, {{0, 1, 4, 4}}, false},
+      {"a seam that looks like a triangle", {0, 1, 4, 3, 4, 5}, {{0, 1, 2, 4}}, false},
+      {"only triangles", {0, 1, 2, 3, 4, 5}, {{0, 1, 4}, {3, 4, 5}}, true},
+  };
+  for (const auto& one : all) {
+    for (const uint16_t clockwise : {uint16_t{0}, uint16_t{1}}) {
+      SCOPED_TRACE(one.what);
+      Changed changed([&](Arena& arena, DnaView& view) {
+        Mesh& mesh = view.geom.meshes[0];
+        mesh.normals = {};
+        view.dsce.face_winding_order = clockwise;
+        const auto words = [&](const std::vector<uint32_t>& values) {
+          const NewArray<uint32_t> array = new_array<uint32_t>(arena, values.size());
+          for (size_t i = 0; i < values.size(); ++i) array.set(i, values[i]);
+          return Array<uint32_t>(array);
+        };
+        mesh.layouts.positions = words(one.positions);
+        const Span<Face> faces = arena.array<Face>(one.faces.size());
+        for (size_t f = 0; f < faces.count; ++f) faces[f].layout_indices = words(one.faces[f]);
+        mesh.faces = {faces.data, static_cast<uint32_t>(faces.count)};
+      });
+      const DeformerHandle exact = create_deformer(changed.dna.get(), changed.rig.get());
+      const DeformerHandle half =
+          create_deformer(changed.dna.get(), changed.rig.get(), half_storage());
+      const Mesh& source = changed.dna->view.geom.meshes[0];
+      expect_triangles(exact.get(), 0, source);
+      expect_triangles(half.get(), 0, source);
+      EXPECT_EQ(mesh_of(half.get(), 0).triangles.count == 0, one.follow);
+    }
+  }
+}
+
+TEST(CompileDeformer, StoresDeltasInFewerBitsWithinTheErrorThatIsAllowed) {
+  Deformed d(random_deform_rig(1, {}));
+  const MienMesh mesh = mesh_of(d.deformer.get(), 0);
+  uint64_t most = 0, before = ~uint64_t{0};
+  for (const double allowed : {0.0, 1e-3, 1.0}) {
+    MienDeformerDesc desc = half_storage();
+    desc.delta_error = allowed;
+    const DeformerHandle half = create_deformer(d.dna.get(), d.rig.get(), desc);
+    MienDeformerInfo info = sized<MienDeformerInfo>();
+    ASSERT_EQ(mien_deformer_info(half.get(), &info), MIEN_OK);
+    EXPECT_LE(info.deformer_bytes, before);
+    if (allowed == 0) most = info.deformer_bytes;
+    before = info.deformer_bytes;
+    std::vector<float> wanted(mesh.position_count * size_t{3}), got = wanted;
+    for (uint32_t t = 0; t < mesh.target_count; ++t) {
+      ASSERT_EQ(mien_deformer_target(d.deformer.get(), 0, t, wanted.data(), wanted.size()),
+                MIEN_OK);
+      ASSERT_EQ(mien_deformer_target(half.get(), 0, t, got.data(), got.size()), MIEN_OK);
+      for (size_t i = 0; i < got.size(); ++i) EXPECT_NEAR(got[i], wanted[i], allowed + 2e-4);
+    }
+  }
+  EXPECT_LT(before, most) << "nothing was packed";
+  for (const double wrong : {-1.0, double{INFINITY}, double{NAN}}) {
+    MienDeformerDesc desc = half_storage();
+    desc.delta_error = wrong;
+    MienDeformer* made = nullptr;
+    EXPECT_EQ(mien_deformer_create(d.dna.get(), d.rig.get(), &desc, &made, nullptr),
+              MIEN_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(made, nullptr);
   }
 }
 

@@ -35,7 +35,7 @@ Character character_of(const Dna& dna, uint32_t storage = MIEN_STORAGE_32_BIT,
                        uint32_t deformer_storage = MIEN_STORAGE_32_BIT) {
   auto desc = sized<MienRigDesc>();
   desc.storage = storage;
-  return Character(dna.get(), desc, deformer_storage, "tiny");
+  return Character(dna.get(), desc, deformer_storage, 0, "tiny");
 }
 
 /// Position 5 of mesh 0 stands 0.25 farther along x.

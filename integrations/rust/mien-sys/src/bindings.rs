@@ -1397,10 +1397,15 @@ pub struct MienDeformerDesc {
     pub normals: u32,
     /// Compute tangents, for `mien_deformer_instance_write_vertices()`.
     pub with_tangents: u32,
-    /// `MIEN_STORAGE_...` of blend shape deltas and skin weights. With 16 bits they are integers
-    /// with scales. See docs/deformation.md, 2.1 "16-bit storage".
+    /// `MIEN_STORAGE_...` of blend shape deltas, skin weights, texture coordinates and triangles.
+    /// With 16 bits these are integers with scales, and triangles follow from faces. See
+    /// docs/deformation.md, 2.1 "16-bit storage".
     pub storage: u32,
     pub allocator: *const MienAllocator,
+    /// Largest rounding error of a coordinate of a delta that 16-bit storage may make to store
+    /// deltas with 10 bits, in translation units. 0: 2^-18 of the size of the mesh, which is also
+    /// the least.
+    pub delta_error: f64,
 }
 
 impl Default for MienDeformerDesc {
@@ -1474,12 +1479,14 @@ pub struct MienMesh {
     /// 4 floats per vertex: x y z w, see MienVertexOutput; empty unless
     /// MienDeformerDesc.`with_tangents` was set.
     pub tangents: MienFloatView,
-    /// 2 floats per vertex: u v, as in the file.
+    /// 2 floats per vertex: u v, as in the file; may be empty with 16-bit storage: see
+    /// `mien_deformer_texture_coordinates()`.
     pub texture_coordinates: MienFloatView,
     /// One index per vertex: its position.
     pub vertex_position_indices: MienIndex32View,
     /// 3 indices per triangle: vertices, wound as in the file; faces with more corners become fans
-    /// about their first corner.
+    /// about their first corner. May be empty with 16-bit storage: see
+    /// `mien_deformer_triangles()`.
     pub triangles: MienIndex32View,
     /// One index per target: its blend shape channel; in file order.
     pub target_channels: MienIndex16View,
@@ -4217,7 +4224,8 @@ extern "C" {
     /// `MIEN_ERROR_MISMATCH` if the number or the names of joints, channels or meshes differ from
     /// those of the rig, `MIEN_ERROR_DNA_VALUE` if a joint is its own ancestor or a position,
     /// delta or weight is not finite, `MIEN_ERROR_DNA_LIMIT` if a position has more than 65535
-    /// influences, `MIEN_ERROR_ISA` if the requested instruction set is not available.
+    /// influences, `MIEN_ERROR_ISA` if the requested instruction set is not available,
+    /// `MIEN_ERROR_INVALID_ARGUMENT` if `delta_error` is negative or not finite.
     ///
     /// See docs/deformation.md.
     pub fn mien_deformer_create(dna: *const MienDna, rig: *const MienRig, desc: *const MienDeformerDesc, out_deformer: *mut *mut MienDeformer, error: *mut MienError) -> MienStatus;
@@ -4244,6 +4252,23 @@ extern "C" {
     ///
     /// Fails with `MIEN_ERROR_INDEX` if there is no such mesh.
     pub fn mien_deformer_mesh(deformer: *const MienDeformer, mesh: u32, out_mesh: *mut MienMesh) -> MienStatus;
+
+    /// Writes the triangles of a mesh to `out_triangles`: 3 indices per triangle, as in
+    /// MienMesh.triangles, with any storage. `count` is the capacity of `out_triangles`, in
+    /// indices. With 16-bit storage takes memory for the duration of the call, 4 bytes per
+    /// position, from the allocator of the deformer.
+    ///
+    /// Fails with `MIEN_ERROR_INDEX` if there is no such mesh, `MIEN_ERROR_INVALID_ARGUMENT` if
+    /// `count` is less than 3 \* MienMesh.`triangle_count`.
+    pub fn mien_deformer_triangles(deformer: *const MienDeformer, mesh: u32, out_triangles: *mut u32, count: usize) -> MienStatus;
+
+    /// Writes the texture coordinates of a mesh to `out_coordinates`: 2 floats per vertex, u v,
+    /// with any storage. With 16-bit storage they are off by at most 1/131070 of the range of the
+    /// mesh. `count` is the capacity of `out_coordinates`, in floats.
+    ///
+    /// Fails with `MIEN_ERROR_INDEX` if there is no such mesh, `MIEN_ERROR_INVALID_ARGUMENT` if
+    /// `count` is less than 2 \* MienMesh.`vertex_count`.
+    pub fn mien_deformer_texture_coordinates(deformer: *const MienDeformer, mesh: u32, out_coordinates: *mut f32, count: usize) -> MienStatus;
 
     /// Returns the influences of a position, as used for skinning: `out_joints` gets one index per
     /// influence, `out_weights` gets one float per influence. There may be none.

@@ -65,8 +65,8 @@ fn structs_are_laid_out_as_in_c() {
         MienInstanceStatistics 40 8: struct_size 0 lod 8 control_count 12 active_control_count 16
             joint_column_count 20 joint_entry_count 24 joint_byte_count 32;
         MienBatchDesc 24 8: struct_size 0 capacity 8 tasks 12 allocator 16;
-        MienDeformerDesc 40 8: struct_size 0 isa 8 compose 12 weights 16 normals 20 with_tangents 24
-            storage 28 allocator 32;
+        MienDeformerDesc 48 8: struct_size 0 isa 8 compose 12 weights 16 normals 20 with_tangents 24
+            storage 28 allocator 32 delta_error 40;
         MienDeformerInfo 64 8: struct_size 0 isa 8 compose 12 weights 16 normals 20 lod_count 24
             joint_count 28 channel_count 32 mesh_count 36 deformer_bytes 40 instance_bytes 48
             storage 56 reserved 60;

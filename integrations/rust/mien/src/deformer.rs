@@ -72,11 +72,12 @@ pub struct Mesh<'deformer> {
     pub normals: &'deformer [[f32; 3]],
     /// x y z and w per vertex; empty unless [`DeformerOptions::with_tangents`] asked for them.
     pub tangents: &'deformer [[f32; 4]],
-    /// u v per vertex, as in the file.
+    /// u v per vertex, as in the file; empty with 16-bit storage: [`Deformer::texture_coordinates`].
     pub texture_coordinates: &'deformer [[f32; 2]],
     /// Position of each vertex.
     pub vertex_position_indices: &'deformer [u32],
     /// Three vertices each, wound as in the file; faces of more corners are fans about their first.
+    /// Empty with 16-bit storage: [`Deformer::triangles`].
     pub triangles: &'deformer [[u32; 3]],
     /// Channel of each blend shape target, in file order.
     pub target_channels: &'deformer [u16],
@@ -167,10 +168,9 @@ impl Deformer {
     ///
     #[doc = errors!(mien_deformer_mesh)]
     pub fn mesh(&self, mesh: usize) -> Result<Mesh<'_>> {
-        let mut out = sys::MienMesh::default();
-        // SAFETY: a live handle and a sized struct; views live as long as the deformer.
+        let out = self.neutral(mesh)?;
+        // SAFETY: views live as long as the deformer.
         unsafe {
-            check(sys::mien_deformer_mesh(self.raw(), index(mesh), &mut out))?;
             let (uvs, triangles) = (out.texture_coordinates, out.triangles);
             Ok(Mesh {
                 max_influences: out.max_influences as usize,
@@ -212,6 +212,43 @@ impl Deformer {
             ))?;
             Ok((slice(joints.data, joints.count), slice(weights.data, weights.count)))
         }
+    }
+
+    /// The triangles of a mesh, three vertices each, with any storage.
+    ///
+    /// # Errors
+    ///
+    #[doc = errors!(mien_deformer_triangles)]
+    pub fn triangles(&self, mesh: usize) -> Result<Vec<[u32; 3]>> {
+        let mut out = vec![[0; 3]; self.neutral(mesh)?.triangle_count as usize];
+        // SAFETY: a live handle, and room for as many indices as are told.
+        check(unsafe {
+            let (data, count) = (out.as_mut_ptr().cast(), 3 * out.len());
+            sys::mien_deformer_triangles(self.raw(), index(mesh), data, count)
+        })?;
+        Ok(out)
+    }
+
+    /// u v per vertex of a mesh, with any storage.
+    ///
+    /// # Errors
+    ///
+    #[doc = errors!(mien_deformer_texture_coordinates)]
+    pub fn texture_coordinates(&self, mesh: usize) -> Result<Vec<[f32; 2]>> {
+        let mut out = vec![[0.0; 2]; self.neutral(mesh)?.vertex_count as usize];
+        // SAFETY: a live handle, and room for as many floats as are told.
+        check(unsafe {
+            let (data, count) = (out.as_mut_ptr().cast(), 2 * out.len());
+            sys::mien_deformer_texture_coordinates(self.raw(), index(mesh), data, count)
+        })?;
+        Ok(out)
+    }
+
+    fn neutral(&self, mesh: usize) -> Result<sys::MienMesh> {
+        let mut out = sys::MienMesh::default();
+        // SAFETY: a live handle and a sized struct.
+        check(unsafe { sys::mien_deformer_mesh(self.raw(), index(mesh), &mut out) })?;
+        Ok(out)
     }
 
     /// How far a blend shape target moves each position of the mesh at channel weight 1.
@@ -280,6 +317,7 @@ pub struct DeformerOptions {
     normals: Normals,
     with_tangents: bool,
     storage: Storage,
+    delta_error: f64,
     allocator: Option<Allocator>,
 }
 
@@ -319,9 +357,17 @@ impl DeformerOptions {
         self
     }
 
-    /// How blend shapes and skin weights are stored. With 16 bits, [`Deformer::influences`] is an error.
+    /// How blend shapes, skin weights and texture coordinates are stored. With 16 bits, [`Deformer::influences`] is an
+    /// error.
     pub fn storage(mut self, storage: Storage) -> Self {
         self.storage = storage;
+        self
+    }
+
+    /// Largest error of a coordinate of a delta that 16-bit storage may make to store it with 10 bits; 0: 2^-18 of the
+    /// size of the mesh.
+    pub fn delta_error(mut self, delta_error: f64) -> Self {
+        self.delta_error = delta_error;
         self
     }
 
@@ -349,6 +395,7 @@ impl DeformerOptions {
                 normals: self.normals.0,
                 with_tangents: self.with_tangents.into(),
                 storage: self.storage.0,
+                delta_error: self.delta_error,
                 allocator,
                 ..Default::default()
             };

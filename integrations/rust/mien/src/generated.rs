@@ -2105,7 +2105,7 @@ macro_rules! errors {
          - [`Status::LOD`](crate::Status::LOD) if the rig has no such LOD"
     };
     (mien_deformer_create) => {
-        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if an argument is outside its range\n\
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `delta_error` is negative or not finite\n\
          - [`Status::MISMATCH`](crate::Status::MISMATCH) if the number or the names of joints, channels or meshes differ from those of the rig\n\
          - [`Status::ISA`](crate::Status::ISA) if the requested instruction set is not available\n\
          - [`Status::MEMORY`](crate::Status::MEMORY) if memory runs out\n\
@@ -2124,6 +2124,14 @@ macro_rules! errors {
     };
     (mien_deformer_mesh) => {
         "- [`Status::INDEX`](crate::Status::INDEX) if there is no such mesh"
+    };
+    (mien_deformer_triangles) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `count` is less than 3 \\* MienMesh.`triangle_count`\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if there is no such mesh"
+    };
+    (mien_deformer_texture_coordinates) => {
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `count` is less than 2 \\* MienMesh.`vertex_count`\n\
+         - [`Status::INDEX`](crate::Status::INDEX) if there is no such mesh"
     };
     (mien_deformer_influences) => {
         "- [`Status::INDEX`](crate::Status::INDEX) if there is no such mesh or position\n\
