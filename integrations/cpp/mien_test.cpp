@@ -552,6 +552,12 @@ void test_deformer() {
   CHECK(!pose.local_transforms(transforms));
   std::vector<float> deltas(neutral.size());
   CHECK(deformer.target(0, 0, deltas) && !deformer.target(0, 1u << 30, deltas));
+  const MienMesh shape = deformer.mesh(0).value();
+  std::vector<uint32_t> triangles(shape.triangles.count);
+  std::vector<float> uvs(shape.texture_coordinates.count);
+  CHECK(deformer.triangles(0, triangles) && deformer.texture_coordinates(0, uvs));
+  CHECK(triangles.back() == shape.triangles.data[triangles.size() - 1]);
+  CHECK(uvs.back() == shape.texture_coordinates.data[uvs.size() - 1]);
   const auto held = deformer.influences(0, 0).value();
   CHECK(held.joints.size() == held.weights.size() && !held.joints.empty());
 

@@ -143,6 +143,8 @@ func TestNamesAndIndicesAreInverse(t *testing.T) {
 func TestTheDeformerMovesWhatJointsMove(t *testing.T) {
 	rig, deformer := small(t, mien.PresetSmall)
 	face, mesh := newFace(t, rig, 1), must(deformer.Mesh(0))
+	equal(t, must(deformer.Triangles(0)), mesh.Triangles, "triangles")
+	equal(t, must(deformer.TextureCoordinates(0)), mesh.TextureCoordinates, "texture coordinates")
 	body := must(deformer.NewInstance(nil))
 	defer body.Close()
 	check(face.Evaluate(0))

@@ -100,8 +100,9 @@ static int open_surface(Surface* surface, const Face* face, uint32_t index, GdOb
   surface->rid = gd_call(&surface->mesh, &gd_names.get_rid, NULL, 0);
   surface->instance = gd.object_get_instance_id(instance);
   surface->vertex_count = mesh.vertex_count;
-  GdVariant arguments[5] = {gd_int(PRIMITIVE_TRIANGLES), arrays_of(face->deformer, index, &mesh), gd_empty(GD_ARRAY),
-                            gd_empty(GD_DICTIONARY), gd_int(FLAG_USE_DYNAMIC_UPDATE)};
+  GdVariant arguments[5] = {gd_int(PRIMITIVE_TRIANGLES), arrays_of(face->deformer, index, &mesh),
+                            gd_empty(GD_ARRAY), gd_empty(GD_DICTIONARY),
+                            gd_int(FLAG_USE_DYNAMIC_UPDATE)};
   GdVariant nothing = gd_call(&surface->mesh, &gd_names.add_surface_from_arrays, arguments, 5);
   gd.variant_destroy(&nothing);
   if (size != (int64_t)(count * (POSITION_SIZE + NORMAL_SIZE)) ||

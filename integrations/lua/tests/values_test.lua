@@ -75,6 +75,12 @@ test("the deformer moves what joints move, and writes the same vertices", functi
   local rig, deformer = support.small()
   local face, body = rig:instance(), deformer:instance()
   local mesh = deformer:mesh(0)
+  local triangles, corners = deformer:triangles(0)
+  local coordinates, numbers = deformer:texture_coordinates(0)
+  equal(corners, 3 * mesh.triangle_count, "corners")
+  equal(numbers, 2 * mesh.vertex_count, "coordinates")
+  for i = 0, corners - 1 do equal(triangles[i], mesh.triangles[i], "corner") end
+  for i = 0, numbers - 1 do equal(coordinates[i], mesh.texture_coordinates[i], "coordinate") end
   body:update(face)
   body:deform(0, mien.Normals.RECOMPUTED)
   equal(#body:positions(0), 3 * mesh.position_count, "numbers")

@@ -53,6 +53,11 @@ class Values(unittest.TestCase):
             self.assertEqual((who.shape, who.dtype), (weights.shape, numpy.uint16))
             if mesh.target_count:
                 self.assertEqual(deformer.target(mesh.index, 0).shape, mesh.positions.shape)
+        small = mien.Deformer(dna_of(), rig_of(), storage=mien.Storage.BIT_16, delta_error=0.001)
+        self.assertLess(small.info.deformer_bytes, deformer.info.deformer_bytes)
+        for exact, mesh in zip(deformer.meshes, small.meshes):
+            numpy.testing.assert_array_equal(mesh.triangles, exact.triangles)
+            numpy.testing.assert_allclose(mesh.texture_coordinates, exact.texture_coordinates, atol=1e-5)
         for matrices in (deformer.bind_matrices, deformer.inverse_bind_matrices,
                          pose.joint_matrices, pose.skin_matrices):
             self.assertEqual(matrices.shape, (joints, 4, 4))

@@ -281,6 +281,8 @@ test("influences, targets and transforms of a deformer", () => {
   assert.equal(joints.length, weights.length);
   assert.ok(Math.abs(weights.reduce((sum, weight) => sum + weight, 0) - 1) < 1e-5);
   const mesh = head.deformer.mesh(0);
+  assert.deepEqual([...head.deformer.triangles(0)], [...head.deformer.mesh(0).triangles]);
+  assert.deepEqual([...head.deformer.textureCoordinates(0)], [...head.deformer.mesh(0).textureCoordinates]);
   const target = head.deformer.target(0, 0);
   assert.equal(target.length, 3 * mesh.positionCount);
   assert.ok(target.some((value) => value !== 0));

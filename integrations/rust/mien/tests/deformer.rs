@@ -141,6 +141,8 @@ fn meshes_have_the_shapes_that_their_types_say() {
         assert_eq!(mesh.texture_coordinates.len(), vertices);
         assert!(mesh.vertex_position_indices.iter().all(|p| (*p as usize) < positions));
         assert!(mesh.triangles.iter().flatten().all(|v| (*v as usize) < vertices));
+        assert_eq!(deformer.triangles(m).unwrap(), mesh.triangles);
+        assert_eq!(deformer.texture_coordinates(m).unwrap(), mesh.texture_coordinates);
         let (joints, weights) = deformer.influences(m, positions - 1).unwrap();
         assert_eq!(joints.len(), weights.len());
         assert!(joints.len() <= mesh.max_influences);
