@@ -25,12 +25,26 @@ double seconds_since(std::clock_t start) {
   return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
-/// Some controls swing at different rates between 0 and 0.8.
-std::vector<float> motion(size_t raw_count, double time) {
-  std::vector<float> raw(raw_count);
-  for (size_t i = 0; i < raw_count; i += 11) {
-    const double phase = static_cast<double>(i);
-    raw[i] = static_cast<float>(0.4 - 0.4 * std::cos(time * (1 + 0.07 * (i % 13)) + phase));
+/// Some controls swing at different rates between 0 and 0.8. `initial`: of the raw controls.
+std::vector<float> motion(const std::vector<float>& initial, double time) {
+  std::vector<float> raw = initial;
+  const auto swing = [&](size_t i, double phase) {
+    return 0.4 - 0.4 * std::cos(time * (1 + 0.07 * static_cast<double>(i % 13)) + phase);
+  };
+  const auto is_rotation = [&](size_t first) {  // x y z w: only w is 1 at rest
+    return first + 3 < initial.size() && initial[first + 3] == 1;
+  };
+  for (size_t i = 0; i < raw.size(); i += 11) {
+    raw[i] = static_cast<float>(swing(i, static_cast<double>(i)));
+  }
+  // Rotations turn by such angles, from rest.
+  for (size_t i = 0, count = 0; i < raw.size(); ++i) {
+    if (!is_rotation(i)) continue;
+    const double angle = count % 3 == 0 ? swing(i, 0) : 0;
+    std::fill(raw.data() + i, raw.data() + i + 3, 0.0f);
+    raw[i + count++ % 3] = static_cast<float>(std::sin(angle / 2));
+    raw[i + 3] = static_cast<float>(std::cos(angle / 2));
+    i += 3;
   }
   return raw;
 }
@@ -43,6 +57,7 @@ struct Rig {
   MienDeformerInstance* deformed = nullptr;
   MienMutableFloatView raw = {};
   MienFloatView joints = {}, positions = {};
+  std::vector<float> initial;  // raw controls
 
   static MienDna* generate(uint32_t preset) {
     MienGenerateDesc generate = mien_generate_desc_default();
@@ -61,6 +76,7 @@ struct Rig {
         mien_instance_raw_controls(instance, &raw) == MIEN_OK &&
         mien_instance_joints(instance, &joints) == MIEN_OK;
     if (!made) std::exit(1);
+    initial.assign(raw.data, raw.data + raw.count);
   }
   ~Rig() {
     mien_deformer_instance_destroy(deformed);
@@ -102,7 +118,7 @@ void run(const char* name, Rig&& rig, uint32_t every, int frames) {
   double total = 0, worst_joint = 0, range = 0, worst_point = 0, gradient = 0;
   uint32_t iterations = 0;
   for (int f = 0; f < frames; ++f) {
-    const std::vector<float> raw = motion(rig.raw.count, f / 60.0);
+    const std::vector<float> raw = motion(rig.initial, f / 60.0);
     MienFitFrame frame = mien_fit_frame_default();
     if (every == 0) {
       rig.pose(raw);
@@ -168,7 +184,7 @@ std::vector<float> joints_of(Rig& rig, size_t frames) {
   std::vector<float> targets;
   targets.reserve(frames * rig.joints.count);
   for (size_t f = 0; f < frames; ++f) {
-    rig.pose(motion(rig.raw.count, static_cast<double>(f) / 60));
+    rig.pose(motion(rig.initial, static_cast<double>(f) / 60));
     targets.insert(targets.end(), rig.joints.data, rig.joints.data + rig.joints.count);
   }
   return targets;
@@ -301,7 +317,7 @@ void run_landmarks(const char* name, MienDna* dna, size_t count, See see, int fr
   rig.deform(found);
   const std::vector<float> rest(rig.positions.data, rig.positions.data + rig.positions.count);
   for (int f = 0; f < frames; ++f) {
-    rig.deform(motion(rig.raw.count, f / 60.0));
+    rig.deform(motion(rig.initial, f / 60.0));
     const std::vector<float> truth(rig.positions.data, rig.positions.data + rig.positions.count);
     targets.clear();
     for (const MienSolvePoint& point : points) {
@@ -368,6 +384,7 @@ int main(int argc, char** argv) {
   run_frames("the same in one call", generated(MIEN_PRESET_LARGE), static_cast<size_t>(frames));
   run_ranges("ranges of 500 on two threads", generated(MIEN_PRESET_LARGE),
              static_cast<size_t>(frames));
+  run("joints, body", generated(MIEN_PRESET_BODY), 0, frames);
   run("all vertices, head", generated(MIEN_PRESET_HEAD), 1, frames / 4 + 2);
   run("every 12th vertex, head", generated(MIEN_PRESET_HEAD), 12, frames / 4 + 2);
   if (argc < 3) return 0;
