@@ -99,7 +99,7 @@ void place(const MienFitDesc& desc, Placer& placer, MienFit& fit) {
   fit.step_effects = placer.array<float>(moving * fit.samples.count * 3);
   fit.directions = placer.array<float>(kDirections * raw);
   fit.measured = placer.array<uint8_t>(moving);
-  fit.row = placer.array<double>(moving + kMostMotion);
+  fit.panel = placer.array<double>((moving + kMostMotion) * kPanel);
   fit.wide = placer.array<double>((moving + kMostMotion) * (moving + kMostMotion));
 }
 

@@ -95,8 +95,8 @@ struct MienFit {
   mien::Span<float> directions, moved;  // kDirections of [raw control]; of [position][3]
   mien::Span<uint32_t> own_samples;     // of a frame
   mien::Span<float> step_effects;       // [control that may move][sample][3]
-  mien::Span<uint8_t> measured;  // [control that may move] its effects are those of this pose
-  mien::Span<double> row, wide;  // [motion and free]; that squared
+  mien::Span<uint8_t> measured;    // [control that may move] its effects are those of this pose
+  mien::Span<double> panel, wide;  // [motion and free][kPanel]; [motion and free] squared
 
   // The model of a step, and what constraints add to it.
   mien::Span<double> pull;              // [control] half the gradient of the cost
@@ -151,6 +151,23 @@ void list_free_derivatives(MienFit& fit, size_t free_count);
 
 /// matrix += factor * D^T metric D, [free][free].
 void project_metric(MienFit& fit, const double* metric, double factor, size_t free_count);
+
+constexpr size_t kPanel = 48;  // numbers of a row, the last of which may be 0
+/// Calls add(i, j, sum) with the product of rows i and j of a panel, j <= i, in one order of sums.
+template <class F>
+void for_each_product(const double* panel, size_t row_count, F&& add) {
+  for (size_t i = 0; i < row_count; ++i) {
+    const double* const a = panel + i * kPanel;
+    for (size_t j = 0; j <= i; ++j) {
+      const double* const b = panel + j * kPanel;
+      double sums[4] = {};
+      for (size_t n = 0; n < kPanel; n += 4) {
+        for (size_t k = 0; k < 4; ++k) sums[k] += a[n + k] * b[n + k];
+      }
+      add(i, j, (sums[0] + sums[2]) + (sums[1] + sums[3]));
+    }
+  }
+}
 
 /// factor = the Cholesky factor of matrix with `damping` of its diagonal added; false if it is not definite.
 bool factor_matrix(const double* matrix, size_t count, double damping, double* factor);

@@ -14,7 +14,6 @@ namespace {
 
 constexpr size_t kPartBytes = 8u << 20;  // of effects
 constexpr size_t kLeastPart = 256;       // points
-constexpr size_t kPanel = 48;            // rows of P
 
 /// A part of the points, and memory for it.
 struct Part {
@@ -89,15 +88,7 @@ bool measure_part(MienFit& fit, const MienDeformer* whole, size_t first, size_t 
   return made;
 }
 
-double product(const double* a, const double* b) {
-  double sums[4] = {};
-  for (size_t i = 0; i < kPanel; i += 4) {
-    for (size_t k = 0; k < 4; ++k) sums[k] += a[i + k] * b[i + k];
-  }
-  return (sums[0] + sums[2]) + (sums[1] + sums[3]);
-}
-
-/// Adds the products of all pairs of controls over rows of P, to the upper triangle of the metric.
+/// Adds the products of all pairs of controls over rows of P, to the lower triangle of the metric.
 void add_products(MienFit& fit, size_t row_count, const Part& part) {
   for (size_t first = 0; first < row_count; first += kPanel) {
     const size_t rows = std::min(kPanel, row_count - first);
@@ -109,13 +100,9 @@ void add_products(MienFit& fit, size_t row_count, const Part& part) {
       std::fill(std::copy(from, from + rows, to), to + kPanel, 0.0);
       part.active[active++] = c;
     }
-    for (size_t a = 0; a < active; ++a) {
-      double* const to = fit.point_metric.data + part.active[a] * fit.control_count;
-      const double* const own = part.panel.data + a * kPanel;
-      for (size_t b = a; b < active; ++b) {
-        to[part.active[b]] += product(own, part.panel.data + b * kPanel);
-      }
-    }
+    for_each_product(part.panel.data, active, [&](size_t a, size_t b, double sum) {
+      fit.point_metric[size_t{part.active[a]} * fit.control_count + part.active[b]] += sum;
+    });
   }
 }
 
@@ -151,7 +138,7 @@ bool measure_points(MienFit& fit, const MienDeformer* deformer, Arena& arena) {
   }
   for (size_t a = 0; a < controls; ++a) {
     for (size_t b = 0; b < a; ++b) {
-      fit.point_metric[a * controls + b] = fit.point_metric[b * controls + a];
+      fit.point_metric[b * controls + a] = fit.point_metric[a * controls + b];
     }
   }
   return true;

@@ -78,8 +78,16 @@ void add_point_rows(Frame& f, size_t free_count) {
   if (!(sampled > 0)) return;
   const size_t motion = f.motion_count(), width = motion + free_count;
   double* const wide = fit.wide.data;
-  double* const row = fit.row.data;
+  double* const panel = fit.panel.data;
   std::fill(wide, wide + width * width, 0.0);
+  std::fill(panel, panel + width * kPanel, 0.0);
+  size_t filled = 0;  // rows of J, which are columns of the panel
+  const auto add_products = [&] {
+    for_each_product(panel, width,
+                     [&](size_t a, size_t b, double sum) { wide[a * width + b] += sum; });
+    std::fill(panel, panel + width * kPanel, 0.0);
+    filled = 0;
+  };
   for (size_t s = 0; s < f.samples.count; ++s) {
     const size_t i = f.samples[s];
     if (!(fit.pulls[i] > 0)) continue;
@@ -88,21 +96,19 @@ void add_point_rows(Frame& f, size_t free_count) {
     f.motion.place(fit.surface.data + 3 * i, moved);
     const size_t rows = point_rows(f, i, directions, residuals);
     for (size_t r = 0; r < rows; ++r) {
-      double back[3];
+      double back[3], by_motion[kMostMotion];
       f.motion.turn_back(directions[r], back);
-      if (motion != 0) list_motion(f, moved, directions[r], r, row);
+      if (motion != 0) list_motion(f, moved, directions[r], r, by_motion);
+      for (size_t a = 0; a < motion; ++a) panel[a * kPanel + filled] = scale * by_motion[a];
       for (size_t a = 0; a < free_count; ++a) {
         const float* const effect = fit.step_effects.data + (fit.free[a] * f.samples.count + s) * 3;
-        row[motion + a] = back[0] * effect[0] + back[1] * effect[1] + back[2] * effect[2];
+        panel[(motion + a) * kPanel + filled] =
+            scale * (back[0] * effect[0] + back[1] * effect[1] + back[2] * effect[2]);
       }
-      for (size_t a = 0; a < width; ++a) row[a] *= scale;
-      for (size_t a = 0; a < width; ++a) {
-        const double value = row[a];
-        double* const to = wide + a * width;
-        for (size_t b = 0; b <= a; ++b) to[b] += value * row[b];
-      }
+      if (++filled == kPanel) add_products();
     }
   }
+  if (filled != 0) add_products();
   // Without the motion, which is chosen anew at each pose: its part is eliminated.
   for (size_t p = 0; p < motion; ++p) {
     const double pivot = wide[p * width + p];
