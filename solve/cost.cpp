@@ -78,10 +78,11 @@ double regularize(const Frame& f, const float* raw, double* gradient) {
     const uint32_t c = fit.controls[i];
     const double to_prior = double{raw[c]} - fit.prior[c], to_start = double{raw[c]} - fit.start[c];
     cost += f.in.prior_weight * square(to_prior) + f.in.smooth_weight * square(to_start) +
-            f.in.sparse_weight * std::fabs(raw[c]);
+            f.in.sparse_weight * std::fabs(double{raw[c]} - fit.initial[c]);
     if (!gradient) continue;
     // At 0, the sign of the side to which the control may move: the sum of magnitudes has a kink there.
-    const double sign = raw[c] > 0 ? 1 : raw[c] < 0 ? -1 : fit.upper[i] > 0 ? 1 : -1;
+    const double value = double{raw[c]} - fit.initial[c];
+    const double sign = value > 0 ? 1 : value < 0 ? -1 : fit.upper[i] > 0 ? 1 : -1;
     gradient[i] += f.in.prior_weight * to_prior + f.in.smooth_weight * to_start +
                    0.5 * f.in.sparse_weight * sign;
   }
@@ -156,6 +157,7 @@ void find_gradient(Frame& f) {
   }
   regularize(f, fit.raw.data, fit.gradient.data);
   add_symmetric_gradient(f);
+  hold_gradient(fit);
 }
 
 double point_factor(const MienFit& fit) {

@@ -14,6 +14,8 @@ using namespace mien::capi;
 
 namespace {
 
+constexpr float kNoBound = 2;  // that a part of a unit quaternion reaches
+
 size_t count_of(const MienRig* rig, uint32_t kind) {
   uint32_t count = 0;
   static_cast<void>(mien_rig_count(rig, kind, &count));
@@ -28,6 +30,9 @@ void place(const MienFitDesc& desc, Placer& placer, MienFit& fit) {
   fit.controls = placer.array<uint32_t>(moving);
   fit.lower = placer.array<float>(moving);
   fit.upper = placer.array<float>(moving);
+  fit.rotations = placer.array<uint32_t>(
+      find_rotations(fit.rig, {fit.raw.data, fit.raw.count}, desc.controls, moving, nullptr));
+  fit.resting = placer.array<uint8_t>(moving);
   fit.symmetric = placer.array<uint32_t>(desc.symmetric_count);
   fit.points = placer.array<MienSolvePoint>(desc.point_count);
   fit.joint_weights = placer.array<float>(joints);
@@ -198,6 +203,11 @@ void copy_desc(const MienFitDesc& desc, MienFit& fit) {
     fit.controls[i] = desc.controls ? desc.controls[i] : i;
     fit.lower[i] = desc.lower ? desc.lower[i] : 0.0f;
     fit.upper[i] = desc.upper ? desc.upper[i] : 1.0f;
+  }
+  find_rotations(fit.rig, {fit.raw.data, fit.raw.count}, desc.controls, moving, fit.rotations.data);
+  for (const uint32_t r : fit.rotations) {
+    std::fill(fit.lower.data + r, fit.lower.data + r + 4, -kNoBound);
+    std::fill(fit.upper.data + r, fit.upper.data + r + 4, kNoBound);
   }
   std::copy(desc.symmetric, desc.symmetric + desc.symmetric_count, fit.symmetric.data);
   for (size_t i = 0; i < fit.joint_count; ++i) {

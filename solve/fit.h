@@ -45,6 +45,8 @@ struct MienFit {
   mien::Span<float> initial;                 // [raw control]
   mien::Span<uint32_t> controls;             // that may move
   mien::Span<float> lower, upper;            // beside controls
+  mien::Span<uint32_t> rotations;            // places in `controls` of quaternions: four in a row
+  mien::Span<uint8_t> resting;               // [control that may move] see rest_rotations()
   mien::Span<uint32_t> symmetric;            // pairs of places in `controls`
   mien::Span<MienSolvePoint> points;         // by positions of `deformed`
   mien::Span<MienSolvePoint> whole_points;   // by positions of the mesh
@@ -137,6 +139,24 @@ constexpr uint32_t kBlockFrames = 16;  // whose joint values are multiplied toge
 bool measure_rig(MienFit& fit, const MienDeformer* deformer, Arena& arena);
 /// The metric of points, and the effects of controls on samples (measure_points.cpp).
 bool measure_points(MienFit& fit, const MienDeformer* deformer, Arena& arena);
+
+// Rotations (rotations.cpp): a unit quaternion q among the controls. Its derivatives along q do not count.
+
+/// Places in the `count` controls that move (NULL: all) where a quaternion begins, into `out` if it is not NULL; returns
+/// how many.
+size_t find_rotations(const MienRig* rig, const Span<const float>& initial, const uint32_t* moving,
+                      size_t count, uint32_t* out);
+/// Those of MienFit::raw get the length 1.
+void normalize_rotations(MienFit& fit);
+void hold_gradient(MienFit& fit);
+/// MienFit::matrix of the free controls, at MienFit::raw.
+void hold_matrix(MienFit& fit, size_t free_count);
+/// Makes that definite along q.
+void stiffen_lengths(MienFit& fit, size_t free_count);
+/// MienFit::step leads from unit quaternions to unit quaternions, which turn only so far.
+void turn_rotations(MienFit& fit, size_t free_count);
+/// Puts those that are all but at their initial values there, and marks them: MienFit::resting. False if there are none.
+bool rest_rotations(MienFit& fit);
 
 /// The entries of MienFit::by_raw, by column.
 inline MienJacobianPattern pattern_of(const MienFit& fit) {

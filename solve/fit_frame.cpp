@@ -80,6 +80,7 @@ void read_rows(Frame& f) {
     float& v = fit.raw[fit.controls[i]];
     v = std::min(std::max(v, fit.lower[i]), fit.upper[i]);
   }
+  normalize_rotations(fit);
 }
 
 void tell(const MienFit& fit, const Frame& f, float* out_raw, MienFitResult& told) {

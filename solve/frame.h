@@ -49,8 +49,10 @@ struct Frame {
 
   bool has_points() const { return in.points || in.images || in.surface; }
   bool is_locked(uint32_t control) const { return in.stages && in.stages[control] > stage; }
-  /// Steps need more than the metric of points at rest.
-  bool has_rows() const { return in.images || in.surface || in.rigid || exact; }
+  /// Steps need more than the metric at rest. That of rotations changes with the pose.
+  bool has_rows() const {
+    return in.images || in.surface || in.rigid || exact || !fit.rotations.empty();
+  }
   size_t motion_count() const { return !in.rigid ? 0 : in.images && in.focal ? 7 : 6; }
   double joint_factor() const { return in.joint_weight > 0 ? in.joint_weight : 1; }
 };

@@ -170,7 +170,8 @@ bool measure_joints(MienFit& fit, Arena& arena, Entries& entries) {
       !find_entries(fit, fit.control_derivatives, MIEN_POINT_JOINTS, arena, entries)) {
     return false;
   }
-  if (are_sums(fit, entries, dense.first(fit.joint_count)) && !keep_effects(fit, entries)) {
+  if (fit.rotations.empty() && are_sums(fit, entries, dense.first(fit.joint_count)) &&
+      !keep_effects(fit, entries)) {
     return false;
   }
   std::fill(dense.begin(), dense.end(), 0.0);
@@ -204,6 +205,7 @@ void find_observability(MienFit& fit) {
   project(fit.joint_metric, fit.joint_stiffness);
   if (fit.points.count != 0) project(fit.point_metric, fit.point_stiffness);
   std::fill(fit.observability.begin(), fit.observability.end(), 0.0f);
+  hold_matrix(fit, count);
   double* const m = fit.matrix.data;
   double largest = 0;
   for (size_t i = 0; i < count; ++i) {
@@ -224,7 +226,7 @@ void find_observability(MienFit& fit) {
         pivot = i;
       }
     }
-    if (pivot == count) return;
+    if (pivot == count) break;
     fit.step[pivot] = 0;
     fit.observability[fit.controls[pivot]] = static_cast<float>(std::min(best, 1.0));
     const double diagonal = m[pivot * count + pivot];
@@ -235,6 +237,11 @@ void find_observability(MienFit& fit) {
       if (factor == 0) continue;
       for (size_t k = 0; k < count; ++k) m[i * count + k] -= factor * fit.factor[k];
     }
+  }
+  // A rotation is determined as well as the turn that is determined least.
+  for (const uint32_t r : fit.rotations) {
+    float* const parts = fit.observability.data + fit.controls[r];
+    std::fill(parts, parts + 4, std::min({parts[0], parts[1], parts[2]}));
   }
 }
 

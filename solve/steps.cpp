@@ -22,7 +22,7 @@ size_t list_free(const Frame& f) {
   const MienFit& fit = f.fit;
   size_t count = 0;
   for (size_t i = 0; i < fit.controls.count; ++i) {
-    if (f.is_locked(fit.controls[i])) continue;
+    if (f.is_locked(fit.controls[i]) || fit.resting[i]) continue;
     const float value = fit.raw[fit.controls[i]];
     if (value <= fit.lower[i] && fit.gradient[i] >= 0) continue;
     if (value >= fit.upper[i] && fit.gradient[i] <= 0) continue;
@@ -38,7 +38,7 @@ void set_matrix(Frame& f, size_t free_count) {
   list_free_derivatives(fit, free_count);
   std::fill(fit.matrix.data, fit.matrix.data + free_count * free_count, 0.0);
   if (f.in.joints) project_metric(fit, fit.joint_metric.data, f.joint_factor(), free_count);
-  add_point_rows(f, free_count);
+  if (f.has_points()) add_point_rows(f, free_count);
   list_constraint_rows(f, MIEN_POINT_RAW);
   for (size_t r = 0; r < f.row_count; ++r) {
     const float* row = fit.constraint_rows.data + r * fit.raw_count;
@@ -50,6 +50,8 @@ void set_matrix(Frame& f, size_t free_count) {
     }
   }
   add_regularization(f, free_count);
+  hold_matrix(fit, free_count);
+  stiffen_lengths(fit, free_count);
 }
 
 /// A step from `best` into the instance; controls that leave their bounds stay at them. Returns how far the
@@ -57,6 +59,7 @@ void set_matrix(Frame& f, size_t free_count) {
 double take_step(Frame& f, size_t free_count, double damping) {
   MienFit& fit = f.fit;
   find_bounded_step(f, free_count, damping);
+  turn_rotations(fit, free_count);
   double farthest = 0;
   for (size_t a = 0; a < free_count; ++a) {
     const uint32_t i = fit.free[a], c = fit.controls[i];
@@ -67,6 +70,7 @@ double take_step(Frame& f, size_t free_count, double damping) {
     farthest = std::max(farthest, std::fabs(to - from));
     fit.raw[c] = static_cast<float>(to);
   }
+  normalize_rotations(fit);
   return farthest;
 }
 
@@ -133,7 +137,25 @@ struct Solve {
     return found;
   }
   uint32_t run_stage(uint32_t limit, double enough_decrease);
+  bool rest();
 };
+
+/// The angle between floats of nearly equal rotations is mostly rounding, of which RBF solvers make noise. So rotations
+/// that are all but at rest are put there, and the others go on without them. False if that does not lower the cost.
+bool Solve::rest() {
+  MienFit& fit = f.fit;
+  std::copy(fit.best.begin(), fit.best.end(), fit.raw.begin());
+  if (!rest_rotations(fit)) return false;
+  const Cost next = find_all();
+  if (compared(next) < cost.total) {
+    cost = next;
+    keep();
+    return true;
+  }
+  std::copy(fit.best.begin(), fit.best.end(), fit.raw.begin());
+  cost = find_all();
+  return false;
+}
 
 /// Steps until nothing is gained: MIEN_FIT_...
 uint32_t Solve::run_stage(uint32_t limit, double enough_decrease) {
@@ -164,6 +186,8 @@ uint32_t Solve::run_stage(uint32_t limit, double enough_decrease) {
     if (by_model) {
       make_model(f);
     } else {
+      // What a rotation does changes with its pose, and on the other side of the pose of an RBF solver.
+      if (fit.rotations.count != 0) std::fill(fit.measured.begin(), fit.measured.end(), uint8_t{0});
       find_gradient(f);
       free_count = list_free(f);
       if (free_count == 0) return MIEN_FIT_CONVERGED;
@@ -290,8 +314,13 @@ void solve_frame(Frame& f, MienFitResult& told) {
     while (present >> (last + 1) != 0) ++last;
     for (f.stage = 0; f.stage <= last; ++f.stage) {
       if ((present >> f.stage & 1) == 0) continue;
-      f.exact = f.few;  // the metric of points is of all of them
-      told.status = solve.run_stage(limit, f.stage == last ? kEnoughDecrease : kEnoughOfStage);
+      // The metric of points is of all of them, at rest.
+      f.exact = f.few || (!fit.rotations.empty() && f.has_points());
+      std::fill(fit.resting.begin(), fit.resting.end(), uint8_t{0});
+      const double enough = f.stage == last ? kEnoughDecrease : kEnoughOfStage;
+      do {
+        told.status = solve.run_stage(limit, enough);
+      } while (told.status == MIEN_FIT_CONVERGED && solve.rest());
       if (told.status == MIEN_FIT_CANCELED || told.status == MIEN_FIT_TIME) break;
     }
     told.jumped = has_jumped(f, moves);

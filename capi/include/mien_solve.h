@@ -40,7 +40,9 @@ typedef struct MienSolvePoint {
  * one for each thread. */
 typedef struct MienFit MienFit;
 
-/* How to create a fit. Everything is copied. */
+/* How to create a fit. Everything is copied. Raw controls in a row that are named as the parts x y z w of a
+ * quaternion (.qx .qy .qz .qw, or .x .y .z .w), and begin as 0 0 0 1, are a rotation: if all four may move, they keep
+ * the length 1, and have no bounds. */
 typedef struct MienFitDesc {
     size_t struct_size;
     const MienDeformer* deformer;  /* of the rig; needed for points and for constraints on joints. NULL: none */
@@ -151,7 +153,8 @@ typedef struct MienFitFrame {
     const float* prior;          /* raw controls that the result is drawn to. NULL: the initial ones */
     float prior_weight;          /* times the squared distance to `prior` */
     float smooth_weight;         /* times the squared distance to `start`, the previous frame */
-    float sparse_weight;         /* times the sum of magnitudes: few controls explain the frame */
+    float sparse_weight;         /* times the sum of magnitudes, from the initial values: few controls
+                                    explain the frame */
     float symmetric_weight;      /* times the squared differences of symmetric pairs */
     float robust_scale;          /* points farther off than this count less. 0: all count fully */
     float joint_weight;          /* weight of the joints relative to the points. 0: 1 */
@@ -227,7 +230,8 @@ MIEN_SOLVE_CHECKED MienStatus mien_fit_solve_frames(MienFit* fit, const MienFitF
                                                     float* out_raw, MienFitResult* results);
 
 /* Writes for each raw control how well the data determines it at the initial pose: 0 if it moves nothing
- * that has a target, or if other controls have the same effect; up to 1 for the best determined one.
+ * that has a target, or if other controls have the same effect; up to 1 for the best determined one. The
+ * parts of a rotation get the value of the turn that is determined least.
  * `count` is the number of raw controls.
  * Fails with MIEN_ERROR_INVALID_ARGUMENT if `count` is another number. */
 MIEN_SOLVE_CHECKED MienStatus mien_fit_observability(const MienFit* fit, float* out_values, size_t count);

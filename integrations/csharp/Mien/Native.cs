@@ -2662,7 +2662,9 @@ namespace Mien.Native {
     public fixed float Weights[3];
   }
 
-  /// <summary>How to create a fit. Everything is copied.</summary>
+  /// <summary>How to create a fit. Everything is copied. Raw controls in a row that are named as the parts x y z w of a
+  /// quaternion (.qx .qy .qz .qw, or .x .y .z .w), and begin as 0 0 0 1, are a rotation: if all four may move, they keep
+  /// the length 1, and have no bounds.</summary>
   [StructLayout(LayoutKind.Sequential)]
   public unsafe struct MienFitDesc {
     public UIntPtr StructSize;
@@ -2768,7 +2770,7 @@ namespace Mien.Native {
     public float PriorWeight;
     /// <summary>times the squared distance to `start`, the previous frame</summary>
     public float SmoothWeight;
-    /// <summary>times the sum of magnitudes: few controls explain the frame</summary>
+    /// <summary>times the sum of magnitudes, from the initial values: few controls explain the frame</summary>
     public float SparseWeight;
     /// <summary>times the squared differences of symmetric pairs</summary>
     public float SymmetricWeight;
@@ -4935,7 +4937,8 @@ namespace Mien.Native {
     public static extern Status mien_fit_solve_frames(FitHandle fit, MienFitFrame* frame, UIntPtr count, float* out_raw, MienFitResult* results);
 
     /// <summary>Writes for each raw control how well the data determines it at the initial pose: 0 if it moves nothing
-    /// that has a target, or if other controls have the same effect; up to 1 for the best determined one.
+    /// that has a target, or if other controls have the same effect; up to 1 for the best determined one. The
+    /// parts of a rotation get the value of the turn that is determined least.
     /// `count` is the number of raw controls.
     /// Fails with MIEN_ERROR_INVALID_ARGUMENT if `count` is another number.</summary>
     [DllImport("mien-solve", CallingConvention = CallingConvention.Cdecl)]

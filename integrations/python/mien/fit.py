@@ -121,7 +121,8 @@ class Fit(Closable):
 
     deformer:      needed for points
     controls:      raw controls that may move, ascending; None: all
-    lower, upper:  bounds, one number or one for each of these controls; None: 0 and 1
+    lower, upper:  bounds, one number or one for each of these controls; None: 0 and 1. Rotations, whose
+                   four parts are named .qx .qy .qz .qw or .x .y .z .w, have none
     symmetric:     pairs (left, right) of raw controls kept similar
     mesh:          the mesh of all points
     positions:     (points,) indices of positions, or (points, 3) with `weights`; None: every position if

@@ -2206,7 +2206,11 @@ export interface SolvePoint {
   weights?: readonly number[];
 }
 
-/** How to create a fit. Everything is copied. */
+/**
+ * How to create a fit. Everything is copied. Raw controls in a row that are named as the parts x y z w of a
+ * quaternion (.qx .qy .qz .qw, or .x .y .z .w), and begin as 0 0 0 1, are a rotation: if all four may move, they keep
+ * the length 1, and have no bounds.
+ */
 export interface FitDesc {
   /** of the rig; needed for points and for constraints on joints. NULL: none */
   deformer?: { readonly handle: number };
@@ -2296,7 +2300,9 @@ export interface FitFrame {
   priorWeight?: number;
   /** times the squared distance to `start`, the previous frame */
   smoothWeight?: number;
-  /** times the sum of magnitudes: few controls explain the frame */
+  /**
+   * times the sum of magnitudes, from the initial values: few controls explain the frame
+   */
   sparseWeight?: number;
   /** times the squared differences of symmetric pairs */
   symmetricWeight?: number;
@@ -4021,7 +4027,8 @@ export interface Exports {
   mien_fit_solve_frames(fit: number, frame: number, count: number, out_raw: number, results: number): number;
   /**
    * Writes for each raw control how well the data determines it at the initial pose: 0 if it moves nothing
-   * that has a target, or if other controls have the same effect; up to 1 for the best determined one.
+   * that has a target, or if other controls have the same effect; up to 1 for the best determined one. The
+   * parts of a rotation get the value of the turn that is determined least.
    * `count` is the number of raw controls.
    * Fails with MIEN_ERROR_INVALID_ARGUMENT if `count` is another number.
    */

@@ -3472,7 +3472,9 @@ impl Default for MienSolvePoint {
     }
 }
 
-/// How to create a fit. Everything is copied.
+/// How to create a fit. Everything is copied. Raw controls in a row that are named as the parts x
+/// y z w of a quaternion (.qx .qy .qz .qw, or .x .y .z .w), and begin as 0 0 0 1, are a rotation:
+/// if all four may move, they keep the length 1, and have no bounds.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienFitDesc {
@@ -3610,7 +3612,7 @@ pub struct MienFitFrame {
     pub prior_weight: f32,
     /// Times the squared distance to `start`, the previous frame.
     pub smooth_weight: f32,
-    /// Times the sum of magnitudes: few controls explain the frame.
+    /// Times the sum of magnitudes, from the initial values: few controls explain the frame.
     pub sparse_weight: f32,
     /// Times the squared differences of symmetric pairs.
     pub symmetric_weight: f32,
@@ -5640,7 +5642,8 @@ extern "C" {
 
     /// Writes for each raw control how well the data determines it at the initial pose: 0 if it
     /// moves nothing that has a target, or if other controls have the same effect; up to 1 for the
-    /// best determined one. `count` is the number of raw controls.
+    /// best determined one. The parts of a rotation get the value of the turn that is determined
+    /// least. `count` is the number of raw controls.
     ///
     /// Fails with `MIEN_ERROR_INVALID_ARGUMENT` if `count` is another number.
     pub fn mien_fit_observability(fit: *const MienFit, out_values: *mut f32, count: usize) -> MienStatus;
