@@ -29,7 +29,6 @@ struct Fragment {
   uint32_t triangle;
   math::Vec3 place, normal, to_eye, color;
   float roughness;
-  math::Vec3 smooth;  // the normal without that of a texture
 };
 
 class Scene {
