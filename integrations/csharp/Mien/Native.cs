@@ -3642,7 +3642,7 @@ namespace Mien.Native {
     /// storage. `count` is the capacity of `out_triangles`, in indices. With 16-bit storage takes memory for the
     /// duration of the call, 4 bytes per position, from the allocator of the deformer.
     /// Fails with MIEN_ERROR_INDEX if there is no such mesh, MIEN_ERROR_INVALID_ARGUMENT if `count` is less than
-    /// 3 * MienMesh.triangle_count.</summary>
+    /// 3 * MienMesh.triangle_count, MIEN_ERROR_MEMORY if memory ran out.</summary>
     [DllImport("mien", CallingConvention = CallingConvention.Cdecl)]
     public static extern Status mien_deformer_triangles(DeformerHandle deformer, uint mesh, uint* out_triangles, UIntPtr count);
 

@@ -1661,7 +1661,7 @@ MienStatus mien_deformer_mesh(MienDeformer const* deformer, uint32_t mesh, MienM
 storage. `count` is the capacity of `out_triangles`, in indices. With 16-bit storage takes memory for the
 duration of the call, 4 bytes per position, from the allocator of the deformer.
 Fails with MIEN_ERROR_INDEX if there is no such mesh, MIEN_ERROR_INVALID_ARGUMENT if `count` is less than
-3 * MienMesh.triangle_count. */
+3 * MienMesh.triangle_count, MIEN_ERROR_MEMORY if memory ran out. */
 MienStatus mien_deformer_triangles(MienDeformer const* deformer, uint32_t mesh, uint32_t* out_triangles, size_t count);
 
 /* Writes the texture coordinates of a mesh to `out_coordinates`: 2 floats per vertex, u v, with any storage. With

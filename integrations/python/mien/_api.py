@@ -4457,6 +4457,8 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
          "`count` is less than 3 * MienMesh.triangle_count"),
         (Status.INDEX,
          "there is no such mesh"),
+        (Status.MEMORY,
+         "memory ran out"),
     ),
     "mien_deformer_texture_coordinates": (
         (Status.INVALID_ARGUMENT,

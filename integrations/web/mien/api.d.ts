@@ -2846,7 +2846,7 @@ export interface Exports {
    * storage. `count` is the capacity of `out_triangles`, in indices. With 16-bit storage takes memory for the
    * duration of the call, 4 bytes per position, from the allocator of the deformer.
    * Fails with MIEN_ERROR_INDEX if there is no such mesh, MIEN_ERROR_INVALID_ARGUMENT if `count` is less than
-   * 3 * MienMesh.triangle_count.
+   * 3 * MienMesh.triangle_count, MIEN_ERROR_MEMORY if memory ran out.
    */
   mien_deformer_triangles(deformer: number, mesh: number, out_triangles: number, count: number): number;
   /**

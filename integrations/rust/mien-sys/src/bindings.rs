@@ -4261,7 +4261,7 @@ extern "C" {
     /// position, from the allocator of the deformer.
     ///
     /// Fails with `MIEN_ERROR_INDEX` if there is no such mesh, `MIEN_ERROR_INVALID_ARGUMENT` if
-    /// `count` is less than 3 \* MienMesh.`triangle_count`.
+    /// `count` is less than 3 \* MienMesh.`triangle_count`, `MIEN_ERROR_MEMORY` if memory ran out.
     pub fn mien_deformer_triangles(deformer: *const MienDeformer, mesh: u32, out_triangles: *mut u32, count: usize) -> MienStatus;
 
     /// Writes the texture coordinates of a mesh to `out_coordinates`: 2 floats per vertex, u v,

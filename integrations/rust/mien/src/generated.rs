@@ -2127,7 +2127,8 @@ macro_rules! errors {
     };
     (mien_deformer_triangles) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `count` is less than 3 \\* MienMesh.`triangle_count`\n\
-         - [`Status::INDEX`](crate::Status::INDEX) if there is no such mesh"
+         - [`Status::INDEX`](crate::Status::INDEX) if there is no such mesh\n\
+         - [`Status::MEMORY`](crate::Status::MEMORY) if memory ran out"
     };
     (mien_deformer_texture_coordinates) => {
         "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if `count` is less than 2 \\* MienMesh.`vertex_count`\n\
