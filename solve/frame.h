@@ -2,6 +2,7 @@
 // One frame while it is solved: what the caller gave, and how the target is moved as a whole.
 #pragma once
 
+#include <chrono>
 #include <cmath>
 
 #include "solve/fit.h"
@@ -35,6 +36,8 @@ struct Motion {
 };
 
 struct Frame {
+  using Clock = std::chrono::steady_clock;
+
   MienFit& fit;
   MienFitFrame in;
   Motion motion;
@@ -46,7 +49,12 @@ struct Frame {
   Span<const uint32_t> samples = {};  // points that stand for all
   bool own_samples = false;           // they are chosen for this frame; else MienFit::samples
   bool few = false;                   // less than half of the points count
+  Clock::time_point begin = Clock::now();
 
+  bool is_late() const {
+    return in.max_seconds > 0 &&
+           std::chrono::duration<double>(Clock::now() - begin).count() >= in.max_seconds;
+  }
   bool has_points() const { return in.points || in.images || in.surface; }
   bool is_locked(uint32_t control) const { return in.stages && in.stages[control] > stage; }
   /// Steps need more than the metric at rest. That of rotations changes with the pose.

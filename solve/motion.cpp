@@ -80,6 +80,7 @@ void fit_motion(Frame& f, uint32_t rounds) {
   MotionCost cost = motion_cost(f);
   double damping = 1e-6;
   for (uint32_t round = 0; round < rounds; ++round) {
+    if (round != 0 && f.is_late()) return;
     // Before there are best controls, each round is compared by the targets before it.
     if (f.in.surface && f.starting) keep_targets(fit);
     const double from = f.starting ? cost.total : cost.compared;

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Solves a frame: bounded Gauss-Newton steps with Levenberg-Marquardt damping (docs/solving.md).
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "solve/frame.h"
 
 namespace mien {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr uint32_t kDefaultIterations = 50;
 constexpr double kSlow = 0.3;            // of what the step before gained
@@ -117,12 +114,7 @@ struct Solve {
   Cost cost;         // at the best controls
   double first = 0;  // the total at the start
   uint32_t iterations = 0;
-  Clock::time_point begin = Clock::now();
 
-  bool is_late() const {
-    return f.in.max_seconds > 0 &&
-           std::chrono::duration<double>(Clock::now() - begin).count() >= f.in.max_seconds;
-  }
   void keep() {
     std::copy(f.fit.raw.begin(), f.fit.raw.end(), f.fit.best.begin());
     if (f.in.surface) keep_targets(f.fit);
@@ -180,7 +172,7 @@ uint32_t Solve::run_stage(uint32_t limit, double enough_decrease) {
   };
   for (uint32_t done = 0; done < limit; ++done, ++iterations) {
     if (f.in.canceled && f.in.canceled(f.in.user)) return MIEN_FIT_CANCELED;
-    if (iterations != 0 && is_late()) return MIEN_FIT_TIME;
+    if (iterations != 0 && f.is_late()) return MIEN_FIT_TIME;
     const bool by_model = !f.has_rows();
     size_t free_count = 0;
     if (by_model) {
@@ -238,6 +230,10 @@ uint32_t Solve::run_stage(uint32_t limit, double enough_decrease) {
         cost = find_all();  // of the best controls
         if (!f.exact && damping > kFirstDamping && measure_again()) break;
         return MIEN_FIT_CONVERGED;
+      }
+      if (f.is_late()) {
+        cost = find_all();
+        return MIEN_FIT_TIME;
       }
       damping *= 10;
     }

@@ -55,20 +55,29 @@ Point3 nearest_on_triangle(const Point3& p, const Point3& a, const Point3& b, co
   return best;
 }
 
+constexpr size_t kBoxFloats = 12,
+                 kBoxedRange = 16;  // positions of shorter ranges are all looked at
+
 void split(MienFitSurface& s, size_t begin, size_t end) {
-  while (end - begin > 1) {
-    float low[3], high[3];
-    for (int k = 0; k < 3; ++k) low[k] = HUGE_VALF, high[k] = -HUGE_VALF;
+  while (begin < end) {
+    const size_t middle = begin + (end - begin) / 2;
+    float* const box = s.boxes.data + middle * kBoxFloats;
+    for (size_t k = 0; k < 3; ++k) {
+      box[k] = box[6 + k] = HUGE_VALF;
+      box[3 + k] = box[9 + k] = -HUGE_VALF;
+    }
     for (size_t i = begin; i < end; ++i) {
       const float* p = s.positions.data + size_t{s.order[i]} * 3;
-      for (int k = 0; k < 3; ++k)
-        low[k] = std::min(low[k], p[k]), high[k] = std::max(high[k], p[k]);
+      const float* n = s.normals.data + size_t{s.order[i]} * 3;
+      for (size_t k = 0; k < 3; ++k) {
+        box[k] = std::min(box[k], p[k]), box[3 + k] = std::max(box[3 + k], p[k]);
+        box[6 + k] = std::min(box[6 + k], n[k]), box[9 + k] = std::max(box[9 + k], n[k]);
+      }
     }
     uint8_t axis = 0;
     for (uint8_t k = 1; k < 3; ++k) {
-      if (high[k] - low[k] > high[axis] - low[axis]) axis = k;
+      if (box[3 + k] - box[k] > box[3 + axis] - box[axis]) axis = k;
     }
-    const size_t middle = begin + (end - begin) / 2;
     std::nth_element(s.order.data + begin, s.order.data + middle, s.order.data + end,
                      [&](uint32_t a, uint32_t b) {
                        const float x = s.positions[size_t{a} * 3 + axis];
@@ -87,9 +96,24 @@ struct Search {
   double squared;  // of the best so far
   uint32_t best = UINT32_MAX;
 
+  /// Whether the range of a box may have a nearer position that faces the same way. Rounded like distances, so that
+  /// it leaves out none. Planes alone do not: a surface that is far away, or near but turned away, has all of its
+  /// positions on both sides of them.
+  bool may_have(const float* box) const {
+    const double at[3] = {point.x, point.y, point.z}, way[3] = {normal.x, normal.y, normal.z};
+    double out[3], same[3];
+    for (size_t k = 0; k < 3; ++k) {
+      out[k] = std::max({double{box[k]} - at[k], at[k] - double{box[3 + k]}, 0.0});
+      same[k] = std::max(way[k] * double{box[6 + k]}, way[k] * double{box[9 + k]});
+    }
+    if (out[0] * out[0] + out[1] * out[1] + out[2] * out[2] >= squared) return false;
+    return dot(normal, normal) == 0 || same[0] + same[1] + same[2] >= kFacesTheSameWay;
+  }
+
   void visit(size_t begin, size_t end) {
     while (begin < end) {
       const size_t middle = begin + (end - begin) / 2;
+      if (end - begin >= kBoxedRange && !may_have(surface.boxes.data + middle * kBoxFloats)) return;
       const uint32_t at = surface.order[middle];
       const Point3 p = point_of(surface.positions.data + size_t{at} * 3);
       const Point3 d = point - p;
@@ -150,6 +174,7 @@ void place(const MienFitSurfaceDesc& desc, Placer& placer, MienFitSurface& s) {
   s.borders = placer.array<uint8_t>(desc.position_count);
   s.order = placer.array<uint32_t>(desc.position_count);
   s.axes = placer.array<uint8_t>(desc.position_count);
+  s.boxes = placer.array<float>(desc.position_count * kBoxFloats);
 }
 
 /// Triangles between one position of each place. `first_around` is scratch: the position to use.

@@ -22,6 +22,7 @@ struct MienFitSurface {
   // The tree: the middle of a range splits it by the coordinate of its axis; each half likewise.
   mien::Span<uint32_t> order;  // positions that triangles have
   mien::Span<uint8_t> axes;    // [place in `order`]
+  mien::Span<float> boxes;     // [middle of a range][low, high position, low, high normal][3]
 };
 
 namespace mien {

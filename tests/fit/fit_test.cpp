@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <limits>
 #include <numeric>
 
@@ -368,6 +369,78 @@ TEST(Fit, SurfacesOfAnotherTopologyDrawPointsToThem) {
     EXPECT_LT(result.missing_points, points.size() / 3);
     EXPECT_LT(result.point_residual, 0.15) << "points that lose their target stop no step";
   }
+}
+
+// Of a surface a hundred times too small, all places are about as far from any point: the search still leaves out most of
+// them, and a solve ends with its named status, at a limit of time soon after it.
+TEST(Fit, SurfacesOfAnotherSizeEndSoon) {
+  Head head;
+  const MienMesh mesh = mesh_of(head.deformer.get(), 0);
+  const std::vector<MienSolvePoint> points = every(mesh.position_count, 9);
+  MienFitDesc desc = sized<MienFitDesc>();
+  desc.deformer = head.deformer.get();
+  desc.points = points.data();
+  desc.point_count = points.size();
+  const FitHandle fit = create_fit(head.rig, desc);
+  const std::vector<float> rest = head.positions(std::vector<float>(head.character.raw.count));
+  // Each triangle as 64.
+  std::vector<float> surface;
+  std::vector<uint32_t> triangles;
+  constexpr uint32_t kParts = 8;
+  constexpr double kMostTimes =
+      200;  // as long: it takes 30; a search of all places more than 10,000
+  for (size_t t = 0; t < mesh.triangle_count; ++t) {
+    const float* corner[3];
+    for (size_t n = 0; n < 3; ++n) {
+      corner[n] = rest.data() +
+                  mesh.vertex_position_indices.data[mesh.triangles.data[3 * t + n]] * size_t{3};
+    }
+    const auto place = [&](uint32_t a, uint32_t b) {
+      for (size_t k = 0; k < 3; ++k) {
+        const float u = static_cast<float>(a) / kParts, v = static_cast<float>(b) / kParts;
+        surface.push_back(corner[0][k] + u * (corner[1][k] - corner[0][k]) +
+                          v * (corner[2][k] - corner[0][k]));
+      }
+      triangles.push_back(static_cast<uint32_t>(surface.size() / 3 - 1));
+    };
+    for (uint32_t a = 0; a < kParts; ++a) {
+      for (uint32_t b = 0; a + b < kParts; ++b) {
+        place(a, b), place(a + 1, b), place(a, b + 1);
+        if (a + b + 1 < kParts) place(a + 1, b), place(a + 1, b + 1), place(a, b + 1);
+      }
+    }
+  }
+  std::vector<float> small = surface;
+  for (float& v : small) v *= 0.01f;
+  std::vector<float> found(head.character.raw.count);
+  struct Solved {
+    MienFitResult result;
+    double seconds;  // of the processor
+  };
+  const auto solve = [&](const SurfaceHandle& target, uint32_t rigid, double limit) {
+    MienFitFrame frame = mien_fit_frame_default();
+    frame.surface = target.get();
+    frame.rigid = rigid;
+    frame.max_iterations = 2;
+    frame.max_seconds = limit;
+    Solved solved = {mien_fit_result_default(), 0};
+    const std::clock_t begin = std::clock();
+    EXPECT_EQ(mien_fit_solve(fit.get(), &frame, found.data(), &solved.result), MIEN_OK);
+    solved.seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+    for (const float v : found) EXPECT_TRUE(v >= 0 && v <= 1) << v;
+    return solved;
+  };
+  const SurfaceHandle right = create_surface(surface, triangles),
+                      wrong = create_surface(small, triangles);
+  for (const uint32_t rigid : {0u, 1u}) {
+    const Solved near = solve(right, rigid, 0), far = solve(wrong, rigid, 0);
+    EXPECT_LT(near.result.point_residual, 0.01);
+    EXPECT_GT(far.result.point_residual, 1);
+    EXPECT_EQ(far.result.status, MIEN_FIT_ITERATIONS);
+    EXPECT_LT(far.seconds, kMostTimes * near.seconds) << rigid;
+  }
+  const Solved limited = solve(wrong, 1, 1e-9);
+  EXPECT_EQ(limited.result.status, MIEN_FIT_TIME);
 }
 
 TEST(Fit, RefusesWrongSurfaces) {

@@ -99,8 +99,7 @@ MienAuthorDesc parse_options(const AuthorCommand& command) {
       MIEN_SYMMETRY_AUTO + static_cast<uint32_t>(parse_word("--symmetry", command.symmetry));
   set_axes(command, desc);
   if (!command.unit.empty()) {
-    constexpr double kCentimeters[] = {1, 100, 0.1, 10, 2.54};
-    desc.unit = kCentimeters[parse_word("--unit", command.unit)];
+    desc.unit = parse_unit(command.unit);
   }
   if (command.paper) desc.flags |= MIEN_AUTHOR_PAPER;
   if (command.no_neck_cut) desc.flags |= MIEN_AUTHOR_NO_NECK_CUT;

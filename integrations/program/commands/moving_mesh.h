@@ -28,6 +28,11 @@ struct RigSpace {
                        dot(p, kAxisDirections[info.axes[2]])} *
            units;
   }
+  /// In units of the rig; 1 if `unit`, a word of --unit, is empty.
+  double units_of(const std::string& unit) const {
+    if (unit.empty()) return 1;
+    return parse_unit(unit) / (info.translation_unit == MIEN_TRANSLATION_UNIT_METERS ? 100 : 1);
+  }
   /// The other way, in centimeters.
   math::Vec3d to_centimeters(const float* p) const {
     math::Vec3d out;

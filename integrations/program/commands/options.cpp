@@ -151,6 +151,11 @@ const MienCoordinateSystem* find_system(const LoadOptions& options) {
 
 }  // namespace
 
+double parse_unit(const std::string& word) {
+  constexpr double kCentimeters[] = {1, 100, 0.1, 10, 2.54};
+  return kCentimeters[parse_word("--unit", word)];
+}
+
 uint64_t parse_lod_list(const std::string& list) {
   uint64_t mask = 0;
   for (const std::string& word : split_at_commas(list)) {

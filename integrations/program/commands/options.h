@@ -40,6 +40,9 @@ size_t parse_word(const std::string& option, const std::string& word);
 /// The same for a list separated by commas.
 std::vector<size_t> parse_words(const std::string& option, const std::string& list);
 
+/// Centimeters in a unit, a word of --unit.
+double parse_unit(const std::string& word);
+
 /// Names of coordinate systems, as the library lists them.
 const Words& system_names();
 

@@ -12,6 +12,7 @@
 #include "integrations/program/commands/landmark_sets.h"
 #include "integrations/program/commands/solve_neutral.h"
 #include "integrations/program/commands/solve_output.h"
+#include "integrations/program/commands/solve_space.h"
 #include "integrations/program/commands/solve_target.h"
 #include "integrations/program/io/controls.h"
 #include "integrations/program/io/dna_fields.h"
@@ -58,6 +59,12 @@ void check_command(const SolveCommand& command, TargetKind kind) {
   if (!command.robust.empty() && kind == TargetKind::kJoints) {
     fail_usage("--robust", "only distances of points are compared with it", "leave it out");
   }
+  if (!command.target.unit.empty()) {
+    if (kind != TargetKind::kVertices && kind != TargetKind::kSurface) {
+      fail_usage("--unit", "only that of vertices and surfaces is converted", "leave it out");
+    }
+    parse_unit(command.target.unit);
+  }
   const std::string& path = command.output.path;
   if (path != "-" && !ends_with(path, ".clip") && !ends_with(path, ".json")) {
     fail_usage("-o " + path, "the ending of the name selects the format", "use .clip or .json");
@@ -80,6 +87,7 @@ void check_placing(const SolveCommand& command) {
         {"--from", command.target.from},
         {"--landmarks", command.target.landmarks},
         {"--mask", command.target.mask},
+        {"--unit", command.target.unit},
         {"--controls", command.controls},
         {"--first", command.first},
         {"--keys", command.keys},
@@ -341,6 +349,7 @@ void solve_file(const SolveCommand& command, const Session& session) {
     fail(kInvalid, "cannot solve", shown_name(command.target.path),
          "it has more than 10,000,000 frames", "solve it in parts");
   }
+  watch_space(command, rig, target);
   const Fit fit = create_fit(rig, target, moving);
   if (neutral.given()) adapt_to_neutral(neutral, command, rig, fit, target, session);
   SolvedTake take = solve_take(command, rig, target, fit, session);
@@ -402,6 +411,12 @@ Command add_solve_command(CLI::App& app, const Session& session) {
   solve
       ->add_option("--mesh", options->target.mesh,
                    "Mesh that has the vertices or landmarks (default: the first of\nLOD 0)")
+      ->type_name("NAME");
+  solve
+      ->add_option(
+          "--unit", options->target.unit,
+          "Unit of vertices or a surface: cm, m, mm, dm or in (default: m for GLB and\nOBJ "
+          "of `mien export`, else that of RIG, whose size it must have)")
       ->type_name("NAME");
   solve
       ->add_option("--landmarks", options->target.landmarks,

@@ -40,15 +40,26 @@ std::pair<size_t, size_t> find_positions(const MeshFile& file, const std::string
   return {low, size_t{high} - low + 1};
 }
 
+/// From the unit and axes of files to those of a rig.
+struct FileSpace {
+  RigSpace space;
+  std::string unit;
+
+  Vec3d place(const MeshFile& file, const Vec3d& point) const {
+    if (!file.in_meters) return point * space.units_of(unit);
+    return space.from_gltf(point) * (unit.empty() ? 1 : parse_unit(unit) / 100);
+  }
+};
+
 /// From the positions of files to those of the mesh of a rig.
 struct MeshReader {
   MienMesh mesh;
   std::string name;
-  RigSpace space;
+  FileSpace space;
 
-  MeshReader(const SolvedRig& solved, uint32_t index)
+  MeshReader(const SolvedRig& solved, uint32_t index, const std::string& unit)
       : mesh(mesh_of(solved, index)), name(rig_name(solved.rig, MIEN_KIND_MESH, index)),
-        space(solved) {}
+        space({RigSpace(solved), unit}) {}
 
   /// Files by vertices have several at one position, of which the last counts: all are the same.
   void place(const MeshFile& file, const std::string& path, const std::vector<Vec3d>& points,
@@ -63,7 +74,7 @@ struct MeshReader {
     }
     for (size_t i = 0; i < count; ++i) {
       const size_t to = by_vertex ? mesh.vertex_position_indices.data[i] : i;
-      const Vec3d p = file.in_meters ? space.from_gltf(points[first + i]) : points[first + i];
+      const Vec3d p = space.place(file, points[first + i]);
       for (int k = 0; k < 3; ++k) row[3 * to + static_cast<size_t>(k)] = static_cast<float>(p[k]);
     }
   }
@@ -210,11 +221,11 @@ struct MeshFrames {
 
 /// In the unit and axes of the rig, faces as fans of triangles.
 SurfaceMesh surface_of(const MeshFile& file, const std::string& shown,
-                       const std::vector<Vec3d>& points, const RigSpace& space) {
+                       const std::vector<Vec3d>& points, const FileSpace& space) {
   SurfaceMesh surface;
   surface.shown = shown;
   for (const Vec3d& point : points) {
-    const Vec3d p = file.in_meters ? space.from_gltf(point) : point;
+    const Vec3d p = space.place(file, point);
     for (int k = 0; k < 3; ++k) surface.positions.push_back(static_cast<float>(p[k]));
   }
   size_t first = 0;
@@ -244,7 +255,7 @@ FitSurface create_surface(const SurfaceMesh& mesh) {
 
 SolveTarget read_meshes(const TargetOptions& options, const SolvedRig& rig, uint32_t mesh) {
   SolveTarget target;
-  auto reader = std::make_shared<MeshReader>(rig, mesh);
+  auto reader = std::make_shared<MeshReader>(rig, mesh, options.unit);
   auto frames = std::make_shared<MeshFrames>(options.path);
   target.width = size_t{3} * reader->mesh.position_count;
   target.frame_names = frames->names();
@@ -262,7 +273,7 @@ SolveTarget read_surfaces(const TargetOptions& options, const SolvedRig& rig) {
   auto frames = std::make_shared<MeshFrames>(options.path);
   target.frame_names = frames->names();
   target.frame_count = frames->count;
-  target.read_surface = [frames, space = RigSpace(rig)](size_t frame) {
+  target.read_surface = [frames, space = FileSpace{RigSpace(rig), options.unit}](size_t frame) {
     return frames->at(frame, [&](const MeshFile& file, const std::string& path,
                                  const std::vector<Vec3d>& points) {
       return surface_of(file, path, points, space);

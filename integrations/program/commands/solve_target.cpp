@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "integrations/program/commands/baked_rig.h"
+#include "integrations/program/commands/moving_mesh.h"
 #include "integrations/program/commands/solve_joints.h"
 #include "integrations/program/commands/solve_landmarks.h"
 #include "integrations/program/commands/solve_mask.h"
@@ -176,6 +177,13 @@ SolveTarget open_target(const TargetOptions& options, TargetKind kind, const Sol
       target = read_surfaces(options, rig);
     } else {
       target = read_meshes(options, rig, mesh);
+    }
+    if (kind == TargetKind::kVertices && is_array_file(options.path) && !options.unit.empty()) {
+      const double units = RigSpace(rig).units_of(options.unit);
+      target.read = [read = target.read, units, width = target.width](size_t frame, float* row) {
+        read(frame, row);
+        for (size_t i = 0; i < width; ++i) row[i] = static_cast<float>(row[i] * units);
+      };
     }
     for (uint32_t p = 0; p < count; ++p) target.points.push_back({mesh, {p, p, p}, {1, 0, 0}});
   }

@@ -49,7 +49,7 @@ float parse_weight(const char* option, const std::string& word);
 enum class TargetKind { kVertices, kJoints, kLandmarks3, kLandmarks2, kWeights, kSurface };
 
 struct TargetOptions {
-  std::string path, kind, from, mesh, landmarks, mask;
+  std::string path, kind, from, mesh, landmarks, mask, unit;
 };
 
 /// .npy or .npz.

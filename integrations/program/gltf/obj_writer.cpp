@@ -10,6 +10,7 @@
 #include "integrations/program/gltf/material.h"
 #include "integrations/program/gltf/rig_source.h"
 #include "integrations/program/gltf/scene_materials.h"
+#include "integrations/program/io/obj_space.h"
 #include "integrations/program/math/srgb.h"
 
 namespace mien::gltf {
@@ -165,7 +166,7 @@ void write_mesh(const RigSource& source, uint32_t number, const MienDeformerInst
 
 std::string write_obj(const RigSource& source, MienDeformerInstance* pose,
                       const std::string& material_library, const cli::Materials& materials) {
-  std::string text = "# meters, y up, z to the front\n";
+  std::string text = std::string(cli::kObjInMeters) + "\n";
   if (!material_library.empty()) text += "mtllib " + material_library + "\n";
   Base base;
   for (uint32_t m = 0; m < source.count(MIEN_KIND_MESH); ++m) {

@@ -51,7 +51,7 @@ struct MeshFile {
     return material == kNoMaterial ? "no material" : materials[material].surface.name;
   }
 
-  bool in_meters = false;  // as glTF says
+  bool in_meters = false;  // y up, z to the front: glTF, and OBJ of `mien export`
 
   size_t position_count() const { return positions.size() / 3; }
 };

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <set>
 
+#include "integrations/program/io/obj_space.h"
 #include "integrations/program/mesh/text_lines.h"
 
 namespace mien::cli {
@@ -118,6 +119,7 @@ void add_object(const std::string& name, const Faces& faces, std::set<std::strin
 MeshFile read_obj(const std::string& bytes, const std::string& path) {
   MeshFile mesh;
   TextLines lines(bytes, path);
+  mesh.in_meters = bytes.compare(0, sizeof(kObjInMeters) - 1, kObjInMeters) == 0;
   // An object may come back after others.
   std::vector<std::string> names;
   std::vector<Faces> objects;

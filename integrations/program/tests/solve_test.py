@@ -126,6 +126,26 @@ class Kinds(SolveTest):
                     self.compare(row, POSE, 0.01, report["unobservable"])
                 self.assertLess(report["residual"]["worst"], 0.01)  # cm
 
+    def test_units_and_axes(self):
+        """Files of `mien export` say theirs; --unit says that of others."""
+        sets = [word for name, value in POSE.items() for word in ("--set", f"{name}={value}")]
+        self.ok("export", path(HEAD), "-o", path("own.obj"), "--lod", "0", *sets)
+        mesh, points = self.obj(POSE)
+        meters = [[x / 100 for x in point] for point in points]
+        write("meters.npy", npy((1, len(points), 3), [x for point in meters for x in point]))
+        write("meters.obj", b"# exported\n" + read("own.obj").partition(b"\n")[2])
+        for target, options in (("own.obj", ()), ("own.obj", ("--unit", "m")), ("meters.obj", ("--unit", "m")),
+                                ("meters.npy", ("--unit", "m"))):
+            with self.subTest(target, options=options):
+                rows, report = self.solved(path(target), "--mesh", mesh, *options)
+                self.compare(rows[0], POSE, 0.01, report["unobservable"])
+                self.assertLess(report["residual"]["worst"], 0.01)  # cm
+        # The same rig in meters, z up.
+        self.ok("convert", path(HEAD), "--system", "blender", "-o", path("turned.dna"))
+        rows, report = self.solved(path("own.obj"), "--mesh", mesh, rig="turned.dna")
+        self.compare(rows[0], POSE, 0.01, report["unobservable"])
+        self.assertLess(report["residual"]["worst"], 1e-4)  # m
+
     def test_joints_of_an_animated_glb(self):
         poses = [{"jawOpen": 0.1}, POSE, {"mouthSmileLeft": 0.8, "browInnerUp": 0.5}]
         write("poses.json", json.dumps({"rate": 30, "frames": [{"raw": pose} for pose in poses]}))
@@ -661,6 +681,37 @@ class Refusals(SolveTest):
         self.refuse(write("wrong.obj", "v nan 0 0\n"), "line 1", rig=HEAD)
         self.refuse(write("wrong.glb", b"glTF" + bytes(40)), "wrong.glb", rig=HEAD)
         self.refuse(path("wrong.obj"), "no mesh is named", "--mesh", "nose", rig=HEAD)
+
+    def test_targets_of_another_size_or_with_other_axes(self):
+        mesh, points = self.obj(POSE)
+
+        def scaled(by):
+            return write("size.npy", npy((1, len(points), 3), [by * x for point in points for x in point]))
+        for by, unit in ((0.01, "m"), (10, "mm"), (0.1, "dm")):
+            self.refuse(scaled(by), f"--unit {unit}", "--mesh", mesh, rig=HEAD)
+        self.refuse(scaled(0), "those of mesh " + mesh, "--mesh", mesh, rig=HEAD)
+        self.refuse(scaled(1000), "scale it to the rig", "--mesh", mesh, rig=HEAD)
+        for by in (0.25, 4):  # another person, or a cartoon
+            self.ok("solve", path(HEAD), scaled(by), "-o", path("any.json"), "--force", "-q", "--mesh", mesh)
+        # Some wrong points change no size.
+        wild = [1e6 if i % 20 == 0 else x for i, point in enumerate(points) for x in point]
+        self.ok("solve", path(HEAD), write("wild.npy", npy((1, len(points), 3), wild)), "-o", path("any.json"), "--force",
+                "-q", "--mesh", mesh, "--robust", "0.5")
+        self.ok("export", path(HEAD), "-o", path("own.obj"), "--lod", "0")
+        bare = write("bare.obj", read("own.obj").partition(b"\n")[2])
+        for options in ((), ("--rigid",)):
+            self.refuse(bare, "--unit m", "--kind", "surface", *options, rig=HEAD)
+        # A frame among others.
+        two = [x for by in (1, 0.01) for point in points for x in (by * point[0], by * point[1], by * point[2])]
+        self.refuse(write("two.npy", npy((2, len(points), 3), two)), "frame 2", "--mesh", mesh, rig=HEAD)
+        turned = [x for point in points for x in (point[0], point[2], -point[1])]
+        turned = write("turned.npy", npy((1, len(points), 3), turned))
+        self.refuse(turned, "x, z, -y of the rig", "--mesh", mesh, rig=HEAD)
+        rows, report = self.solved(turned, "--mesh", mesh, "--rigid")
+        self.compare(rows[0], POSE, 0.01, report["unobservable"])
+        mirrored = [x for point in points for x in (-point[0], point[1], point[2])]
+        self.refuse(write("turned.npy", npy((1, len(points), 3), mirrored)), "-x, y, z of the rig", "--mesh", mesh,
+                    rig=HEAD)
 
     def test_controls_that_do_not_fit(self):
         self.refuse(write("take.json", '{"frames": []}'), "no frames", "--from", path(HEAD), rig=HEAD)
