@@ -65,7 +65,8 @@ struct World {
   Owned<MienClipBinding> binding{mien_clip_binding_destroy};
   Owned<MienMix> mix{mien_mix_destroy};
   Owned<MienSolverStack> stack{mien_solver_stack_destroy};
-  Owned<MienDeformer> head_deformer{mien_deformer_destroy};  // with eyes
+  Owned<MienDeformer> head_deformer{mien_deformer_destroy};   // with eyes
+  Owned<MienDeformer> fixed_deformer{mien_deformer_destroy};  // 16-bit storage
   Bytes dna_bytes, tiny_bytes, baked_bytes, clip_bytes, mix_bytes;
   uint32_t raw_count = 0;
   std::vector<std::string> names;
@@ -172,6 +173,9 @@ struct World {
     const DnaHandle head = generate_dna(MIEN_PRESET_HEAD, 0);
     const RigHandle head_rig = create_rig(head.get());
     done(mien_deformer_create(head.get(), head_rig.get(), nullptr, &head_deformer.object, nullptr));
+    auto fixed = desc<MienDeformerDesc>();
+    fixed.storage = MIEN_STORAGE_16_BIT;
+    done(mien_deformer_create(dna.object, rig.object, &fixed, &fixed_deformer.object, nullptr));
 
     for (const auto& [file, bytes] : {std::pair{&dna_file, &dna_bytes},
                                       {&baked_file, &baked_bytes},
@@ -317,6 +321,18 @@ std::vector<Call> calls_of_rigs(const World& w) {
       {"mien_deformer_instance_create",
        makes(mien_deformer_instance_destroy, w.desc<MienDeformerInstanceDesc>(),
              mien_deformer_instance_create, w.deformer.object)},
+      {"mien_deformer_triangles",
+       [&w](MienError* error) {
+         auto mesh = sized<MienMesh>();
+         if (MienStatus status = mien_deformer_mesh(w.fixed_deformer.object, 0, &mesh)) {
+           return status;
+         }
+         std::vector<uint32_t> triangles(size_t{3} * mesh.triangle_count);
+         const MienStatus status = mien_deformer_triangles(w.fixed_deformer.object, 0,
+                                                           triangles.data(), triangles.size());
+         if (status != MIEN_OK) error->message[0] = '?';  // it takes no MienError
+         return status;
+       }},
       {"mien_derivatives_create",
        makes(mien_derivatives_destroy, of_derivatives, mien_derivatives_create, w.rig.object)},
       {"mien_jacobian_create", makes(mien_jacobian_destroy, of_jacobian, mien_jacobian_create,
