@@ -90,7 +90,9 @@ MienStatus mien_deformer_mesh(const MienDeformer* deformer, uint32_t mesh, MienM
   told.positions = {shape.positions.data, size_t{shape.position_count} * 3};
   told.normals = {shape.normals.data, size_t{shape.vertex_count} * 3};
   told.tangents = view_of(shape.tangents);
-  told.texture_coordinates = view_of(shape.texture_coordinates);
+  if (shape.fixed_coordinates.empty()) {
+    told.texture_coordinates = view_of(shape.texture_coordinates);
+  }
   told.vertex_position_indices = view_of(shape.vertex_position_indices);
   told.triangles = view_of(shape.triangles);
   told.target_channels = view_of(shape.target_channels);

@@ -9,7 +9,7 @@ namespace mien {
 namespace {
 
 /// To be raised whenever the list of numbers or arrays, or the meaning of one, changes.
-constexpr uint32_t kDeformerPartVersion = 6;
+constexpr uint32_t kDeformerPartVersion = 7;
 
 static_assert(sizeof(SkinRun) == 24 && sizeof(TargetRun) == 16 && sizeof(FixedRun) == 12,
               "no padding");
@@ -26,9 +26,7 @@ void visit_deformer(AnyDeformer& deformer, Visitor& visitor) {
   arrays(skeleton.order);
   for (auto& mesh : deformer.meshes) {
     numbers(mesh.position_count, mesh.vertex_count, mesh.triangle_count, mesh.max_influences,
-            mesh.target_count, mesh.delta_count, mesh.weight_scale, mesh.coordinate_origin[0],
-            mesh.coordinate_origin[1], mesh.coordinate_step[0], mesh.coordinate_step[1],
-            mesh.turned_faces);
+            mesh.target_count, mesh.delta_count, mesh.weight_scale, mesh.turned_faces);
     arrays(mesh.vertex_position_indices, mesh.triangles, mesh.corner_vertices, mesh.target_channels,
            mesh.position_indices, mesh.skin_runs, mesh.joints, mesh.first_target_run,
            mesh.target_runs, mesh.fixed_runs, mesh.delta_indices, mesh.faces,

@@ -64,9 +64,12 @@ bool check_skeleton(const DeformerChecker& c, bool full) {
          c.ok(!full || is_ordered(skeleton), "order of joints");
 }
 
-/// Floats, or integers in 16-bit storage.
-bool is_either(size_t floats, size_t integers, uint64_t count, bool half_storage) {
-  return (floats == count && integers == 0) || (half_storage && floats == 0 && integers == count);
+/// Floats, or integers in 16-bit storage, with their origins and steps.
+bool are_coordinates(const DeformMesh& mesh, bool half_storage) {
+  const size_t count = size_t{mesh.vertex_count} * 2;
+  if (mesh.fixed_coordinates.empty()) return mesh.texture_coordinates.count == count;
+  return half_storage && mesh.fixed_coordinates.count == count &&
+         mesh.texture_coordinates.count == 4;
 }
 
 /// What callers see, in the order of the file.
@@ -76,8 +79,7 @@ bool check_mesh_arrays(const DeformerChecker& c, const DeformMesh& mesh) {
                   mesh.positions.count == positions * 3 + 1 &&
                   mesh.normals.count == vertices * 3 + 1 &&
                   mesh.tangents.count == (c.deformer.has_tangents ? vertices * 4 : 0) &&
-                  is_either(mesh.texture_coordinates.count, mesh.fixed_coordinates.count,
-                            vertices * 2, c.deformer.half_storage) &&
+                  are_coordinates(mesh, c.deformer.half_storage) &&
                   mesh.vertex_position_indices.count == vertices &&
                   below(mesh.vertex_position_indices, positions) &&
                   (mesh.triangles.count == uint64_t{mesh.triangle_count} * 3 ||

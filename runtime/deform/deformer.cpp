@@ -120,9 +120,10 @@ void write_texture_coordinates(const DeformMesh& mesh, float* out) {
     std::copy(mesh.texture_coordinates.begin(), mesh.texture_coordinates.end(), out);
     return;
   }
+  const float* const origin = mesh.texture_coordinates.data;
+  const float* const step = origin + 2;
   for (size_t i = 0; i < mesh.fixed_coordinates.count; ++i) {
-    const float steps = static_cast<float>(mesh.fixed_coordinates[i]);
-    out[i] = mesh.coordinate_origin[i % 2] + steps * mesh.coordinate_step[i % 2];
+    out[i] = origin[i % 2] + static_cast<float>(mesh.fixed_coordinates[i]) * step[i % 2];
   }
 }
 

@@ -64,11 +64,10 @@ constexpr uint32_t kMaxFixedInfluences = 64, kMaxFixedDeltas = 1 << 28;
 
 /// One mesh. Kernels load four floats to get x y z, so arrays of x y z end with one more float ("+ 1").
 struct DeformMesh {
-  uint32_t position_count = 0, vertex_count = 0, triangle_count = 0;
-  uint32_t max_influences = 0, target_count = 0;
-  float weight_scale = 0;                                            // of fixed_weights
-  float coordinate_origin[2] = {0, 0}, coordinate_step[2] = {0, 0};  // of fixed_coordinates
+  uint32_t position_count = 0, vertex_count = 0, triangle_count = 0, target_count = 0;
+  uint16_t max_influences = 0;
   bool turned_faces = false;  // `faces` are wound against the file
+  float weight_scale = 0;     // of fixed_weights
   uint64_t delta_count = 0;
   uint64_t lods = 0;  // bit l: LOD l shows the mesh
 
@@ -76,7 +75,7 @@ struct DeformMesh {
   Span<float> positions;                   // [position] x y z, + 1
   Span<float> normals;                     // [vertex] x y z, unit, + 1
   Span<float> tangents;                    // [vertex] x y z, unit, w 1 or -1; if requested
-  Span<float> texture_coordinates;         // [vertex] u v; or
+  Span<float> texture_coordinates;         // [vertex] u v; or origin u v, step u v of
   Span<uint16_t> fixed_coordinates;        // [vertex] u v: origin + step * number
   Span<uint32_t> vertex_position_indices;  // [vertex]
   Span<uint32_t> triangles;        // [triangle][3] vertices; empty if they follow from faces

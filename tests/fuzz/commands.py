@@ -190,8 +190,8 @@ def one_run(limits, program, commands, inputs, seed, scratch, findings):
     else:
         errors = done.stderr.decode("utf-8", "replace")
         written = {path.name for path in folder.iterdir()} - before
-        # Materials beside an OBJ file.
-        surplus = written - outputs - {"out.mtl"}
+        # Materials beside an OBJ file, and beside a rig that is made from one.
+        surplus = written - outputs - {"out.mtl", "out.materials.json"}
         if done.returncode not in range(5) or any(word in errors for word in WRONG):
             what = f"exit code {done.returncode}\n{errors}"
         elif re.search(r"[\0-\x08\x0b-\x1f\x7f]", errors):

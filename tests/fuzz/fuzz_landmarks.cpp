@@ -36,11 +36,9 @@ const LandmarkNames kSources[] = {{{"0", "1", "2", "3"}, 3, false},
 constexpr size_t kSourceCount = sizeof kSources / sizeof *kSources;
 
 const char* const kWhole[] = {
-    "{\"time\": 12.5, \"size\": [1280, 720], \"landmarks\": [[0.1, 0.2, 0.3], {\"x\": 0.4, \"y\": "
-    "0.5, \"z\": 1, "
-    "\"v\": 0}, null, [NaN, 1, 2], [3, 4, 5], [6, 7, 8]]}",
-    "{\"landmarks\": {\"chin\": [1, 2, 3], \"nose \\\"tip\\\"\": {\"x\": 1, \"y\": 2, \"z\": 3}, "
-    "\"ear\": []}}",
+    R"({"time": 12.5, "size": [1280, 720], "landmarks": [[0.1, 0.2, 0.3], {"x": 0.4, "y": 0.5, "z": 1, "v": 0},
+        null, [NaN, 1, 2], [3, 4, 5], [6, 7, 8]]})",
+    R"({"landmarks": {"chin": [1, 2, 3], "nose \"tip\"": {"x": 1, "y": 2, "z": 3}, "ear": []}})",
     "[[1, 2], [3, 4], [5, 6], [7, 8], [9, 10], [11, 12]]", "{\"time\": 1, \"landmarks\": []}",
     "null"};
 const char* const kParts[] = {"null",

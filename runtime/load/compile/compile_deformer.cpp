@@ -48,7 +48,7 @@ void place_mesh(const Mesh& source, const MeshPlan& plan, const DeformOptions& o
   mesh.vertex_count = source.layouts.positions.count;
   mesh.target_count = source.blend_shape_targets.count;
   mesh.triangle_count = static_cast<uint32_t>(plan.triangle_count);
-  mesh.max_influences = plan.max_influences;
+  mesh.max_influences = static_cast<uint16_t>(plan.max_influences);
   mesh.delta_count = plan.delta_count;
   place_skin(plan, options.half_storage, placer, mesh);
   place_targets(plan, placer, mesh);

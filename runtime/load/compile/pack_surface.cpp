@@ -127,8 +127,8 @@ void fix_coordinates(const Mesh& source, DeformMesh& mesh) {
     }
   }
   for (int k = 0; k < 2; ++k) {
-    mesh.coordinate_origin[k] = static_cast<float>(least[k]);
-    mesh.coordinate_step[k] = static_cast<float>((most[k] - least[k]) / kCoordinateSteps);
+    mesh.texture_coordinates[k] = static_cast<float>(least[k]);
+    mesh.texture_coordinates[2 + k] = static_cast<float>((most[k] - least[k]) / kCoordinateSteps);
   }
   for (uint32_t v = 0; v < mesh.vertex_count; ++v) {
     read_coordinates(source, v, uv);
@@ -286,10 +286,9 @@ void place_surface(const MeshPlan& plan, const DeformOptions& options, Placer& p
   mesh.positions = placer.array<float>(positions * 3 + 1, alignment);
   mesh.normals = placer.array<float>(vertices * 3 + 1, alignment);
   mesh.tangents = placer.array<float>(options.tangents ? vertices * 4 : 0, alignment);
-  mesh.texture_coordinates =
-      placer.array<float>(plan.fixed_coordinates ? 0 : vertices * 2, alignment);
-  mesh.fixed_coordinates =
-      placer.array<uint16_t>(plan.fixed_coordinates ? vertices * 2 : 0, alignment);
+  const bool fixed = plan.fixed_coordinates && vertices != 0;
+  mesh.texture_coordinates = placer.array<float>(fixed ? 4 : vertices * 2, alignment);
+  mesh.fixed_coordinates = placer.array<uint16_t>(fixed ? vertices * 2 : 0, alignment);
   mesh.vertex_position_indices = placer.array<uint32_t>(vertices, alignment);
   mesh.triangles =
       placer.array<uint32_t>(plan.triangles_follow ? 0 : plan.triangle_count * 3, alignment);
