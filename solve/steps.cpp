@@ -314,9 +314,10 @@ void solve_frame(Frame& f, MienFitResult& told) {
       f.exact = f.few || (!fit.rotations.empty() && f.has_points());
       std::fill(fit.resting.begin(), fit.resting.end(), uint8_t{0});
       const double enough = f.stage == last ? kEnoughDecrease : kEnoughOfStage;
+      const uint32_t end = solve.iterations + limit;
       do {
-        told.status = solve.run_stage(limit, enough);
-      } while (told.status == MIEN_FIT_CONVERGED && solve.rest());
+        told.status = solve.run_stage(end - solve.iterations, enough);
+      } while (told.status == MIEN_FIT_CONVERGED && solve.iterations < end && solve.rest());
       if (told.status == MIEN_FIT_CANCELED || told.status == MIEN_FIT_TIME) break;
     }
     told.jumped = has_jumped(f, moves);

@@ -42,6 +42,16 @@ Bytes layers_with(bool quaternions, bool half, F&& wanted) {
   return {};
 }
 
+/// With a deformer in 16-bit storage.
+Bytes bake_in_16_bits(const dna::DnaView& view) {
+  const Bytes bytes = write_view(view);
+  const DnaHandle dna = open_dna(bytes);
+  const RigHandle rig = create_rig(dna.get());
+  MienDeformerDesc desc = {};
+  desc.storage = MIEN_STORAGE_16_BIT;
+  return bake(rig.get(), create_deformer(dna.get(), rig.get(), desc).get());
+}
+
 const RbfSolverPlan* plan_with_parts(const Rig& rig) {
   for (const RbfSolverPlan& plan : rig.rbf.plans) {
     if (takes_parts(plan) && plan.input_count != 0) return &plan;
@@ -393,12 +403,7 @@ TEST(CheckBakedDeformer, TrianglesOfFaces) {
   view.geom.meshes[0].layouts.positions = dna::be<uint32_t>(arena, {0, 1, 4, 3, 4, 1});
   view.geom.meshes[0].faces[0].layout_indices = dna::be<uint32_t>(arena, {0, 1, 2, 3});
   view.geom.meshes[0].faces[1].layout_indices = dna::be<uint32_t>(arena, {5, 4, 3});
-  const Bytes bytes = write_view(view);
-  const DnaHandle dna = open_dna(bytes);
-  const RigHandle rig = create_rig(dna.get());
-  MienDeformerDesc desc = {};
-  desc.storage = MIEN_STORAGE_16_BIT;
-  const Bytes file = bake(rig.get(), create_deformer(dna.get(), rig.get(), desc).get());
+  const Bytes file = bake_in_16_bits(view);
   const auto expect = [&](Status expected, void (*make)(DeformMesh & mesh)) {
     OpenBaked opened(file);
     Deformer& deformer = const_cast<Deformer&>(opened.deformer_arrays());
@@ -429,12 +434,7 @@ TEST(CheckBakedDeformer, TrianglesOfFaces) {
 // In 16-bit storage each run of a target says where its numbers are, and how many bits they have.
 TEST(CheckBakedDeformer, NumbersOfTargets) {
   Arena arena(default_allocator());
-  const Bytes bytes = write_view(dna::tiny_rig(arena));
-  const DnaHandle dna = open_dna(bytes);
-  const RigHandle rig = create_rig(dna.get());
-  MienDeformerDesc desc = {};
-  desc.storage = MIEN_STORAGE_16_BIT;
-  const Bytes file = bake(rig.get(), create_deformer(dna.get(), rig.get(), desc).get());
+  const Bytes file = bake_in_16_bits(dna::tiny_rig(arena));
   const auto expect = [&](Status expected, void (*make)(DeformMesh & mesh)) {
     OpenBaked opened(file);
     Deformer& deformer = const_cast<Deformer&>(opened.deformer_arrays());

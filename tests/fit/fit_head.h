@@ -74,4 +74,13 @@ inline std::vector<MienSolvePoint> every(uint32_t count, uint32_t step) {
   return points;
 }
 
+/// All controls may move.
+inline FitHandle create_point_fit(const Head& head, const std::vector<MienSolvePoint>& points) {
+  MienFitDesc desc = sized<MienFitDesc>();
+  desc.deformer = head.deformer.get();
+  desc.points = points.data();
+  desc.point_count = points.size();
+  return create_fit(head.rig, desc);
+}
+
 }  // namespace mien

@@ -81,14 +81,7 @@ TEST(Fit, FindsTheControlsOfTheFewPointsThatCount) {
   const std::vector<MienSolvePoint> all = every(count, 1), few = every(count, kEvery);
   std::vector<float> weights(count);
   for (uint32_t i = 0; i < count; i += kEvery) weights[i] = 1;
-  const auto fit_of = [&](const std::vector<MienSolvePoint>& points) {
-    MienFitDesc desc = sized<MienFitDesc>();
-    desc.deformer = head.deformer.get();
-    desc.points = points.data();
-    desc.point_count = points.size();
-    return create_fit(head.rig, desc);
-  };
-  const FitHandle whole = fit_of(all), alone = fit_of(few);
+  const FitHandle whole = create_point_fit(head, all), alone = create_point_fit(head, few);
   const std::vector<float> observed = observed_by(alone, head.character.raw.count);
   for (int pose = 0; pose < 10; ++pose) {
     const std::vector<float> raw = head.pose(random, 8);
@@ -118,11 +111,7 @@ TEST(Fit, FindsTheControlsOfPointsThatWereMovedRigidly) {
   Random random = Random::from_seed(81, 2);
   const uint32_t count = mesh_of(head.deformer.get(), 0).position_count;
   const std::vector<MienSolvePoint> points = every(count, 7);
-  MienFitDesc desc = sized<MienFitDesc>();
-  desc.deformer = head.deformer.get();
-  desc.points = points.data();
-  desc.point_count = points.size();
-  const FitHandle fit = create_fit(head.rig, desc);
+  const FitHandle fit = create_point_fit(head, points);
   ASSERT_TRUE(fit);
   for (const bool outliers : {false, true}) {
     const std::vector<float> raw = head.pose(random, 5);
@@ -171,11 +160,7 @@ TEST(Fit, OffsetsMakeTheFaceThatOfAnotherPerson) {
   Random random = Random::from_seed(81, 9);
   const uint32_t count = mesh_of(head.deformer.get(), 0).position_count;
   const std::vector<MienSolvePoint> points = every(count, 7);
-  MienFitDesc desc = sized<MienFitDesc>();
-  desc.deformer = head.deformer.get();
-  desc.points = points.data();
-  desc.point_count = points.size();
-  const FitHandle fit = create_fit(head.rig, desc);
+  const FitHandle fit = create_point_fit(head, points);
   const std::vector<float> raw = head.pose(random, 5), surface = head.positions(raw);
   MienFitCamera camera = {{1500, 1500}, {640, 360}, {1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, -160, 100}};
   std::vector<float> offsets, targets, images;
@@ -238,11 +223,7 @@ TEST(Fit, FindsControlsOfImages) {
   Random random = Random::from_seed(81, 3);
   const uint32_t count = mesh_of(head.deformer.get(), 0).position_count;
   const std::vector<MienSolvePoint> points = every(count, count / 68 + 1);
-  MienFitDesc desc = sized<MienFitDesc>();
-  desc.deformer = head.deformer.get();
-  desc.points = points.data();
-  desc.point_count = points.size();
-  const FitHandle fit = create_fit(head.rig, desc);
+  const FitHandle fit = create_point_fit(head, points);
   const std::vector<float> raw = head.pose(random, 5);
   const std::vector<float> surface = head.positions(raw);
   MienFitCamera camera = {{1500, 1500}, {640, 360}, {1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, -160, 100}};
@@ -311,11 +292,7 @@ TEST(Fit, SurfacesOfAnotherTopologyDrawPointsToThem) {
   Head head;
   const MienMesh mesh = mesh_of(head.deformer.get(), 0);
   const std::vector<MienSolvePoint> points = every(mesh.position_count, 31);
-  MienFitDesc desc = sized<MienFitDesc>();
-  desc.deformer = head.deformer.get();
-  desc.points = points.data();
-  desc.point_count = points.size();
-  const FitHandle fit = create_fit(head.rig, desc);
+  const FitHandle fit = create_point_fit(head, points);
   std::vector<float> raw(head.character.raw.count);
   for (size_t i = 0; i < raw.size(); i += 9) raw[i] = 0.5f;
   for (const bool last : {false, true}) {
@@ -377,11 +354,7 @@ TEST(Fit, SurfacesOfAnotherSizeEndSoon) {
   Head head;
   const MienMesh mesh = mesh_of(head.deformer.get(), 0);
   const std::vector<MienSolvePoint> points = every(mesh.position_count, 9);
-  MienFitDesc desc = sized<MienFitDesc>();
-  desc.deformer = head.deformer.get();
-  desc.points = points.data();
-  desc.point_count = points.size();
-  const FitHandle fit = create_fit(head.rig, desc);
+  const FitHandle fit = create_point_fit(head, points);
   const std::vector<float> rest = head.positions(std::vector<float>(head.character.raw.count));
   // Each triangle as 64.
   std::vector<float> surface;

@@ -113,11 +113,7 @@ TEST(Frames, OfAllVerticesTakeFewSteps) {
   const size_t raw_count = head.character.raw.count;
   const std::vector<MienSolvePoint> points =
       every(mesh_of(head.deformer.get(), 0).position_count, 1);
-  MienFitDesc desc = sized<MienFitDesc>();
-  desc.deformer = head.deformer.get();
-  desc.points = points.data();
-  desc.point_count = points.size();
-  const FitHandle fit = create_fit(head.rig, desc);
+  const FitHandle fit = create_point_fit(head, points);
   std::vector<float> observed(raw_count), found(raw_count), before;
   ASSERT_EQ(mien_fit_observability(fit.get(), observed.data(), raw_count), MIEN_OK);
   constexpr size_t kVertexFrames = 10;
@@ -230,11 +226,7 @@ TEST(Frames, OfJointsAndOfPointsRefuseTheSame) {
 
   const std::vector<MienSolvePoint> points =
       every(mesh_of(head.deformer.get(), 0).position_count, 50);
-  MienFitDesc desc = sized<MienFitDesc>();
-  desc.deformer = head.deformer.get();
-  desc.points = points.data();
-  desc.point_count = points.size();
-  const FitHandle of_points = create_fit(head.rig, desc);
+  const FitHandle of_points = create_point_fit(head, points);
   std::vector<float> targets(6 * points.size());
   frame = mien_fit_frame_default();
   frame.points = targets.data();

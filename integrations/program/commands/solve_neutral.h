@@ -29,15 +29,15 @@ struct NeutralFace {
 
   /// Landmarks of a frame as a fit with the offsets takes them: of the size of the rig, without those that are unknown.
   void adapt(float* row, size_t width) const;
-  /// "0.94 of the size of the rig, its landmarks are 0.31 cm from the rig's"
+  /// "its landmarks are 0.31 from those of the rig, once scaled by 0.94", in the unit of the rig
   std::string text() const;
 };
 
 /// Root mean square distance of the landmarks that are there from their middle.
 double landmark_spread(const float* row, size_t point_count, size_t width);
-// Of the landmarks. With fewer, neither the place of the head nor its expression is sure.
+/// Of the landmarks. With fewer, neither the place of the head nor its expression is sure.
 constexpr size_t kLeastLandmarkShare = 4;
-// Of the spread of the landmarks. Where the residual is larger, they are not those of a face, or the camera was lost.
+/// Of the spread of the landmarks. Where the residual is larger, they are not those of a face, or the camera was lost.
 constexpr double kMostLandmarkResidual = 0.25;
 
 class NeutralFinder {

@@ -21,7 +21,7 @@ struct PngSink {
   char error[128] = {};  // libpng's words
 };
 
-// libpng calls these from C, through which no exception may pass.
+// libpng calls these from C, through which no exception may pass. Jumps leave no handler of one.
 
 void add_bytes(png_structp png, png_bytep data, png_size_t count) {
   auto* sink = static_cast<PngSink*>(png_get_io_ptr(png));
@@ -29,8 +29,8 @@ void add_bytes(png_structp png, png_bytep data, png_size_t count) {
     sink->bytes.append(reinterpret_cast<const char*>(data), count);
   } catch (const std::bad_alloc&) {
     sink->out_of_memory = true;
-    png_longjmp(png, 1);
   }
+  if (sink->out_of_memory) png_longjmp(png, 1);
 }
 
 void stop(png_structp png, png_const_charp message) {
