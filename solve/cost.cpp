@@ -64,6 +64,37 @@ void add_point_cost(Frame& f, Cost& cost) {
   }
 }
 
+void add_symmetric_gradient(const Frame& f, const float* raw, double* gradient) {
+  const MienFit& fit = f.fit;
+  for (size_t i = 0; i + 1 < fit.symmetric.count && f.in.symmetric_weight > 0; i += 2) {
+    const uint32_t a = fit.symmetric[i], b = fit.symmetric[i + 1];
+    const double difference = f.in.symmetric_weight * (double{raw[a]} - raw[b]);
+    for (size_t k = 0; k < fit.controls.count; ++k) {
+      if (fit.controls[k] == a) gradient[k] += difference;
+      if (fit.controls[k] == b) gradient[k] -= difference;
+    }
+  }
+}
+
+/// The last term, as the sum of magnitudes has a kink at the initial values: there the derivative is that of the side to
+/// which the other terms pull, and 0 if they pull too little to leave it.
+void add_sparse_gradient(const Frame& f, const float* raw, double* gradient) {
+  const MienFit& fit = f.fit;
+  const double half = 0.5 * f.in.sparse_weight;
+  for (size_t i = 0; i < fit.controls.count && half > 0; ++i) {
+    const double value = double{raw[fit.controls[i]]} - fit.initial[fit.controls[i]];
+    double& g = gradient[i];
+    g += value > 0 ? half : value < 0 ? -half : std::min(std::max(-g, -half), half);
+  }
+}
+
+bool is_rotation(const MienFit& fit, size_t place) {
+  for (const uint32_t r : fit.rotations) {
+    if (place >= r && place < size_t{r} + 4) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 void evaluate(MienFit& fit) {
@@ -79,30 +110,30 @@ double regularize(const Frame& f, const float* raw, double* gradient) {
     const double to_prior = double{raw[c]} - fit.prior[c], to_start = double{raw[c]} - fit.start[c];
     cost += f.in.prior_weight * square(to_prior) + f.in.smooth_weight * square(to_start) +
             f.in.sparse_weight * std::fabs(double{raw[c]} - fit.initial[c]);
-    if (!gradient) continue;
-    // At 0, the sign of the side to which the control may move: the sum of magnitudes has a kink there.
-    const double value = double{raw[c]} - fit.initial[c];
-    const double sign = value > 0 ? 1 : value < 0 ? -1 : fit.upper[i] > 0 ? 1 : -1;
-    gradient[i] += f.in.prior_weight * to_prior + f.in.smooth_weight * to_start +
-                   0.5 * f.in.sparse_weight * sign;
+    if (gradient) gradient[i] += f.in.prior_weight * to_prior + f.in.smooth_weight * to_start;
   }
   for (size_t i = 0; i + 1 < fit.symmetric.count; i += 2) {
     cost +=
         f.in.symmetric_weight * square(double{raw[fit.symmetric[i]]} - raw[fit.symmetric[i + 1]]);
   }
+  if (gradient) {
+    add_symmetric_gradient(f, raw, gradient);
+    add_sparse_gradient(f, raw, gradient);
+  }
   return cost;
 }
 
-void add_symmetric_gradient(Frame& f) {
-  MienFit& fit = f.fit;
-  for (size_t i = 0; i + 1 < fit.symmetric.count && f.in.symmetric_weight > 0; i += 2) {
-    const uint32_t a = fit.symmetric[i], b = fit.symmetric[i + 1];
-    const double difference = f.in.symmetric_weight * (double{fit.raw[a]} - fit.raw[b]);
-    for (size_t k = 0; k < fit.controls.count; ++k) {
-      if (fit.controls[k] == a) fit.gradient[k] += difference;
-      if (fit.controls[k] == b) fit.gradient[k] -= difference;
-    }
-  }
+Limits limits_of(const Frame& f, size_t place) {
+  const MienFit& fit = f.fit;
+  const uint32_t c = fit.controls[place];
+  const double value = fit.raw[c], kink = fit.initial[c];
+  Limits limits = {fit.lower[place], fit.upper[place]};
+  if (!(f.in.sparse_weight > 0)) return limits;
+  const double pull = fit.gradient[place];
+  const bool rests = value == kink && !is_rotation(fit, place);
+  if (value > kink || (rests && pull <= 0)) limits.low = std::max(limits.low, kink);
+  if (value < kink || (rests && pull >= 0)) limits.high = std::min(limits.high, kink);
+  return limits;
 }
 
 void follow_points(Frame& f, uint32_t rounds) {
@@ -156,7 +187,6 @@ void find_gradient(Frame& f) {
     add(fit.derivatives, MIEN_POINT_MODELS, fit.model_gradient.data, fit.from_positions);
   }
   regularize(f, fit.raw.data, fit.gradient.data);
-  add_symmetric_gradient(f);
   hold_gradient(fit);
 }
 

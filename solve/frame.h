@@ -98,7 +98,12 @@ inline double square(double v) { return v * v; }
 void evaluate(MienFit& fit);
 /// The terms that do not depend on the rig; their part of the gradient of controls that may move is added.
 double regularize(const Frame& f, const float* raw, double* gradient);
-void add_symmetric_gradient(Frame& f);
+/// Where a control of MienFit::raw may move: within its bounds, and not across the kink of the sum of magnitudes. On the
+/// kink, to the side that MienFit::gradient leads to; nowhere if it is 0. Parts of a rotation may leave it.
+struct Limits {
+  double low, high;
+};
+Limits limits_of(const Frame& f, size_t place);
 /// The cost at the controls of the instance without those terms; with gradients of joints and positions.
 Cost find_cost(Frame& f);
 /// Moves the target as a whole, or the camera, to where it fits the points, which have moved.

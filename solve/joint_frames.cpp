@@ -183,9 +183,9 @@ bool find_free_step(Frame& f, size_t free_count) {
   solve_factored(fit.factor.data, free_count, fit.work.data);
   for (size_t a = 0; a < free_count; ++a) {
     const uint32_t i = fit.free[a];
-    const double from = fit.raw[fit.controls[i]], to = from + fit.work[a];
-    if (!(to >= fit.lower[i] && to <= fit.upper[i])) return false;
-    if (f.in.sparse_weight > 0 && from * to < 0) return false;
+    const Limits limits = limits_of(f, i);
+    const double to = fit.raw[fit.controls[i]] + fit.work[a];
+    if (!(to >= limits.low && to <= limits.high)) return false;
     fit.step[a] = fit.work[a];
   }
   return true;

@@ -24,14 +24,15 @@ constexpr double kShareOfBest = 0.01;  // of the best gain that frees a control 
 size_t list_model_free(Frame& f, bool inside_only, Gains& gains) {
   MienFit& fit = f.fit;
   const auto gain_of = [&](size_t i) {
-    const float value = fit.raw[fit.controls[i]];
-    const double g = fit.gradient[i];
-    const bool held = (value <= fit.lower[i] && g >= 0) || (value >= fit.upper[i] && g <= 0);
+    const double value = fit.raw[fit.controls[i]], g = fit.gradient[i];
+    const Limits limits = limits_of(f, i);
+    const bool held = (value <= limits.low && g >= 0) || (value >= limits.high && g <= 0);
     return held ? 0.0 : g * g / fit.stiffness[i];
   };
   const auto is_inside = [&](size_t i) {
-    const float value = fit.raw[fit.controls[i]];
-    return value > fit.lower[i] && value < fit.upper[i];
+    const double value = fit.raw[fit.controls[i]];
+    const Limits limits = limits_of(f, i);
+    return value > limits.low && value < limits.high;
   };
   double most = 0;
   for (size_t i = 0; i < fit.controls.count; ++i) {
@@ -71,7 +72,6 @@ void take_model_gradient(Frame& f, double damping) {
                       damping * fit.stiffness[i] * (double{fit.raw[c]} - fit.best[c]);
   }
   regularize(f, fit.raw.data, fit.gradient.data);
-  add_symmetric_gradient(f);
 }
 
 namespace {
@@ -190,17 +190,6 @@ void make_model(Frame& f) {
 
 void find_bounded_step(Frame& f, size_t free_count, double damping) {
   MienFit& fit = f.fit;
-  const auto limits = [&](size_t a, double& low, double& high) {
-    const uint32_t i = fit.free[a];
-    const double from = fit.raw[fit.controls[i]];
-    low = fit.lower[i];
-    high = fit.upper[i];
-    // A control does not jump over the kink of the sum of magnitudes.
-    if (f.in.sparse_weight > 0 && from > 0) low = std::max(low, 0.0);
-    if (f.in.sparse_weight > 0 && from < 0) high = std::min(high, 0.0);
-    low -= from;
-    high -= from;
-  };
   uint32_t* const moving = fit.support.data;  // places in `free` of those that have not stopped
   size_t count = free_count;
   for (size_t a = 0; a < free_count; ++a) moving[a] = static_cast<uint32_t>(a);
@@ -227,9 +216,10 @@ void find_bounded_step(Frame& f, size_t free_count, double damping) {
     solve_factored(fit.factor.data, count, fit.work.data);
     size_t kept = 0;
     for (size_t a = 0; a < count; ++a) {
-      double low, high;
-      limits(moving[a], low, high);
-      const double step = fit.work[a];
+      const uint32_t i = fit.free[moving[a]];
+      const Limits limits = limits_of(f, i);
+      const double from = fit.raw[fit.controls[i]], step = fit.work[a];
+      const double low = limits.low - from, high = limits.high - from;
       fit.step[moving[a]] = std::min(std::max(step, low), high);
       if (step < low || step > high) continue;
       moving[kept++] = moving[a];
@@ -266,12 +256,6 @@ ModelStep minimize_model(Frame& f, double cost, double first, double rounding, d
   evaluate_controls(fit);
   double value = find_change(f);
   find_stiffness(f);
-  bool any_inside = false;
-  for (size_t i = 0; i < fit.controls.count; ++i) {
-    const uint32_t c = fit.controls[i];
-    any_inside =
-        any_inside || (!f.is_locked(c) && fit.raw[c] > fit.lower[i] && fit.raw[c] < fit.upper[i]);
-  }
   const double terms = regularize(f, fit.best.data, nullptr);
   const auto held_back = [&] {
     double sum = 0;
@@ -291,7 +275,11 @@ ModelStep minimize_model(Frame& f, double cost, double first, double rounding, d
     find_model_gradient(f, damping);
     Gains left;
     // The first step keeps to the controls that moved in the frame before.
-    const size_t free_count = list_model_free(f, round == 0 && any_inside, left);
+    size_t free_count = list_model_free(f, round == 0, left);
+    if (free_count == 0 && round == 0) {
+      left = {};
+      free_count = list_model_free(f, false, left);
+    }
     solved = free_count == 0 || (gain <= enough() && left.held <= enough()) ||
              (round != 0 && left.all <= kLittle * enough());
     if (solved) break;
@@ -310,9 +298,9 @@ ModelStep minimize_model(Frame& f, double cost, double first, double rounding, d
         value = next;
         break;
       }
+      std::copy(fit.kept.begin(), fit.kept.end(), fit.raw.begin());
     }
     if (gain > 0) continue;
-    std::copy(fit.kept.begin(), fit.kept.end(), fit.raw.begin());
     evaluate_controls(fit);
     find_change(f);
     solved = round != 0;  // as low as rounding lets it be

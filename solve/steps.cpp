@@ -20,9 +20,10 @@ size_t list_free(const Frame& f) {
   size_t count = 0;
   for (size_t i = 0; i < fit.controls.count; ++i) {
     if (f.is_locked(fit.controls[i]) || fit.resting[i]) continue;
-    const float value = fit.raw[fit.controls[i]];
-    if (value <= fit.lower[i] && fit.gradient[i] >= 0) continue;
-    if (value >= fit.upper[i] && fit.gradient[i] <= 0) continue;
+    const double value = fit.raw[fit.controls[i]];
+    const Limits limits = limits_of(f, i);
+    if (value <= limits.low && fit.gradient[i] >= 0) continue;
+    if (value >= limits.high && fit.gradient[i] <= 0) continue;
     fit.free[count] = static_cast<uint32_t>(i);
     fit.inputs[count++] = fit.controls[i];
   }
@@ -61,9 +62,7 @@ double take_step(Frame& f, size_t free_count, double damping) {
   for (size_t a = 0; a < free_count; ++a) {
     const uint32_t i = fit.free[a], c = fit.controls[i];
     const double low = fit.lower[i], high = fit.upper[i], from = fit.best[c];
-    double to = std::min(std::max(from + fit.step[a], low), high);
-    // A control does not jump over the kink of the sum of magnitudes.
-    if (f.in.sparse_weight > 0 && from * to < 0) to = 0;
+    const double to = std::min(std::max(from + fit.step[a], low), high);
     farthest = std::max(farthest, std::fabs(to - from));
     fit.raw[c] = static_cast<float>(to);
   }

@@ -479,6 +479,52 @@ TEST(Fit, TellsWhyItStops) {
   EXPECT_EQ(result.status, MIEN_FIT_TIME);
 }
 
+TEST(Fit, TellsWhenNoPointIsThere) {
+  Head head(MIEN_PRESET_SMALL);
+  const std::vector<MienSolvePoint> points =
+      every(mesh_of(head.deformer.get(), 0).position_count, 20);
+  const FitHandle fit = create_point_fit(head, points);
+  const size_t raw_count = head.character.raw.count;
+  const std::vector<float> start(raw_count, 0.25f), prior(raw_count, 0.75f),
+      zeros(points.size(), 0.0f);
+  std::vector<float> targets(3 * points.size(), 1.0f);
+  MienFitCamera camera = {{1500, 1500}, {640, 360}, {1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, 0, 100}};
+  const SurfaceHandle away = create_surface({0, 900, 0, 1, 900, 0, 0, 901, 0}, {0, 1, 2});
+  const auto expect_no_data = [&](const char* what, size_t missing, auto change) {
+    MienFitFrame frame = mien_fit_frame_default();
+    frame.start = start.data();
+    frame.prior = prior.data();
+    frame.prior_weight = 1;
+    change(frame);
+    for (const uint32_t rigid : {0u, 1u}) {
+      frame.rigid = rigid;
+      std::vector<float> found(raw_count);
+      MienFitResult result = mien_fit_result_default();
+      ASSERT_EQ(mien_fit_solve(fit.get(), &frame, found.data(), &result), MIEN_OK) << what;
+      EXPECT_EQ(result.status, MIEN_FIT_NO_DATA) << what << ' ' << rigid;
+      EXPECT_EQ(result.missing_points, missing) << what << ' ' << rigid;
+      EXPECT_EQ(found, start) << what << ' ' << rigid;
+    }
+  };
+  using Frame = MienFitFrame;
+  expect_no_data("weights of 0", 0, [&](Frame& f) {
+    f.points = targets.data();
+    f.point_weights = zeros.data();
+  });
+  expect_no_data("a surface out of reach", points.size(), [&](Frame& f) {
+    f.surface = away.get();
+    f.surface_reach = 1;
+  });
+  for (const float nothing : {std::numeric_limits<float>::quiet_NaN(), INFINITY}) {
+    std::fill(targets.begin(), targets.end(), nothing);
+    expect_no_data("points", points.size(), [&](Frame& f) { f.points = targets.data(); });
+    expect_no_data("images", points.size(), [&](Frame& f) {
+      f.images = targets.data();
+      f.camera = &camera;
+    });
+  }
+}
+
 TEST(Fit, RefusesWrongArguments) {
   Head head(MIEN_PRESET_SMALL);
   MienFitDesc desc = sized<MienFitDesc>();
