@@ -216,9 +216,9 @@ void add_constraint_cost(Frame& f, Cost& cost) {
       add_derivative(fit, c, residuals, r, double{c.weight} * residuals.values[r],
                      fit.model_gradient.data, fit.position_gradient.data);
     }
-    cost.constraints += double{c.weight} * squared;
-    cost.constraint_weight += double{c.weight};
-    cost.constraint_worst = std::max(cost.constraint_worst, squared);
+    cost.constraints.squares += double{c.weight} * squared;
+    cost.constraints.weight += double{c.weight};
+    cost.constraints.worst = std::max(cost.constraints.worst, squared);
   }
 }
 

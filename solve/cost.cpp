@@ -17,9 +17,9 @@ void add_joint_cost(Frame& f, Cost& cost) {
     const bool present = std::isfinite(f.in.joints[i]);
     const double weight = present ? fit.joint_weights[i] * factor : 0;
     const double r = present ? double{fit.joints[i]} - f.in.joints[i] : 0;
-    cost.joints += weight * r * r;
-    cost.joint_weight += weight;
-    if (weight > 0) cost.joint_worst = std::max(cost.joint_worst, std::fabs(r));
+    cost.joints.squares += weight * r * r;
+    cost.joints.weight += weight;
+    if (weight > 0) cost.joints.worst = std::max(cost.joints.worst, r * r);
     fit.joint_gradient[i] = static_cast<float>(weight * r);
   }
 }
@@ -35,32 +35,33 @@ void add_to_positions(MienFit& fit, const MienSolvePoint& point, const double* g
   }
 }
 
-void add_point_cost(Frame& f, Cost& cost) {
+void add_kind_cost(Frame& f, Kind kind, Cost& cost) {
   MienFit& fit = f.fit;
-  follow_points(f, kMotionRounds);
-  const double scale = double{f.in.robust_scale};
-  const bool in_place = f.in.points && !f.in.rigid;
+  const KindTargets& to = fit.kinds[kind];
+  Sum& sum = cost.points[kind];
+  const double scale = f.robust_scale_of(kind);
+  const bool in_place = kind == kPoints && !(f.in.rigid && f.moves(kind));
   for (size_t i = 0; i < fit.points.count; ++i) {
-    fit.pulls[i] = 0;
-    if (!(fit.weights[i] > 0)) continue;
+    to.pulls[i] = 0;
+    if (!(to.weights[i] > 0)) continue;
     double gradient[3], weight, squared;
     if (in_place) {
-      const double *at = fit.surface.data + 3 * i, *target = fit.targets.data + 3 * i;
+      const double *at = fit.surface.data + 3 * i, *target = to.targets.data + 3 * i;
       for (size_t k = 0; k < 3; ++k) gradient[k] = at[k] - target[k];
       squared = gradient[0] * gradient[0] + gradient[1] * gradient[1] + gradient[2] * gradient[2];
     } else {
-      squared = point_residual(f, i, gradient);
+      squared = point_residual(f, kind, i, gradient);
     }
-    if (f.in.surface) {
-      cost.compared_points +=
-          fit.weights[i] * robust(compared_residual(f, i, squared), scale, weight);
+    if (kind == kSurface) {
+      cost.compared_surface +=
+          to.weights[i] * robust(compared_residual(f, i, squared), scale, weight);
       if (fit.lost[i]) continue;
     }
-    cost.points += fit.weights[i] * robust(squared, scale, weight);
-    cost.point_weight += fit.weights[i];
-    cost.point_worst = std::max(cost.point_worst, squared);
-    fit.pulls[i] = fit.weights[i] * weight;
-    add_to_positions(fit, fit.points[i], gradient, fit.pulls[i]);
+    sum.squares += to.weights[i] * robust(squared, scale, weight);
+    sum.weight += to.weights[i];
+    sum.worst = std::max(sum.worst, squared);
+    to.pulls[i] = to.weights[i] * weight;
+    add_to_positions(fit, fit.points[i], gradient, to.pulls[i]);
   }
 }
 
@@ -138,14 +139,14 @@ Limits limits_of(const Frame& f, size_t place) {
 
 void follow_points(Frame& f, uint32_t rounds) {
   MienFit& fit = f.fit;
-  if (f.in.points && f.in.rigid) {
-    fit_rigid(fit.surface.data, fit.targets.data, fit.weights.data, fit.points.count,
+  const KindTargets& to = fit.kinds[kPoints];
+  if (f.in.rigid && f.in.points && !f.in.images && !f.in.surface) {
+    fit_rigid(fit.surface.data, to.targets.data, to.weights.data, fit.points.count,
               f.motion.rotation, f.motion.translation);
   } else if (f.in.rigid) {
     fit_motion(f, rounds);
-  } else if (f.in.surface) {
-    match_surface(f);
   }
+  if (f.in.surface && !(f.in.rigid && f.moves(kSurface))) match_surface(f);
 }
 
 Cost find_cost(Frame& f) {
@@ -157,9 +158,14 @@ Cost find_cost(Frame& f) {
     find_points(f);
     std::fill(fit.position_gradient.begin(), fit.position_gradient.end(), 0.0f);
   }
-  if (f.has_points()) add_point_cost(f, cost);
+  if (f.has_points()) follow_points(f, kMotionRounds);
+  for (const Kind kind : kAllKinds) {
+    if (f.has(kind)) add_kind_cost(f, kind, cost);
+  }
   if (f.in.constraints) add_constraint_cost(f, cost);
-  cost.total = cost.joints + cost.points + cost.constraints;
+  cost.total = cost.joints.squares;
+  for (const Sum& sum : cost.points) cost.total += sum.squares;
+  cost.total += cost.constraints.squares;
   return cost;
 }
 
@@ -192,7 +198,7 @@ void find_gradient(Frame& f) {
 
 double point_factor(const MienFit& fit) {
   double factor = 0;
-  for (size_t i = 0; i < fit.points.count; ++i) factor += fit.pulls[i];
+  for (size_t i = 0; i < fit.points.count; ++i) factor += fit.kinds[kPoints].pulls[i];
   return factor / static_cast<double>(fit.points.count);
 }
 

@@ -76,8 +76,11 @@ void place(const MienFitDesc& desc, Placer& placer, MienFit& fit) {
   fit.first_entry = placer.array<uint32_t>(raw + 1);
   fit.entries = placer.array<float>(entries);
   fit.surface = placer.array<double>(desc.point_count * 3);
-  fit.targets = placer.array<double>(desc.point_count * 3);
-  fit.weights = placer.array<double>(desc.point_count);
+  for (KindTargets& kind : fit.kinds) {
+    kind.targets = placer.array<double>(desc.point_count * 3);
+    kind.weights = placer.array<double>(desc.point_count);
+    kind.pulls = placer.array<double>(desc.point_count);
+  }
   if (desc.deformer) {
     const size_t matrices = fit.bone_count * 16;
     fit.model_gradient = placer.array<float>(matrices);
@@ -92,10 +95,10 @@ void place(const MienFitDesc& desc, Placer& placer, MienFit& fit) {
   fit.whole_points = placer.array<MienSolvePoint>(desc.point_count);
   fit.samples = placer.array<uint32_t>(sample_count(desc.point_count, kMostSamples));
   fit.own_samples = placer.array<uint32_t>(fit.samples.count);
+  fit.is_sample = placer.array<uint8_t>(desc.point_count);
   fit.sample_points = placer.array<MienSolvePoint>(fit.samples.count);
   fit.triangles = placer.array<uint32_t>(fit.triangle_count * 3);
   fit.normals = placer.array<double>(desc.point_count * 3);
-  fit.pulls = placer.array<double>(desc.point_count);
   fit.lost = placer.array<uint8_t>(desc.point_count);
   fit.kept_targets = placer.array<double>(desc.point_count * 3);
   fit.kept_lost = placer.array<uint8_t>(desc.point_count);

@@ -18,6 +18,20 @@
 
 constexpr uint32_t kFitTag = 0x6D46'4954;
 
+namespace mien {
+
+/// Kinds of targets that a point may have, each with a unit of its own.
+enum Kind : uint32_t { kPoints, kImages, kSurface, kKinds };
+constexpr Kind kAllKinds[] = {kPoints, kImages, kSurface};
+
+struct KindTargets {
+  Span<double> targets;  // [point][3]: in the space of the targets, in the image, on the surface
+  Span<double> weights;  // [point]: 0 if it is missing
+  Span<double> pulls;    // [point]: weights, less those of outliers
+};
+
+}  // namespace mien
+
 struct MienFit {
   uint32_t tag = 0;
   mien::Allocator allocator;
@@ -83,19 +97,19 @@ struct MienFit {
   mien::Span<uint32_t> inputs;                    // their raw controls
   mien::Span<uint32_t> rows, first;               // D by free control, without entries of 0
   mien::Span<float> values;
-  mien::Span<uint8_t> wanted;           // [raw control] it is free
-  mien::Span<uint32_t> first_entry;     // [raw control + 1] into entries
-  mien::Span<float> entries;            // of `by_raw`
-  mien::Span<double> surface, targets;  // [point][3]: in model space; where it is drawn to
-  mien::Span<double> normals;       // [point][3] of the surface, or of the one that it is drawn to
-  mien::Span<double> weights;       // [point]: 0 if it is missing
-  mien::Span<double> pulls;         // [point]: weights, less those of outliers
+  mien::Span<uint8_t> wanted;        // [raw control] it is free
+  mien::Span<uint32_t> first_entry;  // [raw control + 1] into entries
+  mien::Span<float> entries;         // of `by_raw`
+  mien::Span<double> surface;        // [point][3] in model space
+  mien::KindTargets kinds[mien::kKinds];
+  mien::Span<double> normals;       // [point][3] of the surface that it is drawn to
   mien::Span<uint8_t> lost;         // [point] it has no target on the surface
-  mien::Span<double> kept_targets;  // [point][3], and `lost`, at the best controls
+  mien::Span<double> kept_targets;  // [point][3] on the surface, and `lost`, at the best controls
   mien::Span<uint8_t> kept_lost;
   mien::Span<float> position_normals;   // [position of the mesh][3]
   mien::Span<float> directions, moved;  // kDirections of [raw control]; of [position][3]
   mien::Span<uint32_t> own_samples;     // of a frame
+  mien::Span<uint8_t> is_sample;        // [point] scratch
   mien::Span<float> step_effects;       // [control that may move][sample][3]
   mien::Span<uint8_t> measured;    // [control that may move] its effects are those of this pose
   mien::Span<double> panel, wide;  // [motion and free][kPanel]; [motion and free] squared

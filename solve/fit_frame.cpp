@@ -34,10 +34,9 @@ MienStatus check_camera(const MienFitFrame& in) {
 }
 
 MienStatus check_frame(const MienFit& fit, const MienFitFrame& in) {
-  const int kinds = (in.points ? 1 : 0) + (in.images ? 1 : 0) + (in.surface ? 1 : 0);
-  if (kinds != 0 && fit.points.count == 0) return MIEN_ERROR_NULL_ARGUMENT;
+  const bool any = in.points || in.images || in.surface;
+  if (any && fit.points.count == 0) return MIEN_ERROR_NULL_ARGUMENT;
   if (in.images && !in.camera) return MIEN_ERROR_NULL_ARGUMENT;
-  if (kinds > 1) return MIEN_ERROR_INVALID_ARGUMENT;
   if (in.images) {
     if (MienStatus status = check_camera(in)) return status;
   }
@@ -46,11 +45,13 @@ MienStatus check_frame(const MienFit& fit, const MienFitFrame& in) {
   }
   for (const float weight :
        {in.prior_weight, in.smooth_weight, in.sparse_weight, in.symmetric_weight, in.robust_scale,
-        in.joint_weight, in.surface_reach}) {
+        in.joint_weight, in.surface_reach, in.image_weight, in.image_robust_scale}) {
     if (!is_weight(weight)) return MIEN_ERROR_INVALID_ARGUMENT;
   }
-  for (size_t i = 0; in.point_weights && i < fit.points.count; ++i) {
-    if (!is_weight(in.point_weights[i])) return MIEN_ERROR_INVALID_ARGUMENT;
+  for (const float* const weights : {in.point_weights, in.surface_weights}) {
+    for (size_t i = 0; weights && i < fit.points.count; ++i) {
+      if (!is_weight(weights[i])) return MIEN_ERROR_INVALID_ARGUMENT;
+    }
   }
   for (size_t i = 0; in.point_offsets && i < 3 * fit.points.count; ++i) {
     if (!std::isfinite(in.point_offsets[i])) return MIEN_ERROR_INVALID_ARGUMENT;
@@ -114,6 +115,7 @@ MienFitFrame row_of(const MienFit& fit, const MienFitFrame& frame, size_t i) {
   if (in.points) in.points += i * points * 3;
   if (in.images) in.images += i * points * 2;
   if (in.point_weights) in.point_weights += i * points;
+  if (in.surface_weights) in.surface_weights += i * points;
   return in;
 }
 
@@ -121,17 +123,18 @@ MienFitFrame row_of(const MienFit& fit, const MienFitFrame& frame, size_t i) {
 
 namespace mien {
 
-void tell_cost(const Cost& cost, MienFitResult& told) {
-  const auto root_mean = [](double sum, double weight) {
-    return weight > 0 ? std::sqrt(sum / weight) : 0.0;
+void tell_cost(const MienFitFrame& in, const Cost& cost, MienFitResult& told) {
+  const auto tell = [](const Sum& sum, double& residual, double& worst) {
+    residual = sum.weight > 0 ? std::sqrt(sum.squares / sum.weight) : 0.0;
+    worst = std::sqrt(sum.worst);
   };
+  const Kind first = in.points ? kPoints : in.images ? kImages : kSurface;
   told.cost = cost.total;
-  told.joint_residual = root_mean(cost.joints, cost.joint_weight);
-  told.point_residual = root_mean(cost.points, cost.point_weight);
-  told.constraint_residual = root_mean(cost.constraints, cost.constraint_weight);
-  told.joint_worst = cost.joint_worst;
-  told.point_worst = std::sqrt(cost.point_worst);
-  told.constraint_worst = std::sqrt(cost.constraint_worst);
+  tell(cost.joints, told.joint_residual, told.joint_worst);
+  tell(cost.points[first], told.point_residual, told.point_worst);
+  tell(cost.points[kImages], told.image_residual, told.image_worst);
+  tell(cost.points[kSurface], told.surface_residual, told.surface_worst);
+  tell(cost.constraints, told.constraint_residual, told.constraint_worst);
 }
 
 }  // namespace mien

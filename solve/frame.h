@@ -40,7 +40,7 @@ struct Frame {
 
   MienFit& fit;
   MienFitFrame in;
-  Motion motion;
+  Motion motion;  // of the camera if there are images, else of all targets of points
   uint32_t missing = 0;
   bool starting = false;  // there are no best controls yet
   bool exact = false;     // steps take the effects of controls on points from the pose at hand
@@ -48,14 +48,36 @@ struct Frame {
   size_t row_count = 0;   // of constraints, at the pose at hand
   Span<const uint32_t> samples = {};  // points that stand for all
   bool own_samples = false;           // they are chosen for this frame; else MienFit::samples
-  bool few = false;                   // less than half of the points count
+  bool few = false;                   // less than half of the points count, of a kind
   Clock::time_point begin = Clock::now();
 
   bool is_late() const {
     return in.max_seconds > 0 &&
            std::chrono::duration<double>(Clock::now() - begin).count() >= in.max_seconds;
   }
+  bool has(Kind kind) const {
+    if (kind == kSurface) return in.surface != nullptr;
+    return (kind == kPoints ? in.points : in.images) != nullptr;
+  }
   bool has_points() const { return in.points || in.images || in.surface; }
+  /// Whether targets of a kind move with the motion: with images, all others stay where they are.
+  bool moves(Kind kind) const { return kind == kImages || !in.images; }
+  const Motion& motion_of(Kind kind) const {
+    static constexpr Motion kInPlace;
+    return moves(kind) ? motion : kInPlace;
+  }
+  /// What the caller has point i of a kind count, whether it has a target or not.
+  double given_weight(Kind kind, size_t i) const {
+    const bool own = kind == kSurface && in.surface_weights;
+    const float* const weights = own ? in.surface_weights : in.point_weights;
+    const double factor = kind == kImages && in.image_weight > 0 ? double{in.image_weight} : 1;
+    return factor * double{weights ? weights[i] : 1.0f};
+  }
+  double robust_scale_of(Kind kind) const {
+    if (kind != kImages) return double{in.robust_scale};
+    const bool own = in.image_robust_scale > 0 || in.points || in.surface;
+    return double{own ? in.image_robust_scale : in.robust_scale};
+  }
   bool is_locked(uint32_t control) const { return in.stages && in.stages[control] > stage; }
   /// Steps need more than the metric at rest. That of rotations changes with the pose.
   bool has_rows() const {
@@ -76,12 +98,17 @@ inline double robust(double squared, double scale, double& weight) {
   return squared * share;
 }
 
+/// A sum over the data of a kind.
+struct Sum {
+  double squares = 0, weight = 0;
+  double worst = 0;  // squared
+};
+
 /// The sums over the data at some controls.
 struct Cost {
-  double total = 0, joints = 0, points = 0, constraints = 0;
-  double joint_weight = 0, point_weight = 0, constraint_weight = 0;
-  double joint_worst = 0, point_worst = 0, constraint_worst = 0;  // the latter two squared
-  double compared_points = 0;  // of a surface, to compare a step by: compared_residual()
+  double total = 0;
+  Sum joints, points[kKinds], constraints;
+  double compared_surface = 0;  // to compare a step by: compared_residual()
 };
 
 constexpr double kEnoughDecrease = 1e-6;  // of the cost: far below what noise is worth
@@ -168,7 +195,7 @@ void evaluate_controls(MienFit& fit);
 
 /// Solves from the controls of the instance to MienFit::best.
 void solve_frame(Frame& f, MienFitResult& told);
-void tell_cost(const Cost& cost, MienFitResult& told);
+void tell_cost(const MienFitFrame& in, const Cost& cost, MienFitResult& told);
 
 // Frames of joints (joint_frames.cpp) -------------------------------------------------------------------
 
@@ -203,8 +230,8 @@ size_t sample_count(size_t count, size_t most);
 void choose_samples(size_t count, const Span<uint32_t>& out);
 /// The points at the controls of the instance, and, for a surface, their normals.
 void find_points(Frame& f);
-/// Where a point in model space is seen: placed, and in the image if there is one.
-void view_point(const Frame& f, const double* point, double* out);
+/// Where a point in model space is seen: placed, and in the image if that is the kind.
+void view_point(const Frame& f, Kind kind, const double* point, double* out);
 /// Where each point is drawn to, if that is a surface.
 void match_surface(Frame& f);
 /// The targets on the surface are those that steps are compared by.
@@ -213,9 +240,10 @@ void keep_targets(MienFit& fit);
 /// whatever they find; for the others the target before the step is one that they may still have.
 double compared_residual(const Frame& f, size_t point, double squared);
 /// The squared residual of a point, and half of its derivative by the point in model space.
-double point_residual(const Frame& f, size_t point, double* gradient);
+double point_residual(const Frame& f, Kind kind, size_t point, double* gradient);
 /// The residuals of a point as steps see them, and their derivatives by the point where the targets are. Up to 3.
-size_t point_rows(const Frame& f, size_t point, double (*directions)[3], double* residuals);
+size_t point_rows(const Frame& f, Kind kind, size_t point, double (*directions)[3],
+                  double* residuals);
 
 // Motion ------------------------------------------------------------------------------------------------
 

@@ -333,10 +333,8 @@ bool JointFrames::solve(Frame& f, size_t lane, MienFitResult& told) {
   evaluate(fit);
   const JointSums end = compare_joints(fit, f.in.joints);
   Cost cost;
-  cost.joints = factor * end.squares;
-  cost.joint_weight = factor * weight;
-  cost.joint_worst = double{end.worst};
-  cost.total = cost.joints + regularize(f, fit.raw.data, nullptr);
+  cost.joints = {factor * end.squares, factor * weight, square(double{end.worst})};
+  cost.total = cost.joints.squares + regularize(f, fit.raw.data, nullptr);
   // Sums of floats have an error.
   const double close = std::max({1e-3 * cost.total, 1e-5 * first, rounding});
   if (!(std::fabs(cost.total - predicted) <= close)) return false;
@@ -344,7 +342,7 @@ bool JointFrames::solve(Frame& f, size_t lane, MienFitResult& told) {
   told.status = MIEN_FIT_CONVERGED;
   told.iterations = 1;
   told.jumped = moved > 1.01 * first + 100 * rounding;
-  tell_cost(cost, told);
+  tell_cost(f.in, cost, told);
   follows = true;
   return true;
 }

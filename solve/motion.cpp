@@ -7,27 +7,36 @@
 namespace mien {
 namespace {
 
+bool is_moving(const Frame& f, Kind kind) { return f.has(kind) && f.moves(kind); }
+
 /// The cost of the points as they are placed now, and what it is compared by.
 struct MotionCost {
   double total = 0, compared = 0;
 };
 MotionCost motion_cost(Frame& f) {
   MienFit& fit = f.fit;
-  if (f.in.surface) match_surface(f);
+  if (is_moving(f, kSurface)) match_surface(f);
   MotionCost cost;
-  for (size_t i = 0; i < fit.points.count; ++i) {
-    fit.pulls[i] = 0;
-    if (!(fit.weights[i] > 0)) continue;
-    double gradient[3], weight;
-    const double scale = double{f.in.robust_scale}, squared = point_residual(f, i, gradient);
-    if (f.in.surface) {
-      cost.compared += fit.weights[i] * robust(compared_residual(f, i, squared), scale, weight);
-      if (fit.lost[i]) continue;
+  for (const Kind kind : kAllKinds) {
+    if (!is_moving(f, kind)) continue;
+    const KindTargets& to = fit.kinds[kind];
+    const double scale = f.robust_scale_of(kind);
+    double total = 0, compared = 0;
+    for (size_t i = 0; i < fit.points.count; ++i) {
+      to.pulls[i] = 0;
+      if (!(to.weights[i] > 0)) continue;
+      double gradient[3], weight;
+      const double squared = point_residual(f, kind, i, gradient);
+      if (kind == kSurface) {
+        compared += to.weights[i] * robust(compared_residual(f, i, squared), scale, weight);
+        if (fit.lost[i]) continue;
+      }
+      total += to.weights[i] * robust(squared, scale, weight);
+      to.pulls[i] = to.weights[i] * weight;
     }
-    cost.total += fit.weights[i] * robust(squared, scale, weight);
-    fit.pulls[i] = fit.weights[i] * weight;
+    cost.total += total;
+    cost.compared += kind == kSurface ? compared : total;
   }
-  if (!f.in.surface) cost.compared = cost.total;
   return cost;
 }
 
@@ -62,6 +71,26 @@ Motion changed(const Motion& from, const double* step, size_t count) {
   return to;
 }
 
+/// Adds J^T W J and -J^T W r of the points by the numbers of the motion.
+void add_motion_rows(const Frame& f, Kind kind, double* matrix, double* right) {
+  const MienFit& fit = f.fit;
+  const Span<double>& pulls = fit.kinds[kind].pulls;
+  const size_t n = f.motion_count();
+  for (size_t i = 0; i < fit.points.count; ++i) {
+    if (!(pulls[i] > 0)) continue;
+    double directions[3][3], residuals[3], moved[3], row[kMostMotion];
+    f.motion.place(fit.surface.data + 3 * i, moved);
+    const size_t rows = point_rows(f, kind, i, directions, residuals);
+    for (size_t r = 0; r < rows; ++r) {
+      list_motion(f, moved, directions[r], r, row);
+      for (size_t a = 0; a < n; ++a) {
+        right[a] -= pulls[i] * row[a] * residuals[r];
+        for (size_t b = 0; b <= a; ++b) matrix[a * n + b] += pulls[i] * row[a] * row[b];
+      }
+    }
+  }
+}
+
 }  // namespace
 
 void list_motion(const Frame& f, const double* moved, const double* direction, size_t row,
@@ -86,18 +115,8 @@ void fit_motion(Frame& f, uint32_t rounds) {
     const double from = f.starting ? cost.total : cost.compared;
     double matrix[kMostMotion * kMostMotion] = {}, factor[kMostMotion * kMostMotion];
     double right[kMostMotion] = {};
-    for (size_t i = 0; i < fit.points.count; ++i) {
-      if (!(fit.weights[i] > 0) || !(fit.pulls[i] > 0)) continue;
-      double directions[3][3], residuals[3], moved[3], row[kMostMotion];
-      f.motion.place(fit.surface.data + 3 * i, moved);
-      const size_t rows = point_rows(f, i, directions, residuals);
-      for (size_t r = 0; r < rows; ++r) {
-        list_motion(f, moved, directions[r], r, row);
-        for (size_t a = 0; a < n; ++a) {
-          right[a] -= fit.pulls[i] * row[a] * residuals[r];
-          for (size_t b = 0; b <= a; ++b) matrix[a * n + b] += fit.pulls[i] * row[a] * row[b];
-        }
-      }
+    for (const Kind kind : kAllKinds) {
+      if (is_moving(f, kind)) add_motion_rows(f, kind, matrix, right);
     }
     const Motion before = f.motion;
     double decrease = 0;
@@ -122,6 +141,7 @@ void fit_motion(Frame& f, uint32_t rounds) {
 
 void guess_camera(Frame& f) {
   MienFit& fit = f.fit;
+  const KindTargets& to = fit.kinds[kImages];
   MienRigInfo info = mien_rig_info_default();
   static_cast<void>(mien_rig_info(fit.rig, &info));
   // The camera's x, y and z: to the left of the character, down, and to its back.
@@ -140,20 +160,20 @@ void guess_camera(Frame& f) {
   double total = 0, model[3] = {}, image[2] = {}, model_size = 0, image_size = 0;
   for (int pass = 0; pass < 2; ++pass) {
     for (size_t i = 0; i < fit.points.count; ++i) {
-      if (!(fit.weights[i] > 0)) continue;
+      if (!(to.weights[i] > 0)) continue;
       double at[3];
       f.motion.place(fit.surface.data + 3 * i, at);
       if (pass == 0) {
-        total += fit.weights[i];
-        for (size_t k = 0; k < 3; ++k) model[k] += fit.weights[i] * at[k];
-        for (size_t k = 0; k < 2; ++k) image[k] += fit.weights[i] * fit.targets[3 * i + k];
+        total += to.weights[i];
+        for (size_t k = 0; k < 3; ++k) model[k] += to.weights[i] * at[k];
+        for (size_t k = 0; k < 2; ++k) image[k] += to.weights[i] * to.targets[3 * i + k];
         continue;
       }
       for (size_t k = 0; k < 2; ++k) {
         const double x = at[k] - model[k],
-                     u = (fit.targets[3 * i + k] - image[k]) / f.motion.focal[k];
-        model_size += fit.weights[i] * x * x;
-        image_size += fit.weights[i] * u * u;
+                     u = (to.targets[3 * i + k] - image[k]) / f.motion.focal[k];
+        model_size += to.weights[i] * x * x;
+        image_size += to.weights[i] * u * u;
       }
     }
     if (pass == 1 || !(total > 0)) break;

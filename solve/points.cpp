@@ -35,31 +35,63 @@ void sum_rows(const MienSolvePoint& point, const float* rows, double* out) {
   }
 }
 
+bool is_finite(const float* row, size_t count) {
+  return std::all_of(row, row + count, [](float v) { return std::isfinite(v); });
+}
+
 double squared_length(const double* v) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; }
 
-/// Samples of the points that count, where those of all points are few of them.
+/// Samples of the points that count, of each kind, where those of all points are few of them.
 void choose_own_samples(Frame& f) {
   MienFit& fit = f.fit;
-  const auto counts = [&](uint32_t i) { return fit.weights[i] > 0; };
-  const auto given = static_cast<size_t>(
-      std::count_if(fit.weights.begin(), fit.weights.end(), [](double w) { return w > 0; }));
-  const auto sampled =
-      static_cast<size_t>(std::count_if(fit.samples.begin(), fit.samples.end(), counts));
   f.samples = fit.samples;
-  f.few = given != 0 && 2 * given < fit.points.count;
-  const size_t count = sample_count(given, fit.samples.count);
-  f.own_samples = f.few && 2 * sampled < count;
-  if (!f.own_samples) return;
-  const Span<uint32_t> own = fit.own_samples.first(count);
-  choose_samples(given, own);
-  uint32_t place = 0;
-  size_t s = 0;
-  for (uint32_t i = 0; s < count; ++i) {
-    if (!counts(i)) continue;
-    if (own[s] == place) own[s++] = i;
-    ++place;
+  size_t kinds = 0, given[kKinds] = {};
+  for (const Kind kind : kAllKinds) kinds += f.has(kind);
+  const size_t most = std::max<size_t>(fit.samples.count / std::max<size_t>(kinds, 1), 1);
+  for (const Kind kind : kAllKinds) {
+    if (!f.has(kind)) continue;
+    const Span<double>& weights = fit.kinds[kind].weights;
+    given[kind] = static_cast<size_t>(
+        std::count_if(weights.begin(), weights.end(), [](double w) { return w > 0; }));
+    const auto sampled = static_cast<size_t>(std::count_if(
+        fit.samples.begin(), fit.samples.end(), [&](uint32_t i) { return weights[i] > 0; }));
+    const bool few = given[kind] != 0 && 2 * given[kind] < fit.points.count;
+    f.few = f.few || few;
+    f.own_samples = f.own_samples || (few && 2 * sampled < sample_count(given[kind], most));
   }
-  f.samples = own;
+  if (!f.own_samples) return;
+  std::fill(fit.is_sample.begin(), fit.is_sample.end(), uint8_t{0});
+  for (const Kind kind : kAllKinds) {
+    const Span<uint32_t> own = fit.own_samples.first(sample_count(given[kind], most));
+    choose_samples(given[kind], own);
+    uint32_t place = 0;
+    size_t s = 0;
+    for (uint32_t i = 0; s < own.count; ++i) {
+      if (!(fit.kinds[kind].weights[i] > 0)) continue;
+      if (own[s] == place) fit.is_sample[i] = 1, ++s;
+      ++place;
+    }
+  }
+  size_t count = 0;
+  for (uint32_t i = 0; i < fit.points.count; ++i) {
+    if (fit.is_sample[i]) fit.own_samples[count++] = i;
+  }
+  f.samples = fit.own_samples.first(count);
+}
+
+/// The targets of a kind, and their weights. Those of a surface are found later.
+void read_kind(const Frame& f, Kind kind) {
+  MienFit& fit = f.fit;
+  const KindTargets& to = fit.kinds[kind];
+  const float* const rows = kind == kPoints ? f.in.points : kind == kImages ? f.in.images : nullptr;
+  const size_t width = kind == kPoints ? 3 : 2;
+  std::fill(to.targets.begin(), to.targets.end(), 0.0);
+  for (size_t i = 0; i < fit.points.count; ++i) {
+    const float* const row = rows ? rows + width * i : nullptr;
+    const bool present = kind == kSurface ? f.in.surface != nullptr : row && is_finite(row, width);
+    to.weights[i] = present ? f.given_weight(kind, i) : 0.0;
+    for (size_t k = 0; row && present && k < width; ++k) to.targets[3 * i + k] = double{row[k]};
+  }
 }
 
 }  // namespace
@@ -85,19 +117,10 @@ void read_points(Frame& f) {
   MienFit& fit = f.fit;
   std::fill(fit.lost.begin(), fit.lost.end(), uint8_t{0});
   std::fill(fit.kept_lost.begin(), fit.kept_lost.end(), uint8_t{1});
-  const float* rows = f.in.points ? f.in.points : f.in.images;
-  const size_t width = f.in.points ? 3 : 2;
-  for (size_t i = 0; i < fit.points.count; ++i) {
-    bool finite = true;
-    for (size_t k = 0; k < 3; ++k) {
-      const float v = rows && k < width ? rows[width * i + k] : 0.0f;
-      finite = finite && std::isfinite(v);
-      fit.targets[3 * i + k] = v;
-    }
-    const float weight = f.in.point_weights ? f.in.point_weights[i] : 1.0f;
-    fit.weights[i] = finite && f.has_points() ? weight : 0.0;
-    if (!finite) std::fill(fit.targets.data + 3 * i, fit.targets.data + 3 * i + 3, 0.0);
-    f.missing += !finite;
+  for (const Kind kind : kAllKinds) read_kind(f, kind);
+  for (size_t i = 0; i < fit.points.count && f.has_points() && !f.in.surface; ++i) {
+    f.missing += !(f.in.points && is_finite(f.in.points + 3 * i, 3)) &&
+                 !(f.in.images && is_finite(f.in.images + 2 * i, 2));
   }
   choose_own_samples(f);
   if (!f.in.images) return;
@@ -136,9 +159,9 @@ void find_points(Frame& f) {
   find_position_normals(fit, positions.data);
 }
 
-void view_point(const Frame& f, const double* point, double* out) {
-  f.motion.place(point, out);
-  if (!f.in.images) return;
+void view_point(const Frame& f, Kind kind, const double* point, double* out) {
+  f.motion_of(kind).place(point, out);
+  if (kind != kImages) return;
   const double z = std::max(out[2], 1e-6);
   for (size_t k = 0; k < 2; ++k) out[k] *= f.motion.focal[k] / z;
   out[2] = 0;
@@ -146,21 +169,23 @@ void view_point(const Frame& f, const double* point, double* out) {
 
 void match_surface(Frame& f) {
   MienFit& fit = f.fit;
+  const KindTargets& to = fit.kinds[kSurface];
+  const Motion& motion = f.motion_of(kSurface);
   const double reach = f.in.surface_reach > 0 ? double{f.in.surface_reach} : 1e30;
   f.missing = 0;
   for (size_t i = 0; i < fit.points.count; ++i) {
-    if (!(fit.weights[i] > 0)) continue;
+    if (!(to.weights[i] > 0)) continue;
     double at[3], own[3], normal[3] = {};
-    f.motion.place(fit.surface.data + 3 * i, at);
+    motion.place(fit.surface.data + 3 * i, at);
     sum_rows(fit.whole_points[i], fit.position_normals.data, own);
     const double length = std::sqrt(squared_length(own));
     for (size_t r = 0; r < 3 && length > 0; ++r) {
-      for (size_t c = 0; c < 3; ++c) normal[r] += f.motion.rotation[3 * r + c] * own[c] / length;
+      for (size_t c = 0; c < 3; ++c) normal[r] += motion.rotation[3 * r + c] * own[c] / length;
     }
     SurfacePoint found;
     const bool near_enough = find_nearest(*f.in.surface, at, normal, reach, found);
     if (near_enough) {
-      std::copy(found.position, found.position + 3, fit.targets.data + 3 * i);
+      std::copy(found.position, found.position + 3, to.targets.data + 3 * i);
       std::copy(found.normal, found.normal + 3, fit.normals.data + 3 * i);
     }
     fit.lost[i] = !near_enough || found.border;
@@ -169,7 +194,8 @@ void match_surface(Frame& f) {
 }
 
 void keep_targets(MienFit& fit) {
-  std::copy(fit.targets.begin(), fit.targets.end(), fit.kept_targets.begin());
+  const Span<double>& targets = fit.kinds[kSurface].targets;
+  std::copy(targets.begin(), targets.end(), fit.kept_targets.begin());
   std::copy(fit.lost.begin(), fit.lost.end(), fit.kept_lost.begin());
 }
 
@@ -177,40 +203,42 @@ double compared_residual(const Frame& f, size_t i, double squared) {
   const MienFit& fit = f.fit;
   if (fit.kept_lost[i]) return 0;
   double apart[3];
-  f.motion.place(fit.surface.data + 3 * i, apart);
+  f.motion_of(kSurface).place(fit.surface.data + 3 * i, apart);
   for (size_t k = 0; k < 3; ++k) apart[k] -= fit.kept_targets[3 * i + k];
   return fit.lost[i] ? squared_length(apart) : std::min(squared, squared_length(apart));
 }
 
-double point_residual(const Frame& f, size_t i, double* gradient) {
+double point_residual(const Frame& f, Kind kind, size_t i, double* gradient) {
+  const Motion& motion = f.motion_of(kind);
   double moved[3];
-  f.motion.place(f.fit.surface.data + 3 * i, moved);
-  const double* target = f.fit.targets.data + 3 * i;
+  motion.place(f.fit.surface.data + 3 * i, moved);
+  const double* target = f.fit.kinds[kind].targets.data + 3 * i;
   double squared = 0, by_moved[3] = {};
-  if (!f.in.images) {
+  if (kind != kImages) {
     for (size_t k = 0; k < 3; ++k) by_moved[k] = moved[k] - target[k];
     squared = squared_length(by_moved);
   } else if (moved[2] > 1e-6) {
     for (size_t k = 0; k < 2; ++k) {
-      const double focal = f.motion.focal[k], z = moved[2];
+      const double focal = motion.focal[k], z = moved[2];
       const double r = focal * moved[k] / z + double{f.in.camera->center[k]} - target[k];
       squared += r * r;
       by_moved[k] += r * focal / z;
       by_moved[2] -= r * focal * moved[k] / (z * z);
     }
   }
-  f.motion.turn_back(by_moved, gradient);
+  motion.turn_back(by_moved, gradient);
   return squared;
 }
 
-size_t point_rows(const Frame& f, size_t i, double (*directions)[3], double* residuals) {
+size_t point_rows(const Frame& f, Kind kind, size_t i, double (*directions)[3], double* residuals) {
+  const Motion& motion = f.motion_of(kind);
   double moved[3];
-  f.motion.place(f.fit.surface.data + 3 * i, moved);
-  const double* target = f.fit.targets.data + 3 * i;
-  if (f.in.images) {
+  motion.place(f.fit.surface.data + 3 * i, moved);
+  const double* target = f.fit.kinds[kind].targets.data + 3 * i;
+  if (kind == kImages) {
     if (!(moved[2] > 1e-6)) return 0;
     for (size_t k = 0; k < 2; ++k) {
-      const double focal = f.motion.focal[k], z = moved[2];
+      const double focal = motion.focal[k], z = moved[2];
       std::fill(directions[k], directions[k] + 3, 0.0);
       directions[k][k] = focal / z;
       directions[k][2] = -focal * moved[k] / (z * z);
@@ -218,7 +246,7 @@ size_t point_rows(const Frame& f, size_t i, double (*directions)[3], double* res
     }
     return 2;
   }
-  if (f.in.surface) {
+  if (kind == kSurface) {
     // Along the surface a point may slide.
     residuals[0] = 0;
     for (size_t k = 0; k < 3; ++k) {

@@ -72,10 +72,6 @@ void find_effects(Frame& f, size_t free_count) {
 void add_point_rows(Frame& f, size_t free_count) {
   MienFit& fit = f.fit;
   find_effects(f, free_count);
-  double all = 0, sampled = 0;
-  for (const double pull : fit.pulls) all += pull;
-  for (const uint32_t i : f.samples) sampled += fit.pulls[i];
-  if (!(sampled > 0)) return;
   const size_t motion = f.motion_count(), width = motion + free_count;
   double* const wide = fit.wide.data;
   double* const panel = fit.panel.data;
@@ -88,17 +84,17 @@ void add_point_rows(Frame& f, size_t free_count) {
     std::fill(panel, panel + width * kPanel, 0.0);
     filled = 0;
   };
-  for (size_t s = 0; s < f.samples.count; ++s) {
+  const auto add_rows = [&](Kind kind, size_t s, double weight) {
     const size_t i = f.samples[s];
-    if (!(fit.pulls[i] > 0)) continue;
-    const double scale = std::sqrt(fit.pulls[i] * all / sampled);
+    const double scale = std::sqrt(weight);
+    const Motion& placed = f.motion_of(kind);
     double directions[3][3], residuals[3], moved[3];
-    f.motion.place(fit.surface.data + 3 * i, moved);
-    const size_t rows = point_rows(f, i, directions, residuals);
+    placed.place(fit.surface.data + 3 * i, moved);
+    const size_t rows = point_rows(f, kind, i, directions, residuals);
     for (size_t r = 0; r < rows; ++r) {
-      double back[3], by_motion[kMostMotion];
-      f.motion.turn_back(directions[r], back);
-      if (motion != 0) list_motion(f, moved, directions[r], r, by_motion);
+      double back[3], by_motion[kMostMotion] = {};
+      placed.turn_back(directions[r], back);
+      if (motion != 0 && f.moves(kind)) list_motion(f, moved, directions[r], r, by_motion);
       for (size_t a = 0; a < motion; ++a) panel[a * kPanel + filled] = scale * by_motion[a];
       for (size_t a = 0; a < free_count; ++a) {
         const float* const effect = fit.step_effects.data + (fit.free[a] * f.samples.count + s) * 3;
@@ -106,6 +102,17 @@ void add_point_rows(Frame& f, size_t free_count) {
             scale * (back[0] * effect[0] + back[1] * effect[1] + back[2] * effect[2]);
       }
       if (++filled == kPanel) add_products();
+    }
+  };
+  for (const Kind kind : kAllKinds) {
+    if (!f.has(kind)) continue;
+    const Span<double>& pulls = fit.kinds[kind].pulls;
+    double all = 0, sampled = 0;
+    for (const double pull : pulls) all += pull;
+    for (const uint32_t i : f.samples) sampled += pulls[i];
+    for (size_t s = 0; s < f.samples.count; ++s) {
+      const double pull = pulls[f.samples[s]];
+      if (pull > 0) add_rows(kind, s, pull * all / sampled);
     }
   }
   if (filled != 0) add_products();

@@ -70,11 +70,12 @@ double take_step(Frame& f, size_t free_count, double damping) {
   return farthest;
 }
 
-double largest_target(const Frame& f) {
+double largest_target(const Frame& f, Kind kind) {
+  const KindTargets& to = f.fit.kinds[kind];
   double largest = 0;
-  for (size_t i = 0; f.has_points() && i < f.fit.points.count; ++i) {
-    if (!(f.fit.weights[i] > 0)) continue;
-    for (size_t k = 0; k < 3; ++k) largest = std::max(largest, std::fabs(f.fit.targets[3 * i + k]));
+  for (size_t i = 0; i < f.fit.points.count; ++i) {
+    if (!(to.weights[i] > 0)) continue;
+    for (size_t k = 0; k < 3; ++k) largest = std::max(largest, std::fabs(to.targets[3 * i + k]));
   }
   return largest;
 }
@@ -90,8 +91,13 @@ double largest_joint(const Frame& f) {
 
 /// The cost that the rounding of floats leaves.
 double rounding_of(const Frame& f, const Cost& cost) {
-  return cost.point_weight * square(kRounding * largest_target(f)) +
-         cost.joint_weight * square(kRounding * largest_joint(f));
+  double sum = 0;
+  for (const Kind kind : kAllKinds) {
+    if (f.has(kind)) {
+      sum += cost.points[kind].weight * square(kRounding * largest_target(f, kind));
+    }
+  }
+  return sum + cost.joints.weight * square(kRounding * largest_joint(f));
 }
 
 /// The motion at the start.
@@ -104,6 +110,13 @@ void start_motion(Frame& f) {
     guess_camera(f);
   }
   f.starting = true;
+  if (f.in.points && f.in.surface && !f.in.images) {
+    // The nearest places of a surface mean little before points have brought it near.
+    const MienFitSurface* const surface = f.in.surface;
+    f.in.surface = nullptr;
+    fit_motion(f, kFirstRounds);
+    f.in.surface = surface;
+  }
   follow_points(f, kFirstRounds);
   f.starting = false;
 }
@@ -120,7 +133,8 @@ struct Solve {
   }
   /// The total after a step, as it is compared with the total before.
   double compared(const Cost& next) const {
-    return f.in.surface ? next.total - next.points + next.compared_points : next.total;
+    return f.in.surface ? next.total - next.points[kSurface].squares + next.compared_surface
+                        : next.total;
   }
   Cost find_all() {
     Cost found = find_cost(f);
@@ -258,33 +272,49 @@ Moves start_moves(Frame& f) {
   }
   if (!f.has_points()) return moves;
   std::copy(fit.surface.begin(), fit.surface.end(), fit.start_surface.begin());
-  for (size_t i = 0; i < fit.points.count; ++i) {
-    double gradient[3];
-    if (fit.pulls[i] > 0) moves.asked_points += fit.pulls[i] * point_residual(f, i, gradient);
+  for (const Kind kind : kAllKinds) {
+    for (size_t i = 0; f.has(kind) && i < fit.points.count; ++i) {
+      const double pull = fit.kinds[kind].pulls[i];
+      double gradient[3];
+      if (pull > 0) moves.asked_points += pull * point_residual(f, kind, i, gradient);
+    }
   }
   return moves;
+}
+
+bool has_target(const MienFit& fit, size_t point) {
+  return std::any_of(fit.kinds, fit.kinds + kKinds,
+                     [&](const KindTargets& to) { return to.weights[point] > 0; });
 }
 
 bool has_jumped(const Frame& f, const Moves& moves) {
   const MienFit& fit = f.fit;
   constexpr double kSlack = 1.01;  // of the sums: what rounding and curvature add
-  double joints = 0, points = 0, room_for_joints = 0, room_for_points = 0;
+  double joints = 0, points = 0, room_for_joints = 0, point_noise = 0;
   for (size_t i = 0; f.in.joints && i < fit.joint_count; ++i) {
     joints += double{fit.joint_weights[i]} * square(double{fit.joints[i]} - fit.start_joints[i]);
     room_for_joints += double{fit.joint_weights[i]};
   }
-  for (size_t i = 0; f.has_points() && i < fit.points.count; ++i) {
-    // A missing point counts as much as one that is there, an outlier as little as in the cost.
-    const double given = f.in.point_weights ? double{f.in.point_weights[i]} : 1.0;
-    const double weight = fit.weights[i] > 0 ? fit.pulls[i] : given;
-    double before[3], after[3];
-    view_point(f, fit.start_surface.data + 3 * i, before);
-    view_point(f, fit.surface.data + 3 * i, after);
-    for (size_t k = 0; k < 3; ++k) points += weight * square(after[k] - before[k]);
-    room_for_points += weight;
+  bool first = true;  // of the kinds that are given
+  for (const Kind kind : kAllKinds) {
+    if (!f.has(kind)) continue;
+    double room = 0;
+    for (size_t i = 0; i < fit.points.count; ++i) {
+      // A point without a target of any kind counts as much as one that has one, an outlier as little as in the cost.
+      double weight = fit.kinds[kind].pulls[i];
+      if (!(fit.kinds[kind].weights[i] > 0)) {
+        weight = first && !has_target(fit, i) ? f.given_weight(kind, i) : 0;
+      }
+      double before[3], after[3];
+      view_point(f, kind, fit.start_surface.data + 3 * i, before);
+      view_point(f, kind, fit.surface.data + 3 * i, after);
+      for (size_t k = 0; k < 3; ++k) points += weight * square(after[k] - before[k]);
+      room += weight;
+    }
+    point_noise += room * square(10 * kRounding * largest_target(f, kind));
+    first = false;
   }
   const double joint_noise = room_for_joints * square(10 * kRounding * largest_joint(f));
-  const double point_noise = room_for_points * square(10 * kRounding * largest_target(f));
   return joints > kSlack * moves.asked_joints + joint_noise ||
          points > kSlack * moves.asked_points + point_noise;
 }
@@ -299,7 +329,9 @@ void solve_frame(Frame& f, MienFitResult& told) {
   solve.keep();
   const Moves moves = start_moves(f);
   const Cost& cost = solve.cost;
-  if (cost.joint_weight + cost.point_weight + cost.constraint_weight > 0) {
+  double weight = cost.joints.weight + cost.constraints.weight;
+  for (const Sum& sum : cost.points) weight += sum.weight;
+  if (weight > 0) {
     solve.first = cost.total;
     const uint32_t limit = f.in.max_iterations ? f.in.max_iterations : kDefaultIterations;
     uint32_t last = 0, present = f.in.stages && fit.controls.count != 0 ? 0 : 1;
@@ -324,7 +356,7 @@ void solve_frame(Frame& f, MienFitResult& told) {
     told.status = MIEN_FIT_NO_DATA;
   }
   told.iterations = solve.iterations;
-  tell_cost(solve.cost, told);
+  tell_cost(f.in, solve.cost, told);
 }
 
 }  // namespace mien

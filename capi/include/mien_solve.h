@@ -141,14 +141,16 @@ enum MienFitStatus {
     MIEN_FIT_NO_DATA = 4     /* no target, or all are missing; the start is returned */
 };
 
-/* The targets of one frame, and the weights of the terms; terms of weight 0 are left out. */
+/* The targets of one frame, and the weights of the terms; terms of weight 0 are left out. Joints, points, images, a
+ * surface and constraints may be given together: a point may have a target of each kind. Each kind has a unit of its
+ * own: joint values, lengths (points and surface), and that of images. */
 typedef struct MienFitFrame {
     size_t struct_size;
     const float* joints;         /* joint values. NULL: none. NaN: missing */
     const float* points;         /* x y z per point. NULL: none. NaN: missing */
     const float* images;         /* x y per point, as `camera` sees them. NULL: none. NaN: missing */
     const MienFitCamera* camera; /* required with `images` */
-    const float* point_weights;  /* per point, 0 or more. NULL: 1 */
+    const float* point_weights;  /* per point, 0 or more: of points and images. NULL: 1 */
     const float* start;          /* all raw controls of the rig, to start from. NULL: the initial ones */
     const float* prior;          /* raw controls that the result is drawn to. NULL: the initial ones */
     float prior_weight;          /* times the squared distance to `prior` */
@@ -156,19 +158,20 @@ typedef struct MienFitFrame {
     float sparse_weight;         /* times the sum of magnitudes, from the initial values: few controls
                                     explain the frame */
     float symmetric_weight;      /* times the squared differences of symmetric pairs */
-    float robust_scale;          /* points farther off than this count less. 0: all count fully */
+    float robust_scale;          /* points farther off than this, or from the surface, count less. 0: all count
+                                    fully */
     float joint_weight;          /* weight of the joints relative to the points. 0: 1 */
-    uint32_t rigid;              /* boolean: the targets may be rotated and translated as a whole. With
-                                    `images`, the camera is found, from that of `camera`, or, if its rotation
-                                    is unknown, from one that sees the face from the front */
+    uint32_t rigid;              /* boolean: points and surface may be rotated and translated as a whole, by one
+                                    motion. With `images`, these stay where they are in model space, and the camera
+                                    is found, from that of `camera`, or, if its rotation is unknown, from one that
+                                    sees the face from the front */
     uint32_t max_iterations;     /* 0: 50 */
     double max_seconds;          /* 0: no limit. A limit makes results depend on the machine */
     void* user;                  /* passed to `canceled` */
     /* Called before each iteration; a nonzero result stops. NULL: never. */
     uint32_t(MIEN_CALLBACK* canceled)(void* user);
-    const MienFitSurface* surface; /* in place of `points` and `images`: each point is drawn to the nearest
-                                      place of the surface that faces the same way, within 60 degrees, and is
-                                      not at a border. NULL: none */
+    const MienFitSurface* surface; /* each point is drawn to the nearest place of the surface that faces the same
+                                      way, within 60 degrees, and is not at a border. NULL: none */
     float surface_reach;           /* points farther from the surface have no target. 0: no limit */
     uint32_t focal;                /* boolean, with `images` and `rigid`: the focal length is found too, its
                                       two numbers scaled alike */
@@ -180,6 +183,12 @@ typedef struct MienFitFrame {
     const float* point_offsets; /* x y z per point, in model space: how far the points of the face in the targets are
                                    from those of the rig at rest, where it is another person's. Constraints are about
                                    the points of the rig. NULL: 0 */
+    const float* surface_weights;  /* per point, 0 or more: how much it is drawn to `surface`. NULL: those of
+                                      `point_weights` */
+    float image_weight;            /* weight of the images relative to the points: of a squared length in the image,
+                                      against a squared length in space. 0: 1 */
+    float image_robust_scale;      /* `robust_scale` of images, in their unit. 0: `robust_scale`, or, if there are
+                                      points or a surface too, all count fully */
 } MienFitFrame;
 MIEN_DEFAULT(MienFitFrame, mien_fit_frame_default)
 
@@ -190,14 +199,15 @@ typedef struct MienFitResult {
     uint32_t iterations;
     double cost;             /* the minimized sum, with all terms */
     double joint_residual;   /* weighted root mean square of the differences of joint values */
-    double point_residual;   /* the same for points, or for image points in their unit */
+    double point_residual;   /* the same for points; without these, for images in their unit; without both, for the
+                                surface */
     uint32_t missing_points; /* with a surface: those that have no target */
     uint32_t reserved;
     float rotation[9];       /* rows: points of the target = rotation * model + translation, if rigid; the
                                 camera's with images */
     float translation[3];
     double joint_worst;      /* largest difference of a joint value that counts */
-    double point_worst;      /* largest distance of a point that counts */
+    double point_worst;      /* largest distance of a point that counts, of the same kind */
     float focal[2];          /* of the camera, with images; else 0 */
     double constraint_residual; /* weighted root mean square of the residuals of constraints */
     double constraint_worst;    /* largest residual of a constraint that counts */
@@ -205,6 +215,10 @@ typedef struct MienFitResult {
                         targets ask for, as roots of mean squares; points without a target count as such that
                         ask for nothing */
     uint32_t reserved_2;
+    double image_residual; /* weighted root mean square of the distances in the image */
+    double image_worst;
+    double surface_residual; /* the same of the distances from the surface */
+    double surface_worst;
 } MienFitResult;
 MIEN_DEFAULT(MienFitResult, mien_fit_result_default)
 
@@ -213,18 +227,18 @@ MIEN_DEFAULT(MienFitResult, mien_fit_result_default)
  * may be NULL. Deterministic unless there is a time limit. Does not allocate or lock.
  * Fails with MIEN_ERROR_NULL_ARGUMENT if points, images or a surface are given to a fit without points, or
  * images without a camera, or constraints on joints to one without a deformer,
- * MIEN_ERROR_INVALID_ARGUMENT if two kinds of points are given, a stage is above 15, or a weight, a control, an
- * offset or a number of the camera is not finite, or a weight is negative, MIEN_ERROR_HANDLE if `surface` is none,
+ * MIEN_ERROR_INVALID_ARGUMENT if a stage is above 15, or a weight, a control, an offset or a number of the camera is
+ * not finite, or a weight is negative, MIEN_ERROR_HANDLE if `surface` is none,
  * MIEN_ERROR_INDEX if a constraint has a joint or point that does not exist. */
 MIEN_SOLVE_CHECKED MienStatus mien_fit_solve(MienFit* fit, const MienFitFrame* frame, float* out_raw,
                                        MienFitResult* result);
 
-/* Solves `count` frames of a motion, each from the result of the one before. `joints`, `points`, `images` and
- * `point_weights` of `frame` have a row for each frame, one after the other; all else is for all frames. `start` and
- * `stages` are for the first frame, and so is `camera`, if it may move. `out_raw` gets a row of all raw controls for
- * each frame; `results`, which may be NULL, one result for each, all with the `struct_size` of the first. Where joints
- * are the only targets, this is faster than calls of mien_fit_solve(), and differs from them by rounding.
- * Deterministic unless there is a time limit, which is that of a frame. Does not allocate or lock.
+/* Solves `count` frames of a motion, each from the result of the one before. `joints`, `points`, `images`,
+ * `point_weights` and `surface_weights` of `frame` have a row for each frame, one after the other; all else is for all
+ * frames. `start` and `stages` are for the first frame, and so is `camera`, if it may move. `out_raw` gets a row of all
+ * raw controls for each frame; `results`, which may be NULL, one result for each, all with the `struct_size` of the
+ * first. Where joints are the only targets, this is faster than calls of mien_fit_solve(), and differs from them by
+ * rounding. Deterministic unless there is a time limit, which is that of a frame. Does not allocate or lock.
  * Fails like mien_fit_solve(). */
 MIEN_SOLVE_CHECKED MienStatus mien_fit_solve_frames(MienFit* fit, const MienFitFrame* frame, size_t count,
                                                     float* out_raw, MienFitResult* results);

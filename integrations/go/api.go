@@ -1359,7 +1359,7 @@ type FitResult struct {
 	Cost float64
 	// weighted root mean square of the differences of joint values
 	JointResidual float64
-	// the same for points, or for image points in their unit
+	// the same for points; without these, for images in their unit; without both, for the surface
 	PointResidual float64
 	// with a surface: those that have no target
 	MissingPoints uint32
@@ -1369,7 +1369,7 @@ type FitResult struct {
 	Translation [3]float32
 	// largest difference of a joint value that counts
 	JointWorst float64
-	// largest distance of a point that counts
+	// largest distance of a point that counts, of the same kind
 	PointWorst float64
 	// of the camera, with images; else 0
 	Focal [2]float32
@@ -1380,6 +1380,12 @@ type FitResult struct {
 	// joint values or points moved farther from where they are at `start` than their targets ask for, as roots of mean squares; points without a target count as such that ask for nothing
 	Jumped     uint32
 	Reserved_2 uint32
+	// weighted root mean square of the distances in the image
+	ImageResidual float64
+	ImageWorst    float64
+	// the same of the distances from the surface
+	SurfaceResidual float64
+	SurfaceWorst    float64
 }
 
 // Bytes of each struct in C, to compare with unsafe.Sizeof.
@@ -1423,5 +1429,5 @@ var structSizes = [][2]uintptr{
 	{unsafe.Sizeof(ProjectDesc{}), 24},
 	{unsafe.Sizeof(Conformed{}), 24},
 	{unsafe.Sizeof(TransplantDesc{}), 16},
-	{unsafe.Sizeof(FitResult{}), 144},
+	{unsafe.Sizeof(FitResult{}), 176},
 }

@@ -27,6 +27,27 @@ inline FitHandle create_fit(const RigHandle& rig, const MienFitDesc& desc,
   return FitHandle(made);
 }
 
+struct DestroySurface {
+  void operator()(MienFitSurface* surface) const { mien_fit_surface_destroy(surface); }
+};
+using SurfaceHandle = std::unique_ptr<MienFitSurface, DestroySurface>;
+
+inline SurfaceHandle create_surface(const std::vector<float>& positions,
+                                    const std::vector<uint32_t>& triangles,
+                                    MienStatus expected = MIEN_OK,
+                                    const MienAllocator* memory = nullptr) {
+  MienFitSurfaceDesc desc = mien_fit_surface_desc_default();
+  desc.positions = positions.data();
+  desc.position_count = positions.size() / 3;
+  desc.triangles = triangles.data();
+  desc.triangle_count = triangles.size() / 3;
+  desc.allocator = memory;
+  MienFitSurface* made = nullptr;
+  MienError error = sized<MienError>();
+  EXPECT_EQ(mien_fit_surface_create(&desc, &made, &error), expected) << error.message;
+  return SurfaceHandle(made);
+}
+
 /// A generated head of medium size, with its deformer, and a pose of some controls.
 struct Head {
   DnaHandle dna;

@@ -741,8 +741,8 @@ namespace Mien.Native {
       new[] { sizeof(MienFitSurfaceDesc), 48 },
       new[] { sizeof(MienFitCamera), 64 },
       new[] { sizeof(MienFitConstraint), 52 },
-      new[] { sizeof(MienFitFrame), 168 },
-      new[] { sizeof(MienFitResult), 144 },
+      new[] { sizeof(MienFitFrame), 184 },
+      new[] { sizeof(MienFitResult), 176 },
     };
   }
 
@@ -2748,7 +2748,9 @@ namespace Mien.Native {
     public float Weight;
   }
 
-  /// <summary>The targets of one frame, and the weights of the terms; terms of weight 0 are left out.</summary>
+  /// <summary>The targets of one frame, and the weights of the terms; terms of weight 0 are left out. Joints, points, images, a
+  /// surface and constraints may be given together: a point may have a target of each kind. Each kind has a unit of its
+  /// own: joint values, lengths (points and surface), and that of images.</summary>
   [StructLayout(LayoutKind.Sequential)]
   public unsafe struct MienFitFrame {
     public UIntPtr StructSize;
@@ -2760,7 +2762,7 @@ namespace Mien.Native {
     public float* Images;
     /// <summary>required with `images`</summary>
     public MienFitCamera* Camera;
-    /// <summary>per point, 0 or more. NULL: 1</summary>
+    /// <summary>per point, 0 or more: of points and images. NULL: 1</summary>
     public float* PointWeights;
     /// <summary>all raw controls of the rig, to start from. NULL: the initial ones</summary>
     public float* Start;
@@ -2774,11 +2776,11 @@ namespace Mien.Native {
     public float SparseWeight;
     /// <summary>times the squared differences of symmetric pairs</summary>
     public float SymmetricWeight;
-    /// <summary>points farther off than this count less. 0: all count fully</summary>
+    /// <summary>points farther off than this, or from the surface, count less. 0: all count fully</summary>
     public float RobustScale;
     /// <summary>weight of the joints relative to the points. 0: 1</summary>
     public float JointWeight;
-    /// <summary>the targets may be rotated and translated as a whole. With `images`, the camera is found, from that of `camera`, or, if its rotation is unknown, from one that sees the face from the front</summary>
+    /// <summary>points and surface may be rotated and translated as a whole, by one motion. With `images`, these stay where they are in model space, and the camera is found, from that of `camera`, or, if its rotation is unknown, from one that sees the face from the front</summary>
     public uint Rigid;
     /// <summary>0: 50</summary>
     public uint MaxIterations;
@@ -2788,7 +2790,7 @@ namespace Mien.Native {
     public void* User;
     /// <summary>Called before each iteration; a nonzero result stops. NULL: never.</summary>
     public IntPtr Canceled;
-    /// <summary>in place of `points` and `images`: each point is drawn to the nearest place of the surface that faces the same way, within 60 degrees, and is not at a border. NULL: none</summary>
+    /// <summary>each point is drawn to the nearest place of the surface that faces the same way, within 60 degrees, and is not at a border. NULL: none</summary>
     public IntPtr Surface;
     /// <summary>points farther from the surface have no target. 0: no limit</summary>
     public float SurfaceReach;
@@ -2801,6 +2803,12 @@ namespace Mien.Native {
     public uint* Stages;
     /// <summary>x y z per point, in model space: how far the points of the face in the targets are from those of the rig at rest, where it is another person's. Constraints are about the points of the rig. NULL: 0</summary>
     public float* PointOffsets;
+    /// <summary>per point, 0 or more: how much it is drawn to `surface`. NULL: those of `point_weights`</summary>
+    public float* SurfaceWeights;
+    /// <summary>weight of the images relative to the points: of a squared length in the image, against a squared length in space. 0: 1</summary>
+    public float ImageWeight;
+    /// <summary>`robust_scale` of images, in their unit. 0: `robust_scale`, or, if there are points or a surface too, all count fully</summary>
+    public float ImageRobustScale;
 
     /// <summary>All fields zero but StructSize.</summary>
     public static MienFitFrame Create() {
@@ -2819,7 +2827,7 @@ namespace Mien.Native {
     public double Cost;
     /// <summary>weighted root mean square of the differences of joint values</summary>
     public double JointResidual;
-    /// <summary>the same for points, or for image points in their unit</summary>
+    /// <summary>the same for points; without these, for images in their unit; without both, for the surface</summary>
     public double PointResidual;
     /// <summary>with a surface: those that have no target</summary>
     public uint MissingPoints;
@@ -2829,7 +2837,7 @@ namespace Mien.Native {
     public fixed float Translation[3];
     /// <summary>largest difference of a joint value that counts</summary>
     public double JointWorst;
-    /// <summary>largest distance of a point that counts</summary>
+    /// <summary>largest distance of a point that counts, of the same kind</summary>
     public double PointWorst;
     /// <summary>of the camera, with images; else 0</summary>
     public fixed float Focal[2];
@@ -2840,6 +2848,12 @@ namespace Mien.Native {
     /// <summary>joint values or points moved farther from where they are at `start` than their targets ask for, as roots of mean squares; points without a target count as such that ask for nothing</summary>
     public uint Jumped;
     public uint Reserved_2;
+    /// <summary>weighted root mean square of the distances in the image</summary>
+    public double ImageResidual;
+    public double ImageWorst;
+    /// <summary>the same of the distances from the surface</summary>
+    public double SurfaceResidual;
+    public double SurfaceWorst;
 
     /// <summary>All fields zero but StructSize.</summary>
     public static MienFitResult Create() {
@@ -4920,18 +4934,18 @@ namespace Mien.Native {
     /// may be NULL. Deterministic unless there is a time limit. Does not allocate or lock.
     /// Fails with MIEN_ERROR_NULL_ARGUMENT if points, images or a surface are given to a fit without points, or
     /// images without a camera, or constraints on joints to one without a deformer,
-    /// MIEN_ERROR_INVALID_ARGUMENT if two kinds of points are given, a stage is above 15, or a weight, a control, an
-    /// offset or a number of the camera is not finite, or a weight is negative, MIEN_ERROR_HANDLE if `surface` is none,
+    /// MIEN_ERROR_INVALID_ARGUMENT if a stage is above 15, or a weight, a control, an offset or a number of the camera is
+    /// not finite, or a weight is negative, MIEN_ERROR_HANDLE if `surface` is none,
     /// MIEN_ERROR_INDEX if a constraint has a joint or point that does not exist.</summary>
     [DllImport("mien-solve", CallingConvention = CallingConvention.Cdecl)]
     public static extern Status mien_fit_solve(FitHandle fit, MienFitFrame* frame, float* out_raw, MienFitResult* result);
 
-    /// <summary>Solves `count` frames of a motion, each from the result of the one before. `joints`, `points`, `images` and
-    /// `point_weights` of `frame` have a row for each frame, one after the other; all else is for all frames. `start` and
-    /// `stages` are for the first frame, and so is `camera`, if it may move. `out_raw` gets a row of all raw controls for
-    /// each frame; `results`, which may be NULL, one result for each, all with the `struct_size` of the first. Where joints
-    /// are the only targets, this is faster than calls of mien_fit_solve(), and differs from them by rounding.
-    /// Deterministic unless there is a time limit, which is that of a frame. Does not allocate or lock.
+    /// <summary>Solves `count` frames of a motion, each from the result of the one before. `joints`, `points`, `images`,
+    /// `point_weights` and `surface_weights` of `frame` have a row for each frame, one after the other; all else is for all
+    /// frames. `start` and `stages` are for the first frame, and so is `camera`, if it may move. `out_raw` gets a row of all
+    /// raw controls for each frame; `results`, which may be NULL, one result for each, all with the `struct_size` of the
+    /// first. Where joints are the only targets, this is faster than calls of mien_fit_solve(), and differs from them by
+    /// rounding. Deterministic unless there is a time limit, which is that of a frame. Does not allocate or lock.
     /// Fails like mien_fit_solve().</summary>
     [DllImport("mien-solve", CallingConvention = CallingConvention.Cdecl)]
     public static extern Status mien_fit_solve_frames(FitHandle fit, MienFitFrame* frame, UIntPtr count, float* out_raw, MienFitResult* results);

@@ -1159,34 +1159,39 @@ typedef struct MienFitConstraint {
     float weight; /* times the squared residual: of a length in the unit of the rig, or of the difference of directions of length 1 */
 } MienFitConstraint;
 
-/* The targets of one frame, and the weights of the terms; terms of weight 0 are left out. */
+/* The targets of one frame, and the weights of the terms; terms of weight 0 are left out. Joints, points, images, a
+surface and constraints may be given together: a point may have a target of each kind. Each kind has a unit of its
+own: joint values, lengths (points and surface), and that of images. */
 typedef struct MienFitFrame {
     size_t struct_size;
     float const* joints; /* joint values. NULL: none. NaN: missing */
     float const* points; /* x y z per point. NULL: none. NaN: missing */
     float const* images; /* x y per point, as `camera` sees them. NULL: none. NaN: missing */
     MienFitCamera const* camera; /* required with `images` */
-    float const* point_weights; /* per point, 0 or more. NULL: 1 */
+    float const* point_weights; /* per point, 0 or more: of points and images. NULL: 1 */
     float const* start; /* all raw controls of the rig, to start from. NULL: the initial ones */
     float const* prior; /* raw controls that the result is drawn to. NULL: the initial ones */
     float prior_weight; /* times the squared distance to `prior` */
     float smooth_weight; /* times the squared distance to `start`, the previous frame */
     float sparse_weight; /* times the sum of magnitudes, from the initial values: few controls explain the frame */
     float symmetric_weight; /* times the squared differences of symmetric pairs */
-    float robust_scale; /* points farther off than this count less. 0: all count fully */
+    float robust_scale; /* points farther off than this, or from the surface, count less. 0: all count fully */
     float joint_weight; /* weight of the joints relative to the points. 0: 1 */
-    uint32_t rigid; /* the targets may be rotated and translated as a whole. With `images`, the camera is found, from that of `camera`, or, if its rotation is unknown, from one that sees the face from the front */
+    uint32_t rigid; /* points and surface may be rotated and translated as a whole, by one motion. With `images`, these stay where they are in model space, and the camera is found, from that of `camera`, or, if its rotation is unknown, from one that sees the face from the front */
     uint32_t max_iterations; /* 0: 50 */
     double max_seconds; /* 0: no limit. A limit makes results depend on the machine */
     void* user; /* passed to `canceled` */
     uint32_t (*canceled)(void* user); /* Called before each iteration; a nonzero result stops. NULL: never. */
-    MienFitSurface const* surface; /* in place of `points` and `images`: each point is drawn to the nearest place of the surface that faces the same way, within 60 degrees, and is not at a border. NULL: none */
+    MienFitSurface const* surface; /* each point is drawn to the nearest place of the surface that faces the same way, within 60 degrees, and is not at a border. NULL: none */
     float surface_reach; /* points farther from the surface have no target. 0: no limit */
     uint32_t focal; /* , with `images` and `rigid`: the focal length is found too, its two numbers scaled alike */
     size_t constraint_count;
     MienFitConstraint const* constraints; /* up to 64, added to all other targets. NULL: none */
     uint32_t const* stages; /* per raw control of the rig, up to 15: the solve begins with the controls of stage 0 alone, then those of stage 1 move too, and so on, as jaw and eyes before the rest. Each stage may take `max_iterations`. NULL: all move from the start */
     float const* point_offsets; /* x y z per point, in model space: how far the points of the face in the targets are from those of the rig at rest, where it is another person's. Constraints are about the points of the rig. NULL: 0 */
+    float const* surface_weights; /* per point, 0 or more: how much it is drawn to `surface`. NULL: those of `point_weights` */
+    float image_weight; /* weight of the images relative to the points: of a squared length in the image, against a squared length in space. 0: 1 */
+    float image_robust_scale; /* `robust_scale` of images, in their unit. 0: `robust_scale`, or, if there are points or a surface too, all count fully */
 } MienFitFrame;
 
 /* The result of a solve. */
@@ -1196,18 +1201,22 @@ typedef struct MienFitResult {
     uint32_t iterations;
     double cost; /* the minimized sum, with all terms */
     double joint_residual; /* weighted root mean square of the differences of joint values */
-    double point_residual; /* the same for points, or for image points in their unit */
+    double point_residual; /* the same for points; without these, for images in their unit; without both, for the surface */
     uint32_t missing_points; /* with a surface: those that have no target */
     uint32_t reserved;
     float rotation[9]; /* rows: points of the target = rotation * model + translation, if rigid; the camera's with images */
     float translation[3];
     double joint_worst; /* largest difference of a joint value that counts */
-    double point_worst; /* largest distance of a point that counts */
+    double point_worst; /* largest distance of a point that counts, of the same kind */
     float focal[2]; /* of the camera, with images; else 0 */
     double constraint_residual; /* weighted root mean square of the residuals of constraints */
     double constraint_worst; /* largest residual of a constraint that counts */
     uint32_t jumped; /* joint values or points moved farther from where they are at `start` than their targets ask for, as roots of mean squares; points without a target count as such that ask for nothing */
     uint32_t reserved_2;
+    double image_residual; /* weighted root mean square of the distances in the image */
+    double image_worst;
+    double surface_residual; /* the same of the distances from the surface */
+    double surface_worst;
 } MienFitResult;
 ]]
 
@@ -2764,17 +2773,17 @@ all raw controls of the rig to `out_raw`; those that may not move keep their val
 may be NULL. Deterministic unless there is a time limit. Does not allocate or lock.
 Fails with MIEN_ERROR_NULL_ARGUMENT if points, images or a surface are given to a fit without points, or
 images without a camera, or constraints on joints to one without a deformer,
-MIEN_ERROR_INVALID_ARGUMENT if two kinds of points are given, a stage is above 15, or a weight, a control, an
-offset or a number of the camera is not finite, or a weight is negative, MIEN_ERROR_HANDLE if `surface` is none,
+MIEN_ERROR_INVALID_ARGUMENT if a stage is above 15, or a weight, a control, an offset or a number of the camera is
+not finite, or a weight is negative, MIEN_ERROR_HANDLE if `surface` is none,
 MIEN_ERROR_INDEX if a constraint has a joint or point that does not exist. */
 MienStatus mien_fit_solve(MienFit* fit, MienFitFrame const* frame, float* out_raw, MienFitResult* result);
 
-/* Solves `count` frames of a motion, each from the result of the one before. `joints`, `points`, `images` and
-`point_weights` of `frame` have a row for each frame, one after the other; all else is for all frames. `start` and
-`stages` are for the first frame, and so is `camera`, if it may move. `out_raw` gets a row of all raw controls for
-each frame; `results`, which may be NULL, one result for each, all with the `struct_size` of the first. Where joints
-are the only targets, this is faster than calls of mien_fit_solve(), and differs from them by rounding.
-Deterministic unless there is a time limit, which is that of a frame. Does not allocate or lock.
+/* Solves `count` frames of a motion, each from the result of the one before. `joints`, `points`, `images`,
+`point_weights` and `surface_weights` of `frame` have a row for each frame, one after the other; all else is for all
+frames. `start` and `stages` are for the first frame, and so is `camera`, if it may move. `out_raw` gets a row of all
+raw controls for each frame; `results`, which may be NULL, one result for each, all with the `struct_size` of the
+first. Where joints are the only targets, this is faster than calls of mien_fit_solve(), and differs from them by
+rounding. Deterministic unless there is a time limit, which is that of a frame. Does not allocate or lock.
 Fails like mien_fit_solve(). */
 MienStatus mien_fit_solve_frames(MienFit* fit, MienFitFrame const* frame, size_t count, float* out_raw, MienFitResult* results);
 
@@ -3280,8 +3289,8 @@ api.sizes = {
   MienFitSurfaceDesc = 48,
   MienFitCamera = 64,
   MienFitConstraint = 52,
-  MienFitFrame = 168,
-  MienFitResult = 144,
+  MienFitFrame = 184,
+  MienFitResult = 176,
 }
 
 -- The function that releases a handle.

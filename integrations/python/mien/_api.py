@@ -3360,6 +3360,9 @@ class MienFitFrame(Structure):
         ("constraints", POINTER(MienFitConstraint)),
         ("stages", c_void_p),
         ("point_offsets", c_void_p),
+        ("surface_weights", c_void_p),
+        ("image_weight", c_float),
+        ("image_robust_scale", c_float),
     ]
     struct_size: Any
     joints: Any
@@ -3387,6 +3390,9 @@ class MienFitFrame(Structure):
     constraints: Any
     stages: Any
     point_offsets: Any
+    surface_weights: Any
+    image_weight: Any
+    image_robust_scale: Any
 
     def __init__(self, *,
                  joints: Any = None,
@@ -3413,8 +3419,11 @@ class MienFitFrame(Structure):
                  constraint_count: int = 0,
                  constraints: Any = None,
                  stages: Any = None,
-                 point_offsets: Any = None) -> None:
-        super().__init__(168)
+                 point_offsets: Any = None,
+                 surface_weights: Any = None,
+                 image_weight: float = 0,
+                 image_robust_scale: float = 0) -> None:
+        super().__init__(184)
         self.joints = joints
         self.points = points
         self.images = images
@@ -3440,6 +3449,9 @@ class MienFitFrame(Structure):
         self.constraints = constraints
         self.stages = stages
         self.point_offsets = point_offsets
+        self.surface_weights = surface_weights
+        self.image_weight = image_weight
+        self.image_robust_scale = image_robust_scale
 
 
 class MienFitResult(Structure):
@@ -3461,6 +3473,10 @@ class MienFitResult(Structure):
         ("constraint_worst", c_double),
         ("jumped", c_uint32),
         ("reserved_2", c_uint32),
+        ("image_residual", c_double),
+        ("image_worst", c_double),
+        ("surface_residual", c_double),
+        ("surface_worst", c_double),
     ]
     struct_size: Any
     status: Any
@@ -3479,9 +3495,13 @@ class MienFitResult(Structure):
     constraint_worst: Any
     jumped: Any
     reserved_2: Any
+    image_residual: Any
+    image_worst: Any
+    surface_residual: Any
+    surface_worst: Any
 
     def __init__(self) -> None:
-        super().__init__(144)
+        super().__init__(176)
 
 
 class CoordinateSystem(NamedTuple):
@@ -5790,15 +5810,15 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
     ),
     "mien_fit_solve": (
         (Status.INVALID_ARGUMENT,
-         "two kinds of points are given, a stage is above 15, or a weight, a control, an"
-         " offset or a number of the camera is not finite, or a weight is negative"),
+         "a stage is above 15, or a weight, a control, an offset or a number of the "
+         "camera is not finite, or a weight is negative"),
         (Status.INDEX,
          "a constraint has a joint or point that does not exist"),
     ),
     "mien_fit_solve_frames": (
         (Status.INVALID_ARGUMENT,
-         "two kinds of points are given, a stage is above 15, or a weight, a control, an"
-         " offset or a number of the camera is not finite, or a weight is negative"),
+         "a stage is above 15, or a weight, a control, an offset or a number of the "
+         "camera is not finite, or a weight is negative"),
         (Status.INDEX,
          "a constraint has a joint or point that does not exist"),
     ),

@@ -54,13 +54,15 @@ class FitResult(NamedTuple):
     controls:       float32 (raw controls,)
     status:         `FitStatus`
     joint_residual: weighted root mean square of the differences of joint values
-    point_residual: the same of distances
+    point_residual: the same of the distances of points; without these, of images; without both, of the surface
     joint_worst, point_worst: the largest ones
     rotation, translation: points of the target = rotation @ model + translation, if rigid; those of the camera
                     with images
     focal:          of the camera
     constraint_residual, constraint_worst: of constraints
     jumped:         joints or points moved farther from `start` than their targets are
+    image_residual, image_worst: of images, in their unit
+    surface_residual, surface_worst: of the distances from the surface
     """
 
     controls: Any
@@ -78,6 +80,10 @@ class FitResult(NamedTuple):
     constraint_residual: float
     constraint_worst: float
     jumped: bool
+    image_residual: float
+    image_worst: float
+    surface_residual: float
+    surface_worst: float
 
 
 class FitSurface(Closable):
@@ -211,17 +217,23 @@ class Fit(Closable):
               max_seconds: float = 0, canceled: Any = None, surface: Optional[FitSurface] = None,
               surface_reach: float = 0, focal: bool = False,
               constraints: Sequence[FitConstraint] = (), stages: Any = None,
-              point_offsets: Any = None) -> FitResult:
-        """The controls of a frame. Targets of NaN are missing.
+              point_offsets: Any = None, surface_weights: Any = None, image_weight: float = 0,
+              image_robust_scale: float = 0) -> FitResult:
+        """The controls of a frame. Targets of NaN are missing. Targets of several kinds may be given together.
 
         joints:   as `Instance.joints`
         points:   (points, 3); images: (points, 2), seen by `camera`
         start:    raw controls to start from, those of the frame before; None: the initial ones
         prior:    raw controls that the result is drawn to with `prior_weight`
         canceled: function called before each iteration; the solve stops if it returns true
-        surface:  in place of points and images; points farther than `surface_reach` from it have no target
-        rigid:    the target moves as a whole; with images, the camera is found, and with `focal` its focal
-                  length too. A camera with a rotation of zeros is unknown.
+        surface:  each point is drawn to its nearest place; points farther than `surface_reach` have no target.
+                  `surface_weights`: how much each point is; None: `point_weights`, which are those of points and
+                  images
+        rigid:    points and surface move as a whole; with images, these stay where they are, the camera is found,
+                  and with `focal` its focal length too. A camera with a rotation of zeros is unknown.
+        joint_weight, image_weight: weight of joints, and of images, relative to the points; 0: 1
+        robust_scale: points farther off than this, or from the surface, count less. `image_robust_scale`: the same
+                  of images; 0: `robust_scale`, or, if there are points or a surface too, all count fully
         constraints: up to 64 `FitConstraint`, added to the other targets
         stages:   0 to 15 for each raw control: those of 0 move first, alone, then those of 1 too, and so on
         point_offsets: (points, 3): how far the points of the face in the targets are from those of the rig at
@@ -236,9 +248,9 @@ class Fit(Closable):
     def solve_frames(self, count: int, **terms: Any) -> List[FitResult]:
         """The controls of `count` frames of a motion, each from the result of the one before.
 
-        terms: as `solve()` has them; joints, points, images and point_weights have a row for each frame. start and
-               stages are for the first frame, and so is the camera, if it may move. Where joints are the only
-               targets, this is faster than calls of `solve()`, and differs from them by rounding.
+        terms: as `solve()` has them; joints, points, images, point_weights and surface_weights have a row for each
+               frame. start and stages are for the first frame, and so is the camera, if it may move. Where joints are
+               the only targets, this is faster than calls of `solve()`, and differs from them by rounding.
         """
         rows = uint32(count, "count")
         return self._run(rows, lambda handle, frame, out, results: solver().mien_fit_solve_frames(
@@ -252,7 +264,8 @@ class Fit(Closable):
              max_iterations: int = 0, max_seconds: float = 0, canceled: Any = None,
              surface: Optional[FitSurface] = None, surface_reach: float = 0, focal: bool = False,
              constraints: Sequence[FitConstraint] = (), stages: Any = None,
-             point_offsets: Any = None) -> List[FitResult]:
+             point_offsets: Any = None, surface_weights: Any = None, image_weight: float = 0,
+             image_robust_scale: float = 0) -> List[FitResult]:
         kept: List[Any] = []
 
         def rows(values: Any, size: int, what: str) -> Any:
@@ -269,6 +282,8 @@ class Fit(Closable):
             images=rows(images, count * 2 * self._point_count, "images"),
             point_weights=rows(point_weights, count * self._point_count, "point_weights"),
             point_offsets=rows(point_offsets, 3 * self._point_count, "point_offsets"),
+            surface_weights=rows(surface_weights, count * self._point_count, "surface_weights"),
+            image_weight=image_weight, image_robust_scale=image_robust_scale,
             start=rows(start, self._raw_count, "start"), prior=rows(prior, self._raw_count, "prior"),
             prior_weight=prior_weight, smooth_weight=smooth_weight, sparse_weight=sparse_weight,
             symmetric_weight=symmetric_weight, robust_scale=robust_scale, joint_weight=joint_weight,
@@ -323,7 +338,8 @@ class Fit(Closable):
             result.point_residual, result.joint_worst, result.point_worst, result.missing_points,
             numpy.array(result.rotation, "f").reshape(3, 3), numpy.array(result.translation, "f"),
             numpy.array(result.focal, "f"), result.constraint_residual, result.constraint_worst,
-            bool(result.jumped)) for row, result in zip(out, results)]
+            bool(result.jumped), result.image_residual, result.image_worst, result.surface_residual,
+            result.surface_worst) for row, result in zip(out, results)]
 
     @property
     @raises("mien_fit_observability", but=(Status.INVALID_ARGUMENT,))

@@ -164,6 +164,10 @@ class Fits(unittest.TestCase):
         images = 500 * placed[:, :2] / placed[:, 2:] + numpy.array(camera.center, "f")
         result = fit.solve(images=images, camera=camera)
         self.assertLess(result.point_residual, 0.5)
+        self.assertEqual(result.image_residual, result.point_residual)
+        mixed = fit.solve(images=images + 50, camera=camera, points=mesh.positions, image_weight=1e-12)
+        self.assertLess(mixed.point_residual, 1e-3 * size)
+        self.assertGreater(mixed.image_residual, 40)
         with self.assertRaises(mien.ArgumentError):
             fit.solve(images=images)
 
@@ -184,8 +188,17 @@ class Fits(unittest.TestCase):
             result = fit.solve(surface=surface, start=face.raw_controls)
             self.assertLess(result.point_worst, 1e-3)
             numpy.testing.assert_allclose(result.controls, face.raw_controls, atol=1e-3)
+            # Points of another pose draw from it, as much as they weigh; a surface that nothing is drawn to does not.
+            points = mesh.positions
+            mixed = fit.solve(surface=surface, points=points, start=face.raw_controls)
+            self.assertGreater(mixed.surface_residual, result.surface_residual)
+            self.assertGreater(mixed.point_residual, 0)
+            self.assertEqual(mixed.image_residual, 0)
+            alone = fit.solve(surface=surface, points=points, surface_weights=numpy.zeros(len(points)))
+            self.assertEqual(alone.surface_residual, 0)
+            self.assertLess(alone.point_residual, mixed.point_residual)
             with self.assertRaises(mien.ArgumentError):
-                fit.solve(surface=surface, points=pose.positions(0))
+                fit.solve(surface=surface, surface_weights=[1])
         for positions, triangles in (([1, 2, 3], [[0, 0, 0]]), ([[1, 2, 3]], [[0, 0, 1.5]]), ([[1, 2, 3]], [[0, 0, -1]]),
                                      ([[1, 2, 3]], [[0, 0, 2**32]]), ([[1, 2, 3]], [0, 0, 0])):
             with self.assertRaises(mien.ArgumentError):

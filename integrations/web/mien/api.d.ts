@@ -2279,7 +2279,9 @@ export interface FitConstraint {
 }
 
 /**
- * The targets of one frame, and the weights of the terms; terms of weight 0 are left out.
+ * The targets of one frame, and the weights of the terms; terms of weight 0 are left out. Joints, points, images, a
+ * surface and constraints may be given together: a point may have a target of each kind. Each kind has a unit of its
+ * own: joint values, lengths (points and surface), and that of images.
  */
 export interface FitFrame {
   /** joint values. NULL: none. NaN: missing */
@@ -2290,7 +2292,7 @@ export interface FitFrame {
   images?: Float32Array | readonly number[];
   /** required with `images` */
   camera?: FitCamera;
-  /** per point, 0 or more. NULL: 1 */
+  /** per point, 0 or more: of points and images. NULL: 1 */
   pointWeights?: Float32Array | readonly number[];
   /** all raw controls of the rig, to start from. NULL: the initial ones */
   start?: Float32Array | readonly number[];
@@ -2306,12 +2308,12 @@ export interface FitFrame {
   sparseWeight?: number;
   /** times the squared differences of symmetric pairs */
   symmetricWeight?: number;
-  /** points farther off than this count less. 0: all count fully */
+  /** points farther off than this, or from the surface, count less. 0: all count fully */
   robustScale?: number;
   /** weight of the joints relative to the points. 0: 1 */
   jointWeight?: number;
   /**
-   * the targets may be rotated and translated as a whole. With `images`, the camera is found, from that of `camera`, or, if its rotation is unknown, from one that sees the face from the front
+   * points and surface may be rotated and translated as a whole, by one motion. With `images`, these stay where they are in model space, and the camera is found, from that of `camera`, or, if its rotation is unknown, from one that sees the face from the front
    */
   rigid?: boolean;
   /** 0: 50 */
@@ -2323,7 +2325,7 @@ export interface FitFrame {
   /** Called before each iteration; a nonzero result stops. NULL: never. */
   canceled?: number;
   /**
-   * in place of `points` and `images`: each point is drawn to the nearest place of the surface that faces the same way, within 60 degrees, and is not at a border. NULL: none
+   * each point is drawn to the nearest place of the surface that faces the same way, within 60 degrees, and is not at a border. NULL: none
    */
   surface?: { readonly handle: number };
   /** points farther from the surface have no target. 0: no limit */
@@ -2343,6 +2345,18 @@ export interface FitFrame {
    * x y z per point, in model space: how far the points of the face in the targets are from those of the rig at rest, where it is another person's. Constraints are about the points of the rig. NULL: 0
    */
   pointOffsets?: Float32Array | readonly number[];
+  /**
+   * per point, 0 or more: how much it is drawn to `surface`. NULL: those of `point_weights`
+   */
+  surfaceWeights?: Float32Array | readonly number[];
+  /**
+   * weight of the images relative to the points: of a squared length in the image, against a squared length in space. 0: 1
+   */
+  imageWeight?: number;
+  /**
+   * `robust_scale` of images, in their unit. 0: `robust_scale`, or, if there are points or a surface too, all count fully
+   */
+  imageRobustScale?: number;
 }
 
 /** The result of a solve. */
@@ -2354,7 +2368,9 @@ export interface FitResult {
   readonly cost: number;
   /** weighted root mean square of the differences of joint values */
   readonly jointResidual: number;
-  /** the same for points, or for image points in their unit */
+  /**
+   * the same for points; without these, for images in their unit; without both, for the surface
+   */
   readonly pointResidual: number;
   /** with a surface: those that have no target */
   readonly missingPoints: number;
@@ -2365,7 +2381,7 @@ export interface FitResult {
   readonly translation: readonly number[];
   /** largest difference of a joint value that counts */
   readonly jointWorst: number;
-  /** largest distance of a point that counts */
+  /** largest distance of a point that counts, of the same kind */
   readonly pointWorst: number;
   /** of the camera, with images; else 0 */
   readonly focal: readonly number[];
@@ -2378,6 +2394,12 @@ export interface FitResult {
    */
   readonly jumped: boolean;
   readonly reserved2: number;
+  /** weighted root mean square of the distances in the image */
+  readonly imageResidual: number;
+  readonly imageWorst: number;
+  /** the same of the distances from the surface */
+  readonly surfaceResidual: number;
+  readonly surfaceWorst: number;
 }
 
 /**
@@ -4010,18 +4032,18 @@ export interface Exports {
    * may be NULL. Deterministic unless there is a time limit. Does not allocate or lock.
    * Fails with MIEN_ERROR_NULL_ARGUMENT if points, images or a surface are given to a fit without points, or
    * images without a camera, or constraints on joints to one without a deformer,
-   * MIEN_ERROR_INVALID_ARGUMENT if two kinds of points are given, a stage is above 15, or a weight, a control, an
-   * offset or a number of the camera is not finite, or a weight is negative, MIEN_ERROR_HANDLE if `surface` is none,
+   * MIEN_ERROR_INVALID_ARGUMENT if a stage is above 15, or a weight, a control, an offset or a number of the camera is
+   * not finite, or a weight is negative, MIEN_ERROR_HANDLE if `surface` is none,
    * MIEN_ERROR_INDEX if a constraint has a joint or point that does not exist.
    */
   mien_fit_solve(fit: number, frame: number, out_raw: number, result: number): number;
   /**
-   * Solves `count` frames of a motion, each from the result of the one before. `joints`, `points`, `images` and
-   * `point_weights` of `frame` have a row for each frame, one after the other; all else is for all frames. `start` and
-   * `stages` are for the first frame, and so is `camera`, if it may move. `out_raw` gets a row of all raw controls for
-   * each frame; `results`, which may be NULL, one result for each, all with the `struct_size` of the first. Where joints
-   * are the only targets, this is faster than calls of mien_fit_solve(), and differs from them by rounding.
-   * Deterministic unless there is a time limit, which is that of a frame. Does not allocate or lock.
+   * Solves `count` frames of a motion, each from the result of the one before. `joints`, `points`, `images`,
+   * `point_weights` and `surface_weights` of `frame` have a row for each frame, one after the other; all else is for all
+   * frames. `start` and `stages` are for the first frame, and so is `camera`, if it may move. `out_raw` gets a row of all
+   * raw controls for each frame; `results`, which may be NULL, one result for each, all with the `struct_size` of the
+   * first. Where joints are the only targets, this is faster than calls of mien_fit_solve(), and differs from them by
+   * rounding. Deterministic unless there is a time limit, which is that of a frame. Does not allocate or lock.
    * Fails like mien_fit_solve().
    */
   mien_fit_solve_frames(fit: number, frame: number, count: number, out_raw: number, results: number): number;

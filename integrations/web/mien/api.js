@@ -1118,7 +1118,7 @@ export const layouts = {
     distances: [40, "f32", 2],
     weight: [48, "f32"],
   } },
-  FitFrame: { size: 112, sized: true, fields: {
+  FitFrame: { size: 120, sized: true, fields: {
     joints: [4, "*f32"],
     points: [8, "*f32"],
     images: [12, "*f32"],
@@ -1144,8 +1144,11 @@ export const layouts = {
     constraints: [96, "*FitConstraint", "constraintCount"],
     stages: [100, "*u32"],
     pointOffsets: [104, "*f32"],
+    surfaceWeights: [108, "*f32"],
+    imageWeight: [112, "f32"],
+    imageRobustScale: [116, "f32"],
   } },
-  FitResult: { size: 144, sized: true, fields: {
+  FitResult: { size: 176, sized: true, fields: {
     status: [4, "u32"],
     iterations: [8, "u32"],
     cost: [16, "f64"],
@@ -1161,6 +1164,10 @@ export const layouts = {
     constraintWorst: [128, "f64"],
     jumped: [136, "bool"],
     reserved2: [140, "u32"],
+    imageResidual: [144, "f64"],
+    imageWorst: [152, "f64"],
+    surfaceResidual: [160, "f64"],
+    surfaceWorst: [168, "f64"],
   } },
 };
 

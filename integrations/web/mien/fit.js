@@ -105,7 +105,8 @@ export class Fit extends Handle {
   }
 
   /** Calls a function with a frame, `numbers`, and room for `count` rows of controls and results. */
-  #run({ joints, points, images, pointWeights, start, prior, stages, constraints, canceled, ...rest }, count, name, ...numbers) {
+  #run({ joints, points, images, pointWeights, surfaceWeights, pointOffsets, start, prior, stages, constraints, canceled, ...rest },
+    count, name, ...numbers) {
     const { memory } = this;
     if (canceled !== undefined && typeof canceled !== "function") throw new TypeError("canceled is no function");
     const given = {
@@ -114,6 +115,8 @@ export class Fit extends Handle {
       points: counted(points, count * 3 * this.#pointCount, "points"),
       images: counted(images, count * 2 * this.#pointCount, "images"),
       pointWeights: counted(pointWeights, count * this.#pointCount, "pointWeights"),
+      surfaceWeights: counted(surfaceWeights, count * this.#pointCount, "surfaceWeights"),
+      pointOffsets: counted(pointOffsets, 3 * this.#pointCount, "pointOffsets"),
       start: counted(start, this.#rawCount, "start"), prior: counted(prior, this.#rawCount, "prior"),
       stages: counted(stages, this.#rawCount, "stages"),
       constraints: constraints && Array.from(constraints, constraintOf),

@@ -765,12 +765,12 @@ export interface FitOptions {
   lod?: number;
 }
 
-/** The targets of a frame, NaN where they are missing, and the weights of the terms, which are left out if 0. At most
- * one of `points`, `images` and `surface` is given. */
+/** The targets of a frame, NaN where they are missing, and the weights of the terms, which are left out if 0.
+ * Targets of several kinds may be given together: a point may have one of each. */
 export interface FitFrame extends Omit<FitFrameDesc, "user" | "canceled" | "surface" | "camera" | "constraintCount" | "constraints"> {
   /** As images were taken. */
   camera?: FitCamera;
-  /** In place of `points` and `images`: each point is drawn to the nearest place of the surface. */
+  /** Each point is drawn to the nearest place of the surface. */
   surface?: FitSurface;
   /** Up to 64, added to all other targets. Their weight is 1 by default. */
   constraints?: readonly FitConstraint[];
@@ -793,10 +793,10 @@ export const FitSurface: { readonly prototype: FitSurface };
 export interface Fit extends Handle {
   /** Deterministic unless there is a limit of time. */
   solve(frame: FitFrame): FitResult;
-  /** Solves frames of a motion, each from the result of the one before. `joints`, `points`, `images` and
-   * `pointWeights` have a row for each frame, one after the other; all else is for all frames. `start` and `stages` are
-   * for the first frame, and so is `camera`, if it may move. Where joints are the only targets, this is faster than
-   * calls of solve(), and differs from them by rounding. `canceled` is asked in each frame; frames after the one that
+  /** Solves frames of a motion, each from the result of the one before. `joints`, `points`, `images`,
+   * `pointWeights` and `surfaceWeights` have a row for each frame, one after the other; all else is for all frames.
+   * `start` and `stages` are for the first frame, and so is `camera`, if it may move. Where joints are the only
+   * targets, this is faster than calls of solve(), and differs from them by rounding. `canceled` is asked in each frame; frames after the one that
    * it stopped are solved unless it goes on returning true. */
   solveFrames(frame: FitFrame, count: number): FitResult[];
   /** How well the data determines each raw control at the initial pose, 0 to 1; a copy. */

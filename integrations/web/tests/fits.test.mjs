@@ -73,6 +73,16 @@ test("points, images and surfaces", () => {
   const surface = mien.createFitSurface(target, triangles);
   const drawn = fit.solve({ surface, surfaceReach: extent, start: face.rawControls.slice() });
   assert.ok(drawn.pointResidual < 1e-3 * extent, `${drawn.pointResidual}`);
+  assert.equal(drawn.surfaceResidual, drawn.pointResidual);
+
+  // Points at rest draw from it, as much as they weigh.
+  const points = rig.deformer.mesh(0).positions, none = new Float32Array(points.length / 3);
+  const mixed = fit.solve({ surface, points });
+  const alone = fit.solve({ surface, points, surfaceWeights: none });
+  assert.ok(mixed.surfaceResidual > 0 && mixed.pointResidual > alone.pointResidual);
+  assert.equal(alone.surfaceResidual, 0);
+  assert.throws(() => fit.solve({ surface, surfaceWeights: none.subarray(1) }), /surfaceWeights/);
+  assert.throws(() => fit.solve({ points, pointOffsets: none }), /pointOffsets/);
   for (const object of [surface, fit]) object.dispose();
 });
 

@@ -3589,7 +3589,10 @@ impl Default for MienFitConstraint {
     }
 }
 
-/// The targets of one frame, and the weights of the terms; terms of weight 0 are left out.
+/// The targets of one frame, and the weights of the terms; terms of weight 0 are left out. Joints,
+/// points, images, a surface and constraints may be given together: a point may have a target of
+/// each kind. Each kind has a unit of its own: joint values, lengths (points and surface), and
+/// that of images.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienFitFrame {
@@ -3602,7 +3605,7 @@ pub struct MienFitFrame {
     pub images: *const f32,
     /// Required with `images`.
     pub camera: *const MienFitCamera,
-    /// Per point, 0 or more. NULL: 1.
+    /// Per point, 0 or more: of points and images. NULL: 1.
     pub point_weights: *const f32,
     /// All raw controls of the rig, to start from. NULL: the initial ones.
     pub start: *const f32,
@@ -3616,13 +3619,13 @@ pub struct MienFitFrame {
     pub sparse_weight: f32,
     /// Times the squared differences of symmetric pairs.
     pub symmetric_weight: f32,
-    /// Points farther off than this count less. 0: all count fully.
+    /// Points farther off than this, or from the surface, count less. 0: all count fully.
     pub robust_scale: f32,
     /// Weight of the joints relative to the points. 0: 1.
     pub joint_weight: f32,
-    /// The targets may be rotated and translated as a whole. With `images`, the camera is found,
-    /// from that of `camera`, or, if its rotation is unknown, from one that sees the face from the
-    /// front.
+    /// Points and surface may be rotated and translated as a whole, by one motion. With `images`,
+    /// these stay where they are in model space, and the camera is found, from that of `camera`,
+    /// or, if its rotation is unknown, from one that sees the face from the front.
     pub rigid: u32,
     /// 0: 50.
     pub max_iterations: u32,
@@ -3632,8 +3635,8 @@ pub struct MienFitFrame {
     pub user: *mut c_void,
     /// Called before each iteration; a nonzero result stops. NULL: never.
     pub canceled: Option<unsafe extern "C" fn(user: *mut c_void) -> u32>,
-    /// In place of `points` and `images`: each point is drawn to the nearest place of the surface
-    /// that faces the same way, within 60 degrees, and is not at a border. NULL: none.
+    /// Each point is drawn to the nearest place of the surface that faces the same way, within 60
+    /// degrees, and is not at a border. NULL: none.
     pub surface: *const MienFitSurface,
     /// Points farther from the surface have no target. 0: no limit.
     pub surface_reach: f32,
@@ -3650,6 +3653,14 @@ pub struct MienFitFrame {
     /// those of the rig at rest, where it is another person's. Constraints are about the points of
     /// the rig. NULL: 0.
     pub point_offsets: *const f32,
+    /// Per point, 0 or more: how much it is drawn to `surface`. NULL: those of `point_weights`.
+    pub surface_weights: *const f32,
+    /// Weight of the images relative to the points: of a squared length in the image, against a
+    /// squared length in space. 0: 1.
+    pub image_weight: f32,
+    /// `robust_scale` of images, in their unit. 0: `robust_scale`, or, if there are points or a
+    /// surface too, all count fully.
+    pub image_robust_scale: f32,
 }
 
 impl Default for MienFitFrame {
@@ -3674,7 +3685,8 @@ pub struct MienFitResult {
     pub cost: f64,
     /// Weighted root mean square of the differences of joint values.
     pub joint_residual: f64,
-    /// The same for points, or for image points in their unit.
+    /// The same for points; without these, for images in their unit; without both, for the
+    /// surface.
     pub point_residual: f64,
     /// With a surface: those that have no target.
     pub missing_points: u32,
@@ -3685,7 +3697,7 @@ pub struct MienFitResult {
     pub translation: [f32; 3],
     /// Largest difference of a joint value that counts.
     pub joint_worst: f64,
-    /// Largest distance of a point that counts.
+    /// Largest distance of a point that counts, of the same kind.
     pub point_worst: f64,
     /// Of the camera, with images; else 0.
     pub focal: [f32; 2],
@@ -3697,6 +3709,12 @@ pub struct MienFitResult {
     /// for, as roots of mean squares; points without a target count as such that ask for nothing.
     pub jumped: u32,
     pub reserved_2: u32,
+    /// Weighted root mean square of the distances in the image.
+    pub image_residual: f64,
+    pub image_worst: f64,
+    /// The same of the distances from the surface.
+    pub surface_residual: f64,
+    pub surface_worst: f64,
 }
 
 impl Default for MienFitResult {
@@ -5622,20 +5640,20 @@ extern "C" {
     ///
     /// Fails with `MIEN_ERROR_NULL_ARGUMENT` if points, images or a surface are given to a fit
     /// without points, or images without a camera, or constraints on joints to one without a
-    /// deformer, `MIEN_ERROR_INVALID_ARGUMENT` if two kinds of points are given, a stage is above
-    /// 15, or a weight, a control, an offset or a number of the camera is not finite, or a weight
-    /// is negative, `MIEN_ERROR_HANDLE` if `surface` is none, `MIEN_ERROR_INDEX` if a constraint
-    /// has a joint or point that does not exist.
+    /// deformer, `MIEN_ERROR_INVALID_ARGUMENT` if a stage is above 15, or a weight, a control, an
+    /// offset or a number of the camera is not finite, or a weight is negative,
+    /// `MIEN_ERROR_HANDLE` if `surface` is none, `MIEN_ERROR_INDEX` if a constraint has a joint or
+    /// point that does not exist.
     pub fn mien_fit_solve(fit: *mut MienFit, frame: *const MienFitFrame, out_raw: *mut f32, result: *mut MienFitResult) -> MienStatus;
 
     /// Solves `count` frames of a motion, each from the result of the one before. `joints`,
-    /// `points`, `images` and `point_weights` of `frame` have a row for each frame, one after the
-    /// other; all else is for all frames. `start` and `stages` are for the first frame, and so is
-    /// `camera`, if it may move. `out_raw` gets a row of all raw controls for each frame;
-    /// `results`, which may be NULL, one result for each, all with the `struct_size` of the first.
-    /// Where joints are the only targets, this is faster than calls of `mien_fit_solve()`, and
-    /// differs from them by rounding. Deterministic unless there is a time limit, which is that of
-    /// a frame. Does not allocate or lock.
+    /// `points`, `images`, `point_weights` and `surface_weights` of `frame` have a row for each
+    /// frame, one after the other; all else is for all frames. `start` and `stages` are for the
+    /// first frame, and so is `camera`, if it may move. `out_raw` gets a row of all raw controls
+    /// for each frame; `results`, which may be NULL, one result for each, all with the
+    /// `struct_size` of the first. Where joints are the only targets, this is faster than calls of
+    /// `mien_fit_solve()`, and differs from them by rounding. Deterministic unless there is a time
+    /// limit, which is that of a frame. Does not allocate or lock.
     ///
     /// Fails like `mien_fit_solve()`.
     pub fn mien_fit_solve_frames(fit: *mut MienFit, frame: *const MienFitFrame, count: usize, out_raw: *mut f32, results: *mut MienFitResult) -> MienStatus;

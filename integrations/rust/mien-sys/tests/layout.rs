@@ -189,14 +189,16 @@ fn structs_are_laid_out_as_in_c() {
             triangle_count 32 allocator 40;
         MienFitCamera 64 4: focal 0 center 8 rotation 16 translation 52;
         MienFitConstraint 52 4: kind 0 joint 4 points 8 axis 16 target 28 distances 40 weight 48;
-        MienFitFrame 168 8: struct_size 0 joints 8 points 16 images 24 camera 32 point_weights 40
+        MienFitFrame 184 8: struct_size 0 joints 8 points 16 images 24 camera 32 point_weights 40
             start 48 prior 56 prior_weight 64 smooth_weight 68 sparse_weight 72 symmetric_weight 76
             robust_scale 80 joint_weight 84 rigid 88 max_iterations 92 max_seconds 96 user 104
             canceled 112 surface 120 surface_reach 128 focal 132 constraint_count 136 constraints
-            144 stages 152 point_offsets 160;
-        MienFitResult 144 8: struct_size 0 status 8 iterations 12 cost 16 joint_residual 24
+            144 stages 152 point_offsets 160 surface_weights 168 image_weight 176 image_robust_scale
+            180;
+        MienFitResult 176 8: struct_size 0 status 8 iterations 12 cost 16 joint_residual 24
             point_residual 32 missing_points 40 reserved 44 rotation 48 translation 84 joint_worst
             96 point_worst 104 focal 112 constraint_residual 120 constraint_worst 128 jumped 136
-            reserved_2 140;
+            reserved_2 140 image_residual 144 image_worst 152 surface_residual 160 surface_worst
+            168;
     }
 }

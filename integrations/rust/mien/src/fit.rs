@@ -169,7 +169,7 @@ impl FitConstraint {
 /// The targets of a frame, and the weights of the terms; terms of weight 0 are left out. A target of NaN is
 /// missing.
 ///
-/// At most one of `points`, `images` and `surface` is given.
+/// Targets of several kinds may be given together: a point may have one of each.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct FitFrame<'a> {
     /// Joint values, as in [`Instance::joints`](crate::Instance::joints).
@@ -180,7 +180,7 @@ pub struct FitFrame<'a> {
     pub images: Option<&'a [[f32; 2]]>,
     /// Needed for `images`.
     pub camera: Option<&'a FitCamera>,
-    /// Weight per point, 0 or more; 1 if `None`.
+    /// Weight per point, 0 or more, of points and images; 1 if `None`.
     pub point_weights: Option<&'a [f32]>,
     /// All raw controls, to start from; the initial ones if `None`.
     pub start: Option<&'a [f32]>,
@@ -194,12 +194,13 @@ pub struct FitFrame<'a> {
     pub sparse_weight: f32,
     /// Times the squared differences of symmetric pairs.
     pub symmetric_weight: f32,
-    /// Points farther off than this count less; 0: all count fully.
+    /// Points farther off than this, or from the surface, count less; 0: all count fully.
     pub robust_scale: f32,
     /// Weight of the joints relative to the points; 0: 1.
     pub joint_weight: f32,
-    /// The targets may be rotated and translated as a whole. With `images`, the camera is found, from that of
-    /// `camera`, or, if its rotation is unknown, from one that sees the face from the front.
+    /// Points and surface may be rotated and translated as a whole. With `images`, these stay where they are in model
+    /// space, and the camera is found, from that of `camera`, or, if its rotation is unknown, from one that sees the
+    /// face from the front.
     pub rigid: bool,
     /// With `images` and `rigid`, the focal length is found too.
     pub focal: bool,
@@ -207,7 +208,7 @@ pub struct FitFrame<'a> {
     pub max_iterations: u32,
     /// 0: no limit. A limit makes results depend on the machine.
     pub max_seconds: f64,
-    /// In place of `points` and `images`: each point is drawn to the nearest place of the surface.
+    /// Each point is drawn to the nearest place of the surface.
     pub surface: Option<&'a FitSurface>,
     /// Points farther from the surface have no target; 0: no limit.
     pub surface_reach: f32,
@@ -220,6 +221,13 @@ pub struct FitFrame<'a> {
     /// For each point, in model space: how far the points of the face in the targets are from those of the rig at rest,
     /// where it is another person's. `None`: 0.
     pub point_offsets: Option<&'a [[f32; 3]]>,
+    /// Per point, 0 or more: how much it is drawn to `surface`; `point_weights` if `None`.
+    pub surface_weights: Option<&'a [f32]>,
+    /// Weight of the images relative to the points: of a squared length in the image, against one in space; 0: 1.
+    pub image_weight: f32,
+    /// `robust_scale` of images, in their unit; 0: `robust_scale`, or, if there are points or a surface too, all count
+    /// fully.
+    pub image_robust_scale: f32,
 }
 
 /// The result of a solve.
@@ -234,7 +242,7 @@ pub struct FitResult {
     pub cost: f64,
     /// Weighted root mean square of the differences of joint values.
     pub joint_residual: f64,
-    /// The same for points, or for image points in their unit.
+    /// The same for points; without these, for images in their unit; without both, for the surface.
     pub point_residual: f64,
     /// Largest difference of a joint value that counts.
     pub joint_worst: f64,
@@ -254,6 +262,14 @@ pub struct FitResult {
     pub constraint_worst: f64,
     /// Joint values or points moved farther from where they are at `start` than their targets ask for.
     pub jumped: bool,
+    /// Weighted root mean square of the distances in the image.
+    pub image_residual: f64,
+    /// The largest one that counts.
+    pub image_worst: f64,
+    /// Weighted root mean square of the distances from the surface.
+    pub surface_residual: f64,
+    /// The largest one that counts.
+    pub surface_worst: f64,
 }
 
 impl From<sys::MienFitResult> for FitResult {
@@ -273,6 +289,10 @@ impl From<sys::MienFitResult> for FitResult {
             constraint_residual: result.constraint_residual,
             constraint_worst: result.constraint_worst,
             jumped: result.jumped != 0,
+            image_residual: result.image_residual,
+            image_worst: result.image_worst,
+            surface_residual: result.surface_residual,
+            surface_worst: result.surface_worst,
         }
     }
 }
@@ -578,6 +598,7 @@ impl Fit {
         check_length(frame.point_weights, rows(points)?, "point_weights: not one per point")?;
         check_length(frame.start, raw, "start: not all raw controls")?;
         check_length(frame.prior, raw, "prior: not all raw controls")?;
+        check_length(frame.surface_weights, rows(points)?, "surface_weights: not one per point")?;
         check_length(frame.point_offsets, points, "point_offsets: not one for each point")?;
         check_length(frame.stages, raw, "stages: not one for each raw control")?;
         check_length(Some(out), rows(raw)?, "out: not room for all raw controls")
@@ -640,6 +661,9 @@ impl FitFrame<'_> {
             constraints: constraints.as_ptr(),
             stages: pointer(self.stages),
             point_offsets: pointer(self.point_offsets),
+            surface_weights: pointer(self.surface_weights),
+            image_weight: self.image_weight,
+            image_robust_scale: self.image_robust_scale,
             ..Default::default()
         })
     }

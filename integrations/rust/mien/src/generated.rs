@@ -2969,11 +2969,11 @@ macro_rules! errors {
          - [`Status::MEMORY`](crate::Status::MEMORY) if memory runs out"
     };
     (mien_fit_solve) => {
-        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if two kinds of points are given, a stage is above 15, or a weight, a control, an offset or a number of the camera is not finite, or a weight is negative\n\
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if a stage is above 15, or a weight, a control, an offset or a number of the camera is not finite, or a weight is negative\n\
          - [`Status::INDEX`](crate::Status::INDEX) if a constraint has a joint or point that does not exist"
     };
     (mien_fit_solve_frames) => {
-        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if two kinds of points are given, a stage is above 15, or a weight, a control, an offset or a number of the camera is not finite, or a weight is negative\n\
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if a stage is above 15, or a weight, a control, an offset or a number of the camera is not finite, or a weight is negative\n\
          - [`Status::INDEX`](crate::Status::INDEX) if a constraint has a joint or point that does not exist"
     };
     (mien_fit_observability) => {

@@ -133,6 +133,25 @@ fn points_and_images_and_surfaces() {
     };
     let result = fit.solve(&frame, &mut found).unwrap();
     assert!(result.point_residual < 1e-3 * size, "{}", result.point_residual);
+    assert_eq!(result.point_residual, result.surface_residual);
+
+    // Points at rest draw from it, with the camera that sees them.
+    let frame = FitFrame {
+        points: Some(&mesh.positions),
+        images: Some(&images),
+        camera: Some(&camera),
+        image_weight: 1e-6,
+        ..frame
+    };
+    let mixed = fit.solve(&frame, &mut found).unwrap();
+    assert!(mixed.surface_residual > result.surface_residual && mixed.point_residual > 0.0);
+    let none = vec![0.0; mesh.positions.len()];
+    let frame = FitFrame { surface_weights: Some(&none), ..frame };
+    let alone = fit.solve(&frame, &mut found).unwrap();
+    assert!(alone.surface_residual == 0.0 && alone.image_residual < mixed.image_residual);
+    assert!(alone.point_residual < mixed.point_residual);
+    let frame = FitFrame { surface_weights: Some(&none[1..]), ..frame };
+    assert!(fit.solve(&frame, &mut found).is_err());
 }
 
 /// Joint values of frames, one after the other, with the controls that gave them.
