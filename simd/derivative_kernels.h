@@ -8,12 +8,20 @@
 
 namespace mien {
 
-/// The transposed joint matrix: for each run, with the block rows of JointColumnsArgs,
+/// Gradients that joint_transposed multiplies together.
+constexpr uint32_t kTransposedLanes = 8;
+
+/// The transposed joint matrix: for each run, with the block rows of JointColumnsArgs, and each lane k of
+/// `lane_count`, which is 1 or kTransposedLanes,
 ///
-///     outputs[run] = sum over its blocks of values(r) * rows[8 * block row + r]
+///     outputs[run * lane_count + k] = sum over its blocks of values(r) * row r of the block row in lane k
+///
+///     rows  block rows 0, 1: | lane 0: r0 ... r15 | lane 1: r0 ... r15 | ... | block rows 2, 3: ... | ...
 ///
 /// There are 16 sums: of each row of the even and of the odd block rows, in the order of the blocks; those of
-/// pairs first. Each eight are added up in halves, then odd to even. The inputs of the runs are not used.
+/// pairs first. Each eight are added up in halves, then odd to even. So lanes have the bits of single gradients.
+/// The inputs of the runs are not used. Single gradients are fastest if neighboring runs are of about the same
+/// length.
 struct JointTransposedArgs {
   const void* values;  // float, or int16_t
   const uint16_t* block_rows;
@@ -21,6 +29,7 @@ struct JointTransposedArgs {
   const float* rows;  // where block row 0 is; 64-byte aligned
   float* outputs;
   uint32_t run_count;
+  uint32_t lane_count;
   bool portable;  // products are rounded before they are added, on every instruction set
 };
 using JointTransposedKernel = void(const JointTransposedArgs& args);

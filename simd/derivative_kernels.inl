@@ -10,63 +10,202 @@
 namespace mien::MIEN_KERNEL_ISA {
 namespace {
 
+// The values of a block are multiplied by four columns of one gradient, or by several gradients of one
+// column: sums that do not wait for each other. Those of pairs stay in registers. Which half a block without
+// its other half belongs to is known only when it is read, so those sums are in memory.
+
+constexpr size_t kPairRows = 2 * kJointBlockRows;
+constexpr size_t kColumnsTogether = 4;
+
+// How many columns or lanes the registers take, beside the values.
+#if defined(MIEN_KERNEL_AVX512)
+constexpr size_t kColumnStep = kColumnsTogether, kLaneStep = kTransposedLanes;
+#elif defined(MIEN_KERNEL_SCALAR)
+constexpr size_t kColumnStep = 1, kLaneStep = 1;
+#elif defined(MIEN_KERNEL_SSE2)
+constexpr size_t kColumnStep = 2, kLaneStep = 2;
+#else
+constexpr size_t kColumnStep = kColumnsTogether, kLaneStep = 4;
+#endif
+constexpr size_t kPairVecs = kPairRows / InPairs::kRows;
+
+/// Pairs or single blocks of a run: their values and numbers, and one past the last.
+template <class Value>
+struct RunPart {
+  const Value* values;
+  const uint16_t *numbers, *end;
+};
+template <class Value>
+inline RunPart<Value> pairs_of(const JointTransposedArgs& args, const JointRun& run) {
+  const uint16_t* numbers = args.block_rows + run.start.pair_entry;
+  return {static_cast<const Value*>(args.values) + size_t{run.start.first_pair} * kJointBlockRows,
+          numbers, numbers + run.pair_count};
+}
+template <class Value>
+inline RunPart<Value> singles_of(const JointTransposedArgs& args, const JointRun& run) {
+  const uint16_t* numbers = args.block_rows + run.start.single_entry;
+  return {static_cast<const Value*>(args.values) + size_t{run.start.first_single} * kJointBlockRows,
+          numbers, numbers + run.single_count};
+}
+
+/// The rows of the first lane for the pair that a block row belongs to, numbered as in JointColumnsArgs.
+inline const float* rows_of_pair(const float* rows, size_t number, size_t lane_count) {
+  return rows + (number & kPairBlockRows) / (2 * kBlockRowUnit) * (kPairRows * lane_count);
+}
+inline size_t half_of(size_t number) { return (number / kBlockRowUnit & 1) * kJointBlockRows; }
+
+/// The sums of the pairs that all of these columns have: a V per vector of 16 rows of each column.
+template <class How, class Value, size_t... V>
+inline void sum_columns_of_pairs(RunPart<Value>* parts, const float* rows, float* sums,
+                                 std::index_sequence<V...>) {
+  constexpr size_t kColumns = sizeof...(V) / kPairVecs, kRows = InPairs::kRows;
+  size_t count = static_cast<size_t>(parts[0].end - parts[0].numbers);
+  for (size_t c = 1; c < kColumns; ++c) {
+    const auto other = static_cast<size_t>(parts[c].end - parts[c].numbers);
+    count = other < count ? other : count;
+  }
+  const Value* const values[] = {parts[V / kPairVecs].values + V % kPairVecs * kRows...};
+  const uint16_t* const numbers[] = {parts[V / kPairVecs].numbers...};
+  InPairs::Rows sum[] = {(static_cast<void>(V), InPairs::broadcast(0.0f))...};
+  for (size_t i = 0; i < count; ++i) {
+    ((sum[V] = How::mul_add(
+          InPairs::load_values(values[V] + i * kPairRows),
+          InPairs::load(rows_of_pair(rows, numbers[V][i], 1) + V % kPairVecs * kRows), sum[V])),
+     ...);
+  }
+  (InPairs::store(sums + V * kRows, sum[V]), ...);
+  for (size_t c = 0; c < kColumns; ++c) {
+    parts[c].values += count * kPairRows;
+    parts[c].numbers += count;
+  }
+}
+
+/// The same for the rest of a column.
+template <class How, class Value, size_t... V>
+inline void add_pairs_of_column(const RunPart<Value>& part, const float* rows, float* sums,
+                                std::index_sequence<V...>) {
+  constexpr size_t kRows = InPairs::kRows;
+  InPairs::Rows sum[] = {InPairs::load(sums + V * kRows)...};
+  const Value* values = part.values;
+  for (const uint16_t* number = part.numbers; number < part.end; ++number, values += kPairRows) {
+    const float* const from = rows_of_pair(rows, *number, 1);
+    ((sum[V] = How::mul_add(InPairs::load_values(values + V * kRows),
+                            InPairs::load(from + V * kRows), sum[V])),
+     ...);
+  }
+  (InPairs::store(sums + V * kRows, sum[V]), ...);
+}
+
+/// The sums of the pairs of a column in neighboring lanes: a V per vector of 16 rows of each lane.
+template <class How, class Value, size_t... V>
+inline void sum_lanes_of_pairs(const RunPart<Value>& part, const float* rows, float* sums,
+                               std::index_sequence<V...>) {
+  constexpr size_t kRows = InPairs::kRows;
+  InPairs::Rows sum[] = {(static_cast<void>(V), InPairs::broadcast(0.0f))...};
+  const Value* values = part.values;
+  for (const uint16_t* number = part.numbers; number < part.end; ++number, values += kPairRows) {
+    const float* const from = rows_of_pair(rows, *number, kTransposedLanes);
+    const InPairs::Rows value[] = {InPairs::load_values(values + V % kPairVecs * kRows)...};
+    ((sum[V] = How::mul_add(value[V], InPairs::load(from + V * kRows), sum[V])), ...);
+  }
+  (InPairs::store(sums + V * kRows, sum[V]), ...);
+}
+
+/// Adds a block without its other half.
+template <class How, class Value>
+inline void add_single(const Value* values, const float* rows, float* sums) {
+  for (size_t r = 0; r < kJointBlockRows; r += kBlockWidth) {
+    store_block(sums + r,
+                How::mul_add(load_block(values + r), load_block(rows + r), load_block(sums + r)));
+  }
+}
+
 inline float sum_of_eight(const float* v) {
   const float a = v[0] + v[4], b = v[1] + v[5], c = v[2] + v[6], d = v[3] + v[7];
   return (a + c) + (b + d);
 }
-
-/// The rows of a block row, numbered as in JointColumnsArgs.
-inline const float* rows_of(const float* rows, size_t number) {
-  return rows + number * (kJointBlockRows / kBlockRowUnit);
+inline float sum_of_rows(const float* sums) {
+  return sum_of_eight(sums) + sum_of_eight(sums + kJointBlockRows);
 }
 
-constexpr size_t kVecsPerJointBlock = kJointBlockRows / kBlockWidth;
+/// sum_of_rows() of four times 16 sums.
+inline Quad four_sums_of_eight(const float* sums) {
+  Quad q[4];
+  for (size_t k = 0; k < 4; ++k) {
+    q[k] = load4(sums + k * kPairRows) + load4(sums + k * kPairRows + 4);
+  }
+  transpose4(q[0], q[1], q[2], q[3]);
+  return (q[0] + q[2]) + (q[1] + q[3]);
+}
+inline void four_sums_of_rows(const float* sums, float* to) {
+  store4(to, four_sums_of_eight(sums) + four_sums_of_eight(sums + kJointBlockRows));
+}
 
-/// The sums of the even and of the odd block rows of a run.
+/// One gradient, kColumnsTogether columns at a time.
 template <class How, class Value>
-inline void sum_run(const JointTransposedArgs& args, const JointRun& run, float* sums) {
-  const Value* values =
-      static_cast<const Value*>(args.values) + size_t{run.start.first_pair} * kJointBlockRows;
-  const uint16_t* numbers = args.block_rows + run.start.pair_entry;
-#if defined(MIEN_KERNEL_AVX512)
-  Vec both = broadcast(0.0f);
-  for (size_t i = 0; i < run.pair_count; ++i) {
-    both = How::mul_add(load_pair(values + i * 2 * kJointBlockRows),
-                        load(rows_of(args.rows, numbers[i] & kPairBlockRows)), both);
-  }
-  store(sums, both);
-#else
-  BlockVec pair[2 * kVecsPerJointBlock];
-  for (BlockVec& v : pair) v = broadcast_block(0.0f);
-  for (size_t i = 0; i < run.pair_count; ++i) {
-    const float* rows = rows_of(args.rows, numbers[i] & kPairBlockRows);
-    for (size_t v = 0; v < 2 * kVecsPerJointBlock; ++v) {
-      pair[v] = How::mul_add(load_block(values + i * 2 * kJointBlockRows + v * kBlockWidth),
-                             load_block(rows + v * kBlockWidth), pair[v]);
+inline void sum_columns_of_one(const JointTransposedArgs& args) {
+  alignas(64) float sums[kColumnsTogether * kPairRows];
+  const float* const rows = args.rows;
+  const auto finish = [&](const RunPart<Value>& pairs, const JointRun& run, float* of_column) {
+    add_pairs_of_column<How>(pairs, rows, of_column, std::make_index_sequence<kPairVecs>());
+    const RunPart<Value> singles = singles_of<Value>(args, run);
+    const Value* values = singles.values;
+    for (const uint16_t* n = singles.numbers; n < singles.end; ++n, values += kJointBlockRows) {
+      add_single<How>(values, rows_of_pair(rows, *n, 1) + half_of(*n), of_column + half_of(*n));
     }
+  };
+  size_t i = 0;
+  for (; i + kColumnsTogether <= args.run_count; i += kColumnsTogether) {
+    for (size_t c = 0; c < kColumnsTogether; c += kColumnStep) {
+      RunPart<Value> parts[kColumnStep];
+      for (size_t k = 0; k < kColumnStep; ++k) {
+        parts[k] = pairs_of<Value>(args, args.runs[i + c + k]);
+      }
+      float* const of_step = sums + c * kPairRows;
+      sum_columns_of_pairs<How>(parts, rows, of_step,
+                                std::make_index_sequence<kColumnStep * kPairVecs>());
+      for (size_t k = 0; k < kColumnStep; ++k) {
+        finish(parts[k], args.runs[i + c + k], of_step + k * kPairRows);
+      }
+    }
+    four_sums_of_rows(sums, args.outputs + i);
   }
-  for (size_t v = 0; v < 2 * kVecsPerJointBlock; ++v) store_block(sums + v * kBlockWidth, pair[v]);
-#endif
-  values =
-      static_cast<const Value*>(args.values) + size_t{run.start.first_single} * kJointBlockRows;
-  numbers = args.block_rows + run.start.single_entry;
-  for (size_t i = 0; i < run.single_count; ++i) {
-    const float* rows = rows_of(args.rows, numbers[i]);
-    float* half = sums + (numbers[i] / kBlockRowUnit & 1) * kJointBlockRows;
-    for (size_t v = 0; v < kJointBlockRows; v += kBlockWidth) {
-      store_block(half + v, How::mul_add(load_block(values + i * kJointBlockRows + v),
-                                         load_block(rows + v), load_block(half + v)));
+  for (; i < args.run_count; ++i) {
+    for (size_t r = 0; r < kPairRows; ++r) sums[r] = 0.0f;
+    finish(pairs_of<Value>(args, args.runs[i]), args.runs[i], sums);
+    args.outputs[i] = sum_of_rows(sums);
+  }
+}
+
+/// kTransposedLanes gradients, one column at a time.
+template <class How, class Value>
+inline void sum_columns_of_lanes(const JointTransposedArgs& args) {
+  alignas(64) float sums[kTransposedLanes * kPairRows];
+  for (size_t i = 0; i < args.run_count; ++i) {
+    const RunPart<Value> pairs = pairs_of<Value>(args, args.runs[i]);
+    for (size_t k = 0; k < kTransposedLanes; k += kLaneStep) {
+      sum_lanes_of_pairs<How>(pairs, args.rows + k * kPairRows, sums + k * kPairRows,
+                              std::make_index_sequence<kLaneStep * kPairVecs>());
+    }
+    const RunPart<Value> singles = singles_of<Value>(args, args.runs[i]);
+    const Value* values = singles.values;
+    for (const uint16_t* n = singles.numbers; n < singles.end; ++n, values += kJointBlockRows) {
+      const float* const from = rows_of_pair(args.rows, *n, kTransposedLanes) + half_of(*n);
+      float* const to = sums + half_of(*n);
+      for (size_t k = 0; k < kTransposedLanes * kPairRows; k += kPairRows) {
+        add_single<How>(values, from + k, to + k);
+      }
+    }
+    for (size_t k = 0; k < kTransposedLanes; k += 4) {
+      four_sums_of_rows(sums + k * kPairRows, args.outputs + i * kTransposedLanes + k);
     }
   }
 }
 
 template <class How, class Value>
 void sum_runs(const JointTransposedArgs& args) {
-  alignas(64) float sums[2 * kJointBlockRows];
-  for (size_t i = 0; i < args.run_count; ++i) {
-    sum_run<How, Value>(args, args.runs[i], sums);
-    args.outputs[i] = sum_of_eight(sums) + sum_of_eight(sums + kJointBlockRows);
-  }
+  args.lane_count == 1 ? sum_columns_of_one<How, Value>(args)
+                       : sum_columns_of_lanes<How, Value>(args);
 }
 template <class Value>
 void sum_runs(const JointTransposedArgs& args) {

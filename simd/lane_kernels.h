@@ -14,8 +14,8 @@ namespace mien {
 using GatherLanesKernel = void(const float* const* from, uint32_t lane_count, size_t count,
                                float* to);
 
-/// scatter_lanes: to[k][first + i] = from[32 * i + k] for i < count and k < lane_count.
+/// scatter_lanes: to[k][offset + i] = from[32 * i + k] for i < count and k < lane_count.
 using ScatterLanesKernel = void(const float* from, size_t count, size_t lane_count,
-                                float* const* to, size_t first);
+                                float* const* to, size_t offset);
 
 }  // namespace mien

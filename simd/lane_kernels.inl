@@ -26,10 +26,12 @@ inline void gather_four(const float* const* from, size_t first, size_t end, floa
   }
 }
 
+// Rows that are done at a time: their lanes stay in the first-level cache.
+constexpr size_t kRowsAtOnce = 64;
+
 void gather_lanes(const float* const* from, uint32_t lane_count, size_t count, float* to) {
-  constexpr size_t kColumns = 64;  // at a time: their lanes stay in the first-level cache
-  for (size_t first = 0; first < count; first += kColumns) {
-    const size_t end = first + kColumns < count ? first + kColumns : count;
+  for (size_t first = 0; first < count; first += kRowsAtOnce) {
+    const size_t end = first + kRowsAtOnce < count ? first + kRowsAtOnce : count;
     size_t k = 0;
     for (; k + 4 <= lane_count; k += 4) gather_four(from + k, first, end, to + k);
     for (; k < kBatchLanes; ++k) {
@@ -40,27 +42,34 @@ void gather_lanes(const float* const* from, uint32_t lane_count, size_t count, f
   }
 }
 
-void scatter_lanes(const float* from, size_t count, size_t lane_count, float* const* to,
-                   size_t first) {
-  size_t k = 0;
-  for (; k + 4 <= lane_count; k += 4) {
-    size_t i = 0;
-    for (; i + 4 <= count; i += 4) {
-      const float* rows = from + i * kBatchLanes + k;
-      Quad a = load4(rows), b = load4(rows + kBatchLanes);
-      Quad c = load4(rows + 2 * kBatchLanes), d = load4(rows + 3 * kBatchLanes);
-      transpose4(a, b, c, d);
-      store4(to[k] + first + i, a);
-      store4(to[k + 1] + first + i, b);
-      store4(to[k + 2] + first + i, c);
-      store4(to[k + 3] + first + i, d);
-    }
-    for (; i < count; ++i) {
-      for (size_t j = 0; j < 4; ++j) to[k + j][first + i] = from[i * kBatchLanes + k + j];
-    }
+/// Four lanes of rows into four arrays.
+inline void scatter_four(const float* from, size_t first, size_t end, float* const* to,
+                         size_t offset) {
+  size_t i = first;
+  for (; i + 4 <= end; i += 4) {
+    const float* const rows = from + i * kBatchLanes;
+    Quad a = load4(rows), b = load4(rows + kBatchLanes);
+    Quad c = load4(rows + 2 * kBatchLanes), d = load4(rows + 3 * kBatchLanes);
+    transpose4(a, b, c, d);
+    store4(to[0] + offset + i, a);
+    store4(to[1] + offset + i, b);
+    store4(to[2] + offset + i, c);
+    store4(to[3] + offset + i, d);
   }
-  for (; k < lane_count; ++k) {
-    for (size_t i = 0; i < count; ++i) to[k][first + i] = from[i * kBatchLanes + k];
+  for (; i < end; ++i) {
+    for (size_t k = 0; k < 4; ++k) to[k][offset + i] = from[i * kBatchLanes + k];
+  }
+}
+
+void scatter_lanes(const float* from, size_t count, size_t lane_count, float* const* to,
+                   size_t offset) {
+  for (size_t first = 0; first < count; first += kRowsAtOnce) {
+    const size_t end = first + kRowsAtOnce < count ? first + kRowsAtOnce : count;
+    size_t k = 0;
+    for (; k + 4 <= lane_count; k += 4) scatter_four(from + k, first, end, to + k, offset);
+    for (; k < lane_count; ++k) {
+      for (size_t i = first; i < end; ++i) to[k][offset + i] = from[i * kBatchLanes + k];
+    }
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include "runtime/derive/derive_stages.h"
 #include "runtime/derive/jacobian.h"
+#include "simd/derivative_kernels.h"
 
 namespace mien {
 namespace {
@@ -68,13 +69,22 @@ void place_joints(const Rig& rig, Placer& placer, Derivatives& d) {
   d.twist_slopes = placer.array<float>(size_t{rig.twist_swing.block_count()} * kBlockLanes * 16);
   const size_t block_rows =
       joints.panels.empty() ? 0 : joints.panels[joints.panel_count()].first_block_row;
-  d.active_columns = placer.array<uint8_t>(joints.columns.count);
   const size_t angles = rig.quaternion_outputs ? size_t{rig.joint_count} * 3 : 0;
   d.value_rows = placer.array<uint32_t>(rig.joint_value_count() + angles);
+  // Rows in pairs of block rows, which finish_sums() needs, too.
+  const size_t rows = align_up(block_rows, size_t{2}) * kJointBlockRows;
+  d.row_values = placer.array<uint32_t>(rows);
+  d.columns_by_length = placer.array<uint32_t>(joints.columns.count);
+  d.moved_columns = placer.array<uint8_t>(joints.columns.count);
+  d.block_starts = placer.array<uint32_t>(block_rows + 1);
+  d.block_ends = placer.array<uint32_t>(block_rows);
+  size_t blocks = 0;
+  for (size_t c = 0; c < joints.columns.count; ++c) {
+    blocks += joints.blocks_before(c, joints.panel_count());
+  }
+  d.blocks = placer.array<InputBlock>(blocks + kBatchAhead);
   d.moving = placer.array<uint8_t>(rig.control_count);
-  // finish_sums() works on vectors of 16.
-  d.packed_rows = placer.array<float>(padded(block_rows * kJointBlockRows), kBlockAlignment);
-  d.column_lane = placer.array<float>(rig.control_count, kBlockAlignment);
+  d.packed_rows = placer.array<float>(rows * kTransposedLanes, kBlockAlignment);
   d.joints = placer.array<float>((rig.joint_value_count() + angles) * kBatchLanes, kBlockAlignment);
 }
 
@@ -134,24 +144,40 @@ const Span<float>& buffer_of(const Derivatives& d, Point point) {
   return d.moved;
 }
 
-void load(Derivatives& d, Point point, uint32_t lanes, uint32_t count, const float* rows) {
+bool is_matrix(Point point) { return point >= Point::kLocals && point <= Point::kSkins; }
+
+template <uint32_t L>
+void load(Derivatives& d, Point point, uint32_t count, const float* rows) {
   const size_t size = point_size(d, point, 0);
   float* const buffer = buffer_of(d, point).data;
+  if (L == kBatchLanes && !is_matrix(point)) {
+    const float* lanes[kBatchLanes];
+    for (uint32_t k = 0; k < count; ++k) lanes[k] = rows + k * size;
+    d.rig->kernels->gather_lanes(lanes, count, size, buffer);
+    return;
+  }
   for (uint32_t k = 0; k < count; ++k) {
     for (size_t i = 0; i < size; ++i) {
       const size_t at = place_in_buffer(point, i);
-      if (at != kNoPlace) buffer[at * lanes + k] = rows[k * size + i];
+      if (at != kNoPlace) buffer[at * L + k] = rows[k * size + i];
     }
   }
 }
 
-void save(Derivatives& d, Point point, uint32_t lanes, uint32_t count, float* rows) {
+template <uint32_t L>
+void save(Derivatives& d, Point point, uint32_t count, float* rows) {
   const size_t size = point_size(d, point, 0);
   const float* const buffer = buffer_of(d, point).data;
+  if (L == kBatchLanes && !is_matrix(point)) {
+    float* lanes[kBatchLanes];
+    for (uint32_t k = 0; k < count; ++k) lanes[k] = rows + k * size;
+    d.rig->kernels->scatter_lanes(buffer, size, count, lanes, 0);
+    return;
+  }
   for (uint32_t k = 0; k < count; ++k) {
     for (size_t i = 0; i < size; ++i) {
       const size_t at = place_in_buffer(point, i);
-      rows[k * size + i] = at == kNoPlace ? 0.0f : buffer[at * lanes + k];
+      rows[k * size + i] = at == kNoPlace ? 0.0f : buffer[at * L + k];
     }
   }
 }
@@ -208,9 +234,9 @@ void push_lanes(Derivatives& d, Point from, Point to, uint32_t mesh, uint32_t co
                 const float* directions, float* outputs) {
   clear_for_push(d, from, to, L);
   d.lane_count = count;
-  load(d, from, L, count, directions);
+  load<L>(d, from, count, directions);
   push_buffers<L>(d, from, to);
-  if (to != Point::kPositions) return save(d, to, L, count, outputs);
+  if (to != Point::kPositions) return save<L>(d, to, count, outputs);
   const size_t size = point_size(d, to, mesh);
   for (uint32_t k = 0; k < count; ++k) push_positions(d, mesh, k, L, outputs + k * size);
 }
@@ -226,7 +252,7 @@ void pull_lanes(Derivatives& d, Point from, Point to, uint32_t mesh, uint32_t co
     const size_t size = point_size(d, to, mesh);
     for (uint32_t k = 0; k < count; ++k) pull_positions(d, mesh, k, L, gradients + k * size);
   } else {
-    load(d, to, L, count, gradients);
+    load<L>(d, to, count, gradients);
   }
   const Point end = to == Point::kChannels || to == Point::kMaps ? Point::kControls : to;
   if (passes(from, end, Point::kModels)) pull_skins<L>(d);
@@ -247,7 +273,7 @@ void pull_lanes(Derivatives& d, Point from, Point to, uint32_t mesh, uint32_t co
     if (has_stage(d, kStageMl)) pull_ml<L>(d);
   }
   if (passes(from, end, Point::kGui)) pull_gui<L>(d);
-  save(d, from, L, count, outputs);
+  save<L>(d, from, count, outputs);
 }
 
 /// Runs lanes of kBatchLanes rows, and single rows one at a time.
@@ -317,6 +343,7 @@ Derivatives* create_derivatives(const Rig& rig, const Deformer* deformer,
   d->rig = share(rig);
   if (deformer) d->deformer = share(*deformer);
   pack_networks(*d);
+  count_blocks(*d);
   return d;
 }
 
@@ -348,7 +375,7 @@ void linearize(Derivatives& d, const Instance& instance, uint32_t stages) {
   const Rig& rig = *d.rig;
   if (!d.linearized || d.lod != instance.lod) {
     d.lod = instance.lod;
-    find_value_rows(rig, d.lod, d.value_rows);
+    find_joint_rows(d);
   }
   d.stages = stages;
   std::copy(instance.controls.begin(), instance.controls.end(), d.values.begin());

@@ -38,6 +38,7 @@ enum class Point : uint32_t {
 constexpr uint32_t kMatrixParts = 12;  // three axes and the translation; the last row is constant
 
 constexpr uint32_t kNoRow = ~uint32_t{0};
+constexpr uint32_t kNoValue = ~uint32_t{0};
 
 /// The derivative of one value of a conditional table by one input, at its current value.
 struct TableSlope {
@@ -89,18 +90,26 @@ struct Derivatives : Object {
   Span<float> twist_slopes;     // [lane][4][4]: by x y z w
   Span<float> local_slopes;  // [joint][9][4] axes by rotation, unscaled axes [9], with a deformer
 
-  Span<uint8_t> active_columns;  // scratch
-  Span<uint32_t> value_rows;     // [joint value, angle] packed row that writes it at the LOD
-  Span<uint8_t> moving;          // [control] it may move with raw controls
-  uint32_t lane_count = 0;       // directions in the buffers
-  bool all_move = false;         // controls are the inputs: all columns count
+  // The joint matrix.
+  Span<uint32_t> value_rows;         // [joint value, angle] packed row that writes it at the LOD
+  Span<uint32_t> row_values;         // [packed row] the value that it writes, or kNoValue
+  Span<uint32_t> columns_by_length;  // columns by their number of pairs at the LOD
+  Span<uint8_t> moved_columns;       // [column] some direction moves it
+  Span<uint32_t> block_starts;       // [block row] into blocks, one more at the end
+  Span<uint32_t> block_ends;         // [block row] into blocks
+  Span<InputBlock> blocks;           // of moved_columns, by block row; kBatchAhead more at the end
+  bool blocks_listed = false;
+
+  Span<uint8_t> moving;     // [control] it may move with raw controls
+  uint32_t lane_count = 0;  // directions in the buffers
+  bool all_move = false;    // controls are the inputs: all columns count
 
   // Buffers, kBatchLanes of each.
   Span<float> rbf_lanes;                             // results of the largest solver
   Span<float> gui, controls, joints, maps, weights;  // weights: of channels
   Span<float> ml_values, ml_layers[2];
-  Span<float> packed_rows;            // sums of the joint matrix, of one direction
-  Span<float> column_lane;            // [control] of one direction
+  Span<float>
+      packed_rows;  // of the joint matrix: of one direction, or of kTransposedLanes gradients
   Span<float> locals, models, skins;  // [joint][kMatrixParts]
   Span<float> matrices;               // [joint][16] of one direction
   Span<float> linear_matrices;        // [joint][16] skin matrices without translation

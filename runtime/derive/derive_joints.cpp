@@ -2,6 +2,7 @@
 // The joint matrix forward and transposed. It does not depend on values; columns whose control does not move
 // are left out.
 #include "runtime/derive/derive_stages.h"
+#include "simd/derivative_kernels.h"
 
 namespace mien {
 namespace {
@@ -29,30 +30,12 @@ void for_each_row(const Rig& rig, uint32_t lod, F&& f) {
   }
 }
 
-/// Calls f(first run, run count, first column) for runs of the columns of the LOD's panels whose control
-/// `wanted`.
-template <class W, class F>
-void for_each_runs(const Rig& rig, uint32_t lod, W&& wanted, F&& f) {
-  const JointMatrix& joints = rig.joints;
-  JointRun runs[kMaxRuns];
-  uint32_t columns[kMaxRuns], count = 0;
-  for (uint32_t c = 0; c < joints.columns.count; ++c) {
-    const ColumnPart& part = joints.part(c, joints.panels_at_lod[lod]);
-    const float input = wanted(c);
-    if (input == 0.0f || (part.pairs | part.singles) == 0) continue;
-    runs[count] = {joints.starts[c], part.pairs, part.singles, input};
-    columns[count++] = c;
-    if (count == kMaxRuns) {
-      f(runs, count, columns);
-      count = 0;
-    }
-  }
-  if (count != 0) f(runs, count, columns);
-}
-
 const void* values_of(const JointMatrix& joints) {
   return joints.values.empty() ? static_cast<const void*>(joints.fixed_values.data)
                                : joints.values.data;
+}
+const float* scales_of(const JointMatrix& joints) {
+  return joints.scales.empty() ? nullptr : joints.scales.data;
 }
 
 uint32_t block_rows_at(const Derivatives& d) {
@@ -60,71 +43,198 @@ uint32_t block_rows_at(const Derivatives& d) {
   return joints.panels[joints.panels_at_lod[d.lod]].first_block_row;
 }
 
-/// Packed rows = columns times one direction of the controls.
-void sum_columns(Derivatives& d, const float* controls) {
+/// Runs of columns in the LOD's panels, passed on when there are kMaxRuns: f(runs, count, columns).
+struct RunList {
+  const JointMatrix& joints;
+  uint32_t panels;
+  uint32_t count = 0;
+  JointRun runs[kMaxRuns];
+  uint32_t columns[kMaxRuns];
+
+  explicit RunList(const Derivatives& d)
+      : joints(d.rig->joints), panels(joints.panels_at_lod[d.lod]) {}
+  template <class F>
+  void add(uint32_t column, float input, F&& f) {
+    const ColumnPart& part = joints.part(column, panels);
+    if ((part.pairs | part.singles) == 0) return;
+    runs[count] = {joints.starts[column], part.pairs, part.singles, input};
+    columns[count++] = column;
+    if (count == kMaxRuns) pass(f);
+  }
+  template <class F>
+  void pass(F&& f) {
+    if (count != 0) f(runs, count, columns);
+    count = 0;
+  }
+};
+
+// Forward -----------------------------------------------------------------------------------------
+
+/// Joint values of one direction: lane `lane` of `lanes`.
+void push_one(Derivatives& d, uint32_t lane, uint32_t lanes) {
   const Rig& rig = *d.rig;
   const JointMatrix& joints = rig.joints;
   const size_t rows = size_t{block_rows_at(d)} * kJointBlockRows;
-  std::fill(d.packed_rows.data, d.packed_rows.data + rows, 0.0f);
-  const bool fixed = joints.values.empty();
+  float* const sums = d.packed_rows.data;
+  std::fill(sums, sums + rows, 0.0f);
   JointColumnsArgs args;
   args.values = values_of(joints);
   args.block_rows = joints.block_rows.data;
-  args.sums = d.packed_rows.data;
+  args.sums = sums;
   args.portable = rig.portable;
-  for_each_runs(
-      rig, d.lod, [&](uint32_t c) { return controls[joints.columns[c]]; },
-      [&](const JointRun* runs, uint32_t count, const uint32_t*) {
-        args.runs = runs;
-        args.run_count = count;
-        (fixed ? rig.kernels->joint_columns_fixed : rig.kernels->joint_columns)(args);
-      });
-  rig.kernels->finish_sums(d.packed_rows.data, joints.scales.empty() ? nullptr : joints.scales.data,
-                           rows);
-}
-
-/// Gradients of joint values, lane `lane` of `lanes` -> of packed rows, in the unit of the stored values.
-void take_rows(Derivatives& d, uint32_t lane, uint32_t lanes) {
-  const JointMatrix& joints = d.rig->joints;
-  const size_t rows = size_t{block_rows_at(d)} * kJointBlockRows;
-  std::fill(d.packed_rows.data, d.packed_rows.data + rows, 0.0f);
-  for (size_t value = 0; value < d.value_rows.count; ++value) {
-    const uint32_t row = d.value_rows[value];
-    if (row == kNoRow) continue;
-    const float scale = joints.scales.empty() ? 1.0f : joints.scales[row];
-    d.packed_rows[row] = d.joints[value * lanes + lane] * scale;
+  const auto multiply = [&](const JointRun* runs, uint32_t count, const uint32_t*) {
+    args.runs = runs;
+    args.run_count = count;
+    const bool fixed = joints.values.empty();
+    (fixed ? rig.kernels->joint_columns_fixed : rig.kernels->joint_columns)(args);
+  };
+  RunList list(d);
+  for (uint32_t c = 0; c < joints.columns.count; ++c) {
+    const float input = d.controls[size_t{joints.columns[c]} * lanes + lane];
+    if (input != 0.0f) list.add(c, input, multiply);
+  }
+  list.pass(multiply);
+  rig.kernels->finish_sums(sums, scales_of(joints), rows);
+  for (size_t row = 0; row < rows; ++row) {
+    if (d.row_values[row] != kNoValue)
+      d.joints[size_t{d.row_values[row]} * lanes + lane] = sums[row];
   }
 }
 
-/// Controls whose gradient matters: raw ones, and others that move with some control before them.
-void mark_columns(Derivatives& d) {
+/// Finds which columns some direction moves. Returns whether it pays to multiply the directions together, which
+/// reads a block once but multiplies it in all lanes.
+bool find_moved_columns(Derivatives& d) {
   const JointMatrix& joints = d.rig->joints;
-  for (size_t c = 0; c < joints.columns.count; ++c) {
-    d.active_columns[c] = d.all_move || d.moving[joints.columns[c]];
+  const uint32_t panels = joints.panels_at_lod[d.lod];
+  const uint32_t step = d.rig->kernels->batch_step;
+  const int64_t passes = (d.lane_count + step - 1) / step;
+  int64_t saved = -kPassCost * passes * block_rows_at(d);
+  for (uint32_t c = 0; c < joints.columns.count; ++c) {
+    const float* lanes = d.controls.data + size_t{joints.columns[c]} * kBatchLanes;
+    int64_t users = 0;
+    for (uint32_t k = 0; k < d.lane_count; ++k) users += lanes[k] != 0.0f;
+    const uint8_t is_moved = users != 0;
+    d.blocks_listed &= d.moved_columns[c] == is_moved;
+    d.moved_columns[c] = is_moved;
+    if (!is_moved) continue;
+    saved +=
+        joints.blocks_before(c, panels) * (users * kFetchedCost - kListedCost - kPassCost * passes);
   }
+  return saved > 0;
 }
 
-void sum_transposed(Derivatives& d, uint32_t lane, uint32_t lanes) {
+/// Lists the blocks of moved columns by block row. The list is kept: products often move the same controls.
+void list_blocks(Derivatives& d) {
+  const JointMatrix& joints = d.rig->joints;
+  const uint32_t panels = joints.panels_at_lod[d.lod];
+  std::copy(d.block_starts.begin(), d.block_starts.end() - 1, d.block_ends.begin());
+  for (uint32_t c = 0; c < joints.columns.count; ++c) {
+    if (!d.moved_columns[c]) continue;
+    const uint32_t control = joints.columns[c];
+    joints.for_each_block(c, panels, [&](uint32_t block, uint32_t block_row) {
+      d.blocks[d.block_ends[block_row]++] = {block, control};
+    });
+  }
+  d.blocks_listed = true;
+}
+
+/// Joint values of all directions: block row by block row.
+void push_together(Derivatives& d) {
   const Rig& rig = *d.rig;
   const JointMatrix& joints = rig.joints;
-  const bool fixed = joints.values.empty();
-  float sums[kMaxRuns];
+  if (!d.blocks_listed) list_blocks(d);
+  alignas(64) float sums[kJointBlockRows * kBatchLanes] = {};
+  JointBatchArgs args = {};
+  args.values = values_of(joints);
+  args.inputs = d.controls.data;
+  args.sums = sums;
+  args.finish = true;
+  args.lane_count = d.lane_count;
+  args.portable = rig.portable;
+  const auto kernel =
+      joints.values.empty() ? rig.kernels->joint_batch_fixed : rig.kernels->joint_batch;
+  for (uint32_t b = 0; b < block_rows_at(d); ++b) {
+    args.blocks = d.blocks.data + d.block_starts[b];
+    args.block_count = d.block_ends[b] - d.block_starts[b];
+    const size_t first_row = size_t{b} * kJointBlockRows;
+    if (scales_of(joints)) args.scales = scales_of(joints) + first_row;
+    kernel(args);
+    for (size_t r = 0; r < kJointBlockRows; ++r) {
+      const size_t value = d.row_values[first_row + r];
+      if (value == kNoValue) continue;
+      float* const to = d.joints.data + value * kBatchLanes;
+      for (size_t k = 0; k < kBatchLanes; ++k) to[k] = sums[r * kBatchLanes + k];
+    }
+  }
+}
+
+// Reverse -----------------------------------------------------------------------------------------
+
+/// Gradients of joint values -> of packed rows, in the unit of the stored values: `count` lanes from lane
+/// `first` on, 1 or kTransposedLanes of them, in the layout of JointTransposedArgs.
+template <uint32_t L>
+void take_rows(const Derivatives& d, uint32_t first, uint32_t count) {
+  constexpr size_t kRows = 2 * kJointBlockRows;
+  const JointMatrix& joints = d.rig->joints;
+  const size_t rows = align_up(size_t{block_rows_at(d)} * kJointBlockRows, kRows);
+  const float* const scales = scales_of(joints);
+  float* to = d.packed_rows.data;
+  if (count == 1) {
+    for (size_t row = 0; row < rows; ++row) {
+      const size_t value = d.row_values[row];
+      to[row] =
+          value == kNoValue ? 0.0f : d.joints[value * L + first] * (scales ? scales[row] : 1.0f);
+    }
+    return;
+  }
+  float pair[kRows * kBatchLanes];
+  for (size_t row = 0; row < rows; row += kRows, to += kRows * kTransposedLanes) {
+    for (size_t r = 0; r < kRows; ++r) {
+      const size_t value = d.row_values[row + r];
+      float* const lanes = pair + r * kBatchLanes;
+      if (value == kNoValue) {
+        std::fill(lanes, lanes + kTransposedLanes, 0.0f);
+        continue;
+      }
+      const float* const from = d.joints.data + value * L + first;
+      const float scale = scales ? scales[row + r] : 1.0f;
+      for (size_t k = 0; k < kTransposedLanes; ++k) lanes[k] = from[k] * scale;
+    }
+    float* of_lane[kTransposedLanes];
+    for (size_t k = 0; k < kTransposedLanes; ++k) of_lane[k] = to + k * kRows;
+    d.rig->kernels->scatter_lanes(pair, kRows, kTransposedLanes, of_lane, 0);
+  }
+}
+
+/// Adds to the gradients of controls: raw ones, and others that move with some control before them.
+template <uint32_t L>
+void pull_some(Derivatives& d, uint32_t first, uint32_t count) {
+  const Rig& rig = *d.rig;
+  const JointMatrix& joints = rig.joints;
+  take_rows<L>(d, first, count);
+  float sums[kMaxRuns * kTransposedLanes];
   JointTransposedArgs args;
   args.values = values_of(joints);
   args.block_rows = joints.block_rows.data;
   args.rows = d.packed_rows.data;
   args.outputs = sums;
+  args.lane_count = count;
   args.portable = rig.portable;
-  for_each_runs(
-      rig, d.lod, [&](uint32_t c) { return d.active_columns[c] ? 1.0f : 0.0f; },
-      [&](const JointRun* runs, uint32_t count, const uint32_t* columns) {
-        args.runs = runs;
-        args.run_count = count;
-        (fixed ? rig.kernels->joint_transposed_fixed : rig.kernels->joint_transposed)(args);
-        for (uint32_t i = 0; i < count; ++i) {
-          d.controls[size_t{joints.columns[columns[i]]} * lanes + lane] += sums[i];
-        }
-      });
+  const auto multiply = [&](const JointRun* runs, uint32_t run_count, const uint32_t* columns) {
+    args.runs = runs;
+    args.run_count = run_count;
+    const bool fixed = joints.values.empty();
+    (fixed ? rig.kernels->joint_transposed_fixed : rig.kernels->joint_transposed)(args);
+    for (uint32_t i = 0; i < run_count; ++i) {
+      float* const to = d.controls.data + size_t{joints.columns[columns[i]]} * L + first;
+      for (uint32_t k = 0; k < count; ++k) to[k] += sums[i * count + k];
+    }
+  };
+  RunList list(d);
+  for (const uint32_t c : d.columns_by_length) {
+    if (d.all_move || d.moving[joints.columns[c]]) list.add(c, 0.0f, multiply);
+  }
+  list.pass(multiply);
 }
 
 }  // namespace
@@ -135,28 +245,54 @@ void find_value_rows(const Rig& rig, uint32_t lod, const Span<uint32_t>& value_r
                [&](size_t row, size_t value) { value_rows[value] = static_cast<uint32_t>(row); });
 }
 
+void find_joint_rows(Derivatives& d) {
+  const JointMatrix& joints = d.rig->joints;
+  const uint32_t panels = joints.panels_at_lod[d.lod];
+  find_value_rows(*d.rig, d.lod, d.value_rows);
+  std::fill(d.row_values.begin(), d.row_values.end(), kNoValue);
+  for (size_t value = 0; value < d.value_rows.count; ++value) {
+    if (d.value_rows[value] == kNoRow) continue;
+    d.row_values[d.value_rows[value]] = static_cast<uint32_t>(value);
+  }
+  for (uint32_t c = 0; c < d.columns_by_length.count; ++c) d.columns_by_length[c] = c;
+  std::sort(d.columns_by_length.begin(), d.columns_by_length.end(), [&](uint32_t a, uint32_t b) {
+    const uint32_t of_a = joints.part(a, panels).pairs, of_b = joints.part(b, panels).pairs;
+    return of_a != of_b ? of_a < of_b : a < b;
+  });
+  d.blocks_listed = false;
+}
+
+void count_blocks(Derivatives& d) {
+  const JointMatrix& joints = d.rig->joints;
+  std::fill(d.block_starts.begin(), d.block_starts.end(), 0u);
+  for (uint32_t c = 0; c < joints.columns.count; ++c) {
+    joints.for_each_block(c, joints.panel_count(),
+                          [&](uint32_t, uint32_t block_row) { ++d.block_starts[block_row + 1]; });
+  }
+  for (size_t b = 1; b < d.block_starts.count; ++b) d.block_starts[b] += d.block_starts[b - 1];
+}
+
 template <uint32_t L>
 void push_joint_rows(Derivatives& d) {
-  const Rig& rig = *d.rig;
-  const size_t angles = rig.quaternion_outputs ? size_t{rig.joint_count} * 3 : 0;
-  std::fill(d.joints.data, d.joints.data + (rig.joint_value_count() + angles) * L, 0.0f);
-  // One direction after the other: a column of zeros is left out, which pays more than lanes do.
-  for (uint32_t k = 0; k < d.lane_count; ++k) {
-    for (size_t c = 0; c < d.column_lane.count; ++c) d.column_lane[c] = d.controls[c * L + k];
-    sum_columns(d, d.column_lane.data);
-    for (size_t value = 0; value < d.value_rows.count; ++value) {
-      if (d.value_rows[value] == kNoRow) continue;
-      d.joints[value * L + k] = d.packed_rows[d.value_rows[value]];
-    }
+  for (size_t value = 0; value < d.value_rows.count; ++value) {
+    if (d.value_rows[value] == kNoRow) clear<L>(d.joints.data + value * L);
+  }
+  if constexpr (L == 1) {
+    push_one(d, 0, 1);
+  } else if (find_moved_columns(d)) {
+    push_together(d);
+  } else {
+    for (uint32_t k = 0; k < d.lane_count; ++k) push_one(d, k, L);
   }
 }
 
 template <uint32_t L>
 void pull_joint_rows(Derivatives& d) {
-  mark_columns(d);
-  for (uint32_t k = 0; k < d.lane_count; ++k) {
-    take_rows(d, k, L);
-    sum_transposed(d, k, L);
+  for (uint32_t k = 0; k < d.lane_count;) {
+    // Two gradients one by one are faster than kTransposedLanes.
+    const uint32_t count = d.lane_count - k > 2 ? kTransposedLanes : 1;
+    pull_some<L>(d, k, count);
+    k += count;
   }
 }
 

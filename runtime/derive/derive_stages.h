@@ -126,6 +126,10 @@ void pull_rbf(Derivatives& d);
 // Joint values (derive_joints.cpp; rotations in derive_rotations.cpp) -----------------------------
 /// Packed rows that write the joint values, then the angles, at a LOD; kNoRow for those without.
 void find_value_rows(const Rig& rig, uint32_t lod, const Span<uint32_t>& value_rows);
+/// Fills what depends on the LOD alone.
+void find_joint_rows(Derivatives& d);
+/// Fills Derivatives::block_starts once, when the derivatives are created.
+void count_blocks(Derivatives& d);
 template <uint32_t L>
 void push_joint_rows(Derivatives& d);
 template <uint32_t L>

@@ -27,15 +27,14 @@ struct SharedColumns {
 /// Sharing a block costs an entry in a list, and a multiplication in all lanes, whether an instance uses it
 /// or not. Otherwise each instance that uses it loads it. Sums run over the columns in order, so sharing can
 /// stop at one place only: after the raw controls, which many instances use, and before the correctives,
-/// which few use. Costs are in fifths of a cycle, as measured on a production head.
+/// which few use.
 SharedColumns find_shared_columns(const InstancePacket& packet) {
-  constexpr int64_t kListed = 12, kPass = 45, kFetched = 12;
   const JointMatrix& joints = packet.rig.joints;
   const uint32_t panels = joints.panels_at_lod[packet.lod];
   const uint32_t step = packet.rig.kernels->batch_step;
   const int64_t passes = (packet.count + step - 1) / step;
   SharedColumns shared, best;
-  int64_t saved = -kPass * passes * joints.panels[panels].first_block_row, most = 0;
+  int64_t saved = -kPassCost * passes * joints.panels[panels].first_block_row, most = 0;
   for (uint32_t k = 0; k < joints.columns.count;) {
     const float* lanes = packet.scratch->controls.data + size_t{joints.columns[k]} * kBatchLanes;
     const int64_t users = count_users(lanes);
@@ -45,7 +44,7 @@ SharedColumns find_shared_columns(const InstancePacket& packet) {
     shared.all += blocks;
     if (users != 0) {
       shared.blocks += blocks;
-      saved += blocks * (users * kFetched - kListed - kPass * passes);
+      saved += blocks * (users * kFetchedCost - kListedCost - kPassCost * passes);
     }
     if (k != packet.tables->block_list.raw_columns && k != joints.columns.count) continue;
     if (saved <= most) continue;

@@ -49,6 +49,10 @@ constexpr uint32_t kMaxTileBlockRows = 1024;
 constexpr uint32_t kMaxBlockRows = 0x10000 / kBlockRowUnit;  // of the whole matrix
 static_assert(kMaxTileBlockRows >= kMaxPanelBlockRows, "a panel fits");
 
+/// What a block costs in fifths of a cycle, as measured on a production head: listing it for joint_batch; one pass
+/// of that kernel, over its batch_step lanes; multiplying it by one input (joint_columns).
+constexpr int64_t kListedCost = 12, kPassCost = 45, kFetchedCost = 12;
+
 /// The number of block pairs and of single blocks of a column before a panel.
 struct ColumnPart {
   uint16_t pairs, singles;

@@ -17,9 +17,14 @@ namespace mien {
 namespace {
 
 template <class T>
-T* aligned(std::vector<T>& storage) {
+const T* aligned(const std::vector<T>& storage) {
   const auto address = reinterpret_cast<uintptr_t>(storage.data());
   return storage.data() + (64 - address % 64) % 64 / sizeof(T);
+}
+
+template <class T>
+T* aligned(std::vector<T>& storage) {
+  return const_cast<T*>(aligned(static_cast<const std::vector<T>&>(storage)));
 }
 
 bool is_fused(Isa isa) { return isa == Isa::kAvx2 || isa == Isa::kAvx512 || isa == Isa::kNeon; }
@@ -73,61 +78,86 @@ struct Matrix {
   }
 };
 
-TEST(JointTransposedKernels, HaveTheBitsOfTheirFamily) {
+struct TransposedCase {
+  const Matrix& matrix;
+  const float* lanes;  // [row][kBatchLanes]
+  bool fixed, portable;
+};
+
+/// The products of all columns with lanes `first` ... `first` + lane_count - 1: [column][lane].
+std::vector<float> transposed_products(const KernelTable& kernels, const TransposedCase& of,
+                                       uint32_t first, uint32_t lane_count) {
+  const Matrix& m = of.matrix;
+  const uint32_t pairs = (m.block_rows + 1) / 2;
+  std::vector<float> storage(size_t{pairs} * 2 * kJointBlockRows * lane_count + 16);
+  for (size_t row = 0; row < size_t{m.block_rows} * kJointBlockRows; ++row) {
+    for (size_t k = 0; k < lane_count; ++k) {
+      const size_t pair = row / (2 * kJointBlockRows), in_pair = row % (2 * kJointBlockRows);
+      aligned(storage)[(pair * lane_count + k) * 2 * kJointBlockRows + in_pair] =
+          of.lanes[row * kBatchLanes + first + k];
+    }
+  }
+  std::vector<float> sums(m.runs.size() * lane_count);
+  JointTransposedArgs args = {};
+  args.values = of.fixed ? static_cast<const void*>(aligned(m.integers)) : aligned(m.floats);
+  args.block_rows = m.numbers.data();
+  args.runs = m.runs.data();
+  args.run_count = static_cast<uint32_t>(m.runs.size());
+  args.rows = aligned(storage);
+  args.outputs = sums.data();
+  args.lane_count = lane_count;
+  args.portable = of.portable;
+  (of.fixed ? kernels.joint_transposed_fixed : kernels.joint_transposed)(args);
+  return sums;
+}
+
+void expect_near_exact(const TransposedCase& of, size_t column, uint32_t lane, float sum) {
+  double exact = 0, size = 0;
+  for (const auto& half : of.matrix.blocks) {
+    for (const InputBlock& b : half[column]) {
+      for (size_t r = 0; r < kJointBlockRows; ++r) {
+        const size_t at = size_t{b.block} * kJointBlockRows + r;
+        const double value = of.fixed ? static_cast<double>(aligned(of.matrix.integers)[at])
+                                      : double{aligned(of.matrix.floats)[at]};
+        const double product =
+            value * of.lanes[(b.input * kJointBlockRows + r) * kBatchLanes + lane];
+        exact += product;
+        size += std::fabs(product);
+      }
+    }
+  }
+  EXPECT_NEAR(sum, exact, 1e-5 * size);
+}
+
+// Columns of different lengths, more and fewer than are multiplied at a time; lanes as single gradients.
+TEST(JointTransposedKernels, HaveTheBitsOfTheirFamilyInLanesAndAlone) {
   Random random = Random::from_seed(72, 1);
   for (const uint32_t rows : {1u, 2u, 7u, 40u}) {
-    Matrix m(random, 9, rows);
+    Matrix m(random, 11, rows);
     std::vector<float> storage(size_t{rows + 1} * kJointBlockRows * kBatchLanes + 64);
-    float* const lanes = aligned(storage);  // [row][32]
+    float* const lanes = aligned(storage);
     for (size_t i = 0; i < size_t{rows} * kJointBlockRows * kBatchLanes; ++i) {
       lanes[i] = static_cast<float>(random.between(-1, 1));
     }
     for (const bool fixed : {false, true}) {
       for (const bool portable : {false, true}) {
+        const TransposedCase of = {m, lanes, fixed, portable};
         std::map<bool, std::vector<float>> of_family;
         for (const KernelTable* kernels : present_kernels()) {
           SCOPED_TRACE(kernels->name);
-          const void* values =
-              fixed ? static_cast<const void*>(aligned(m.integers)) : aligned(m.floats);
-          std::vector<float> results;
-          for (size_t c = 0; c < m.runs.size(); ++c) {
-            for (const uint32_t k : {0u, 13u, 31u}) {
-              std::vector<float> one(size_t{rows + 1} * kJointBlockRows + 16);
-              for (size_t r = 0; r < size_t{rows} * kJointBlockRows; ++r) {
-                aligned(one)[r] = lanes[r * kBatchLanes + k];
-              }
-              float sum = 0;
-              JointTransposedArgs args = {};
-              args.values = values;
-              args.block_rows = m.numbers.data();
-              args.runs = &m.runs[c];
-              args.run_count = 1;
-              args.rows = aligned(one);
-              args.outputs = &sum;
-              args.portable = portable;
-              (fixed ? kernels->joint_transposed_fixed : kernels->joint_transposed)(args);
-              double exact = 0, size = 0;
-              for (const auto& half : m.blocks) {
-                for (const InputBlock& b : half[c]) {
-                  for (size_t r = 0; r < kJointBlockRows; ++r) {
-                    const size_t at = size_t{b.block} * kJointBlockRows + r;
-                    const double value = fixed ? static_cast<double>(aligned(m.integers)[at])
-                                               : double{aligned(m.floats)[at]};
-                    const double product =
-                        value * lanes[(b.input * kJointBlockRows + r) * kBatchLanes + k];
-                    exact += product;
-                    size += std::fabs(product);
-                  }
-                }
-              }
-              EXPECT_NEAR(sum, exact, 1e-5 * size);
-              results.push_back(sum);
+          const std::vector<float> together =
+              transposed_products(*kernels, of, 13, kTransposedLanes);
+          for (uint32_t k = 0; k < kTransposedLanes; ++k) {
+            const std::vector<float> alone = transposed_products(*kernels, of, 13 + k, 1);
+            for (size_t c = 0; c < m.runs.size(); ++c) {
+              EXPECT_EQ(together[c * kTransposedLanes + k], alone[c]) << c << ", " << k;
+              expect_near_exact(of, c, 13 + k, alone[c]);
             }
           }
           const auto [first, is_new] =
-              of_family.emplace(is_fused(kernels->isa) && !portable, results);
+              of_family.emplace(is_fused(kernels->isa) && !portable, together);
           if (!is_new) {
-            EXPECT_EQ(first->second, results);
+            EXPECT_EQ(first->second, together);
           }
         }
       }

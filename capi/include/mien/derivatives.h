@@ -49,7 +49,8 @@ typedef struct MienDerivativesDesc {
 MIEN_DEFAULT(MienDerivativesDesc, mien_derivatives_desc_default)
 
 /* Creates derivatives. `desc` may be NULL. `rig` may be destroyed afterwards, and so may the deformer.
- * Takes one block of memory, which holds a copy of the weights of networks and room for 32 directions.
+ * Takes one block of memory, which holds a copy of the weights of networks, room for 32 directions, and 8
+ * bytes for each 8 numbers of the joint matrix.
  * Destroy with mien_derivatives_destroy().
  * Fails with MIEN_ERROR_MISMATCH if the deformer is not of the rig. */
 MIEN_CHECKED MienStatus mien_derivatives_create(const MienRig* rig, const MienDerivativesDesc* desc,

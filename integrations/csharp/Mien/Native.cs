@@ -3792,7 +3792,8 @@ namespace Mien.Native {
     public static extern Status mien_deformer_instance_write_vertices_batch(IntPtr* deformer_instances, UIntPtr count, uint mesh, Normals normals, MienVertexOutput* outputs, MienParallelFor* parallel);
 
     /// <summary>Creates derivatives. `desc` may be NULL. `rig` may be destroyed afterwards, and so may the deformer.
-    /// Takes one block of memory, which holds a copy of the weights of networks and room for 32 directions.
+    /// Takes one block of memory, which holds a copy of the weights of networks, room for 32 directions, and 8
+    /// bytes for each 8 numbers of the joint matrix.
     /// Destroy with mien_derivatives_destroy().
     /// Fails with MIEN_ERROR_MISMATCH if the deformer is not of the rig.</summary>
     [DllImport("mien", CallingConvention = CallingConvention.Cdecl)]

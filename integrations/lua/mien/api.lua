@@ -1787,7 +1787,8 @@ different deformers, MIEN_ERROR_INVALID_ARGUMENT if an instance is listed twice.
 MienStatus mien_deformer_instance_write_vertices_batch(MienDeformerInstance* const* deformer_instances, size_t count, uint32_t mesh, uint32_t normals, MienVertexOutput const* outputs, MienParallelFor const* parallel);
 
 /* Creates derivatives. `desc` may be NULL. `rig` may be destroyed afterwards, and so may the deformer.
-Takes one block of memory, which holds a copy of the weights of networks and room for 32 directions.
+Takes one block of memory, which holds a copy of the weights of networks, room for 32 directions, and 8
+bytes for each 8 numbers of the joint matrix.
 Destroy with mien_derivatives_destroy().
 Fails with MIEN_ERROR_MISMATCH if the deformer is not of the rig. */
 MienStatus mien_derivatives_create(MienRig const* rig, MienDerivativesDesc const* desc, MienDerivatives** out_derivatives, MienError* error);

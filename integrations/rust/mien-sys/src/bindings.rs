@@ -4426,8 +4426,9 @@ extern "C" {
     pub fn mien_deformer_instance_write_vertices_batch(deformer_instances: *const *mut MienDeformerInstance, count: usize, mesh: u32, normals: u32, outputs: *const MienVertexOutput, parallel: *const MienParallelFor) -> MienStatus;
 
     /// Creates derivatives. `desc` may be NULL. `rig` may be destroyed afterwards, and so may the
-    /// deformer. Takes one block of memory, which holds a copy of the weights of networks and room
-    /// for 32 directions. Destroy with `mien_derivatives_destroy()`.
+    /// deformer. Takes one block of memory, which holds a copy of the weights of networks, room
+    /// for 32 directions, and 8 bytes for each 8 numbers of the joint matrix. Destroy with
+    /// `mien_derivatives_destroy()`.
     ///
     /// Fails with `MIEN_ERROR_MISMATCH` if the deformer is not of the rig.
     pub fn mien_derivatives_create(rig: *const MienRig, desc: *const MienDerivativesDesc, out_derivatives: *mut *mut MienDerivatives, error: *mut MienError) -> MienStatus;
