@@ -125,11 +125,24 @@ const float* models_of(const MienFit& fit, const MienFitConstraint& c) {
 /// Where number `part` of Residuals::by_joint is among the 16 of a matrix.
 size_t matrix_place(size_t part) { return part / 3 * 4 + part % 3; }
 
-/// Adds factor times the derivative of residual r to gradients.
+/// Gradients, row by row: of model matrices, and of positions of one mesh after the other.
+struct Rows {
+  float *models, *positions;
+  size_t count;
+
+  float* model(const MienFit& fit, size_t row, uint32_t joint) const {
+    return models + row * fit.model_gradient.count + size_t{joint} * 16;
+  }
+  float* mesh(const FitMesh& mesh, size_t row) const {
+    return positions + 3 * (count * mesh.first + row * mesh.count);
+  }
+};
+
+/// Adds factor times the derivative of residual r to a row.
 void add_derivative(const MienFit& fit, const MienFitConstraint& c, const Residuals& residuals,
-                    size_t r, double factor, float* models, float* positions) {
+                    size_t r, double factor, const Rows& rows, size_t row) {
   if (is_of_joint(c.kind)) {
-    float* to = models + size_t{c.joint} * 16;
+    float* to = rows.model(fit, row, c.joint);
     for (size_t k = 0; k < 12; ++k) {
       to[matrix_place(k)] += static_cast<float>(factor * residuals.by_joint[r][k]);
     }
@@ -138,7 +151,7 @@ void add_derivative(const MienFit& fit, const MienFitConstraint& c, const Residu
   for (size_t p = 0; p < 2; ++p) {
     const MienSolvePoint& point = fit.points[c.points[p]];
     for (size_t n = 0; n < 3; ++n) {
-      float* to = positions + size_t{point.positions[n]} * 3;
+      float* to = rows.mesh(fit.meshes[point.mesh], row) + size_t{point.positions[n]} * 3;
       for (size_t k = 0; k < 3; ++k) {
         to[k] +=
             static_cast<float>(factor * double{point.weights[n]} * residuals.by_points[r][p][k]);
@@ -148,18 +161,29 @@ void add_derivative(const MienFit& fit, const MienFitConstraint& c, const Residu
   }
 }
 
-/// Zeros where add_derivative() added to.
-void clear_derivative(const MienFit& fit, const MienFitConstraint& c, float* models,
-                      float* positions) {
-  if (is_of_joint(c.kind)) {
-    std::fill(models + size_t{c.joint} * 16, models + size_t{c.joint} * 16 + 16, 0.0f);
+void clear_row(const MienFit& fit, bool of_joints, const Rows& rows, size_t row) {
+  if (of_joints) {
+    std::fill_n(rows.model(fit, row, 0), fit.model_gradient.count, 0.0f);
     return;
   }
-  for (const uint32_t p : c.points) {
-    for (const uint32_t position : fit.points[p].positions) {
-      std::fill(positions + size_t{position} * 3, positions + size_t{position} * 3 + 3, 0.0f);
-    }
-    if (c.kind == MIEN_CONSTRAINT_POINT_POSITION) return;
+  for (const FitMesh& mesh : fit.meshes) std::fill_n(rows.mesh(mesh, row), 3 * mesh.count, 0.0f);
+}
+
+/// The derivatives of `count` rows by `from`, a row of `width` each.
+void find_rows(MienFit& fit, bool of_joints, const Rows& rows, size_t count, uint32_t from,
+               size_t width, float* out) {
+  const auto rows32 = static_cast<uint32_t>(count);
+  if (of_joints) {
+    static_cast<void>(mien_derivatives_reverse(fit.derivatives, from, MIEN_POINT_MODELS, 0, rows32,
+                                               rows.models, out));
+    return;
+  }
+  for (const FitMesh& mesh : fit.meshes) {
+    const bool first = &mesh == fit.meshes.data;
+    float* const to = first ? out : fit.row_parts.data;
+    static_cast<void>(mien_derivatives_reverse(mesh.derivatives, from, MIEN_POINT_POSITIONS,
+                                               mesh.mesh, rows32, rows.mesh(mesh, 0), to));
+    for (size_t i = 0; !first && i < count * width; ++i) out[i] += to[i];
   }
 }
 
@@ -205,6 +229,7 @@ MienStatus check_constraints(const MienFit& fit, const MienFitFrame& in) {
 
 void add_constraint_cost(Frame& f, Cost& cost) {
   MienFit& fit = f.fit;
+  const Rows rows = {fit.model_gradient.data, fit.position_gradient.data, 1};
   std::fill(fit.model_gradient.begin(), fit.model_gradient.end(), 0.0f);
   for (size_t i = 0; i < f.in.constraint_count; ++i) {
     const MienFitConstraint& c = f.in.constraints[i];
@@ -213,8 +238,7 @@ void add_constraint_cost(Frame& f, Cost& cost) {
     double squared = 0;
     for (size_t r = 0; r < residuals.count; ++r) {
       squared += square(residuals.values[r]);
-      add_derivative(fit, c, residuals, r, double{c.weight} * residuals.values[r],
-                     fit.model_gradient.data, fit.position_gradient.data);
+      add_derivative(fit, c, residuals, r, double{c.weight} * residuals.values[r], rows, 0);
     }
     cost.constraints.squares += double{c.weight} * squared;
     cost.constraints.weight += double{c.weight};
@@ -227,10 +251,9 @@ void list_constraint_rows(Frame& f, uint32_t from) {
   f.row_count = 0;
   if (!f.in.constraints) return;
   const size_t width = from == MIEN_POINT_RAW ? fit.raw_count : fit.control_count;
+  const Rows rows = {fit.row_models.data, fit.moved.data, kRowsAtOnce};
   // Those of joints, then those of points, some rows at a time.
   for (const bool of_joints : {true, false}) {
-    const size_t size = of_joints ? fit.model_gradient.count : fit.position_gradient.count;
-    float* const rows = of_joints ? fit.row_models.data : fit.moved.data;
     size_t begin = 0;
     while (begin < f.in.constraint_count) {
       size_t count = 0, end = begin;
@@ -239,21 +262,14 @@ void list_constraint_rows(Frame& f, uint32_t from) {
         if (is_of_joint(c.kind) != of_joints) continue;
         const Residuals residuals = find_residuals(f, c, models_of(fit, c));
         for (size_t r = 0; r < residuals.count; ++r, ++count) {
-          add_derivative(fit, c, residuals, r, 1, rows + count * size, rows + count * size);
+          clear_row(fit, of_joints, rows, count);
+          add_derivative(fit, c, residuals, r, 1, rows, count);
           fit.row_weights[f.row_count + count] = double{c.weight};
         }
       }
       if (count != 0) {
-        static_cast<void>(mien_derivatives_reverse(
-            fit.derivatives, from, of_joints ? MIEN_POINT_MODELS : MIEN_POINT_POSITIONS, fit.mesh,
-            static_cast<uint32_t>(count), rows, fit.constraint_rows.data + f.row_count * width));
-      }
-      for (size_t i = begin; i < end; ++i) {
-        const MienFitConstraint& c = f.in.constraints[i];
-        if (is_of_joint(c.kind) != of_joints) continue;
-        for (size_t r = 0; r < count; ++r) {
-          clear_derivative(fit, c, rows + r * size, rows + r * size);
-        }
+        find_rows(fit, of_joints, rows, count, from, width,
+                  fit.constraint_rows.data + f.row_count * width);
       }
       f.row_count += count;
       begin = end;

@@ -29,7 +29,8 @@ void add_to_positions(MienFit& fit, const MienSolvePoint& point, const double* g
                       double factor) {
   for (size_t n = 0; n < 3; ++n) {
     if (point.weights[n] == 0) continue;
-    float* to = fit.position_gradient.data + size_t{point.positions[n]} * 3;
+    const size_t position = fit.meshes[point.mesh].first + point.positions[n];
+    float* to = fit.position_gradient.data + position * 3;
     const double share = factor * double{point.weights[n]};
     for (size_t k = 0; k < 3; ++k) to[k] += static_cast<float>(share * gradient[k]);
   }
@@ -169,28 +170,38 @@ Cost find_cost(Frame& f) {
   return cost;
 }
 
+void linearize_points(MienFit& fit) {
+  if (fit.meshes.empty()) {
+    static_cast<void>(mien_derivatives_linearize(fit.derivatives, fit.instance, MIEN_STAGE_ALL));
+  }
+  for (const FitMesh& mesh : fit.meshes) {
+    static_cast<void>(mien_derivatives_linearize(mesh.derivatives, fit.instance, MIEN_STAGE_ALL));
+  }
+}
+
 void find_gradient(Frame& f) {
   MienFit& fit = f.fit;
   std::fill(fit.gradient.begin(), fit.gradient.end(), 0.0);
-  const auto add = [&](MienDerivatives* derivatives, uint32_t from, const float* gradient,
-                       const Span<float>& out) {
-    static_cast<void>(mien_derivatives_reverse(derivatives, MIEN_POINT_RAW, from, fit.mesh, 1,
-                                               gradient, out.data));
+  const auto add = [&](MienDerivatives* derivatives, uint32_t from, uint32_t mesh,
+                       const float* gradient, const Span<float>& out) {
+    static_cast<void>(
+        mien_derivatives_reverse(derivatives, MIEN_POINT_RAW, from, mesh, 1, gradient, out.data));
     for (size_t i = 0; i < fit.controls.count; ++i) fit.gradient[i] += out[fit.controls[i]];
   };
   static_cast<void>(
       mien_derivatives_linearize(fit.control_derivatives, fit.instance, MIEN_STAGE_ALL));
   if (f.in.joints) {
-    add(fit.control_derivatives, MIEN_POINT_JOINTS, fit.joint_gradient.data, fit.from_joints);
+    add(fit.control_derivatives, MIEN_POINT_JOINTS, 0, fit.joint_gradient.data, fit.from_joints);
   }
   if (f.has_points() || f.in.constraints) {
-    static_cast<void>(mien_derivatives_linearize(fit.derivatives, fit.instance, MIEN_STAGE_ALL));
-  }
-  if (fit.points.count != 0 && (f.has_points() || f.in.constraints)) {
-    add(fit.derivatives, MIEN_POINT_POSITIONS, fit.position_gradient.data, fit.from_positions);
+    linearize_points(fit);
+    for (const FitMesh& mesh : fit.meshes) {
+      add(mesh.derivatives, MIEN_POINT_POSITIONS, mesh.mesh,
+          fit.position_gradient.data + 3 * mesh.first, fit.from_positions);
+    }
   }
   if (has_joint_constraints(f)) {
-    add(fit.derivatives, MIEN_POINT_MODELS, fit.model_gradient.data, fit.from_positions);
+    add(fit.derivatives, MIEN_POINT_MODELS, 0, fit.model_gradient.data, fit.from_positions);
   }
   regularize(f, fit.raw.data, fit.gradient.data);
   hold_gradient(fit);

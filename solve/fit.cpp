@@ -24,6 +24,7 @@ size_t count_of(const MienRig* rig, uint32_t kind) {
 
 void place(const MienFitDesc& desc, Placer& placer, MienFit& fit) {
   placer.array<MienFit>(1);
+  placer.keep(fit.meshes);
   const size_t raw = fit.raw_count, all = fit.control_count, joints = fit.joint_count;
   const size_t moving = desc.controls ? desc.control_count : raw;
   fit.initial = placer.array<float>(raw);
@@ -86,6 +87,7 @@ void place(const MienFitDesc& desc, Placer& placer, MienFit& fit) {
     fit.model_gradient = placer.array<float>(matrices);
     fit.constraint_rows = placer.array<float>(kMostConstraints * 3 * std::max(all, raw));
     fit.row_models = placer.array<float>(kRowsAtOnce * matrices);
+    fit.row_parts = placer.array<float>(kRowsAtOnce * std::max(all, raw));
     fit.moved = placer.array<float>(kDirections * fit.position_count * 3);
     fit.row_weights = placer.array<double>(kMostConstraints * 3);
     fit.row_changes = placer.array<double>(kMostConstraints * 3);
@@ -171,25 +173,20 @@ MienStatus check_desc(const MienRig* rig, const MienFitDesc& desc, MienFit& fit,
     return give_error(error, MIEN_ERROR_NULL_ARGUMENT,
                       "MienFitDesc.deformer is NULL: points need the deformer of the rig");
   }
-  fit.mesh = desc.points[0].mesh;
   MienMesh mesh = mien_mesh_default();
-  if (MienStatus status = mien_deformer_mesh(desc.deformer, fit.mesh, &mesh)) {
-    return give_error(error, status, "MienFitDesc.points[0].mesh is %u: no such mesh", fit.mesh);
-  }
-  fit.whole_count = mesh.position_count;
-  fit.triangle_count = mesh.triangle_count;
   for (size_t i = 0; i < desc.point_count; ++i) {
     const MienSolvePoint& point = desc.points[i];
-    if (point.mesh != fit.mesh) {
-      return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
-                        "MienFitDesc.points[%zu] is of mesh %u, the others of %u", i, point.mesh,
-                        fit.mesh);
+    if (i == 0 || point.mesh != desc.points[i - 1].mesh) {
+      if (MienStatus status = mien_deformer_mesh(desc.deformer, point.mesh, &mesh)) {
+        return give_error(error, status, "MienFitDesc.points[%zu].mesh is %u: no such mesh", i,
+                          point.mesh);
+      }
     }
     for (size_t k = 0; k < 3; ++k) {
-      if (point.positions[k] >= fit.whole_count) {
+      if (point.positions[k] >= mesh.position_count) {
         return give_error(error, MIEN_ERROR_INDEX,
-                          "MienFitDesc.points[%zu] has position %u, the mesh has %zu", i,
-                          point.positions[k], fit.whole_count);
+                          "MienFitDesc.points[%zu] has position %u, the mesh has %u", i,
+                          point.positions[k], mesh.position_count);
       }
       if (!std::isfinite(point.weights[k])) {
         return give_error(error, MIEN_ERROR_INVALID_ARGUMENT,
@@ -220,27 +217,32 @@ void copy_desc(const MienFitDesc& desc, MienFit& fit) {
   }
 }
 
+MienMesh mesh_of(const MienDeformer* deformer, uint32_t index) {
+  MienMesh mesh = mien_mesh_default();
+  static_cast<void>(mien_deformer_mesh(deformer, index, &mesh));
+  return mesh;
+}
+
 /// False if memory ran out.
 bool copy_triangles(const MienFitDesc& desc, MienFit& fit) {
-  if (desc.point_count == 0) return true;
-  MienMesh mesh = mien_mesh_default();
-  static_cast<void>(mien_deformer_mesh(desc.deformer, fit.mesh, &mesh));
-  if (mien_deformer_triangles(desc.deformer, fit.mesh, fit.triangles.data, fit.triangles.count) !=
-      MIEN_OK) {
-    return false;
+  for (FitMesh& one : fit.meshes) {
+    const MienMesh mesh = mesh_of(desc.deformer, one.mesh);
+    uint32_t* const to = fit.triangles.data + 3 * one.first_triangle;
+    const size_t count = 3 * one.triangle_count;
+    if (mien_deformer_triangles(desc.deformer, one.mesh, to, count) != MIEN_OK) return false;
+    for (size_t i = 0; i < count; ++i) to[i] = mesh.vertex_position_indices.data[to[i]];
+    one.inward = signed_volume(mesh.positions.data, to, one.triangle_count) < 0;
   }
-  for (uint32_t& corner : fit.triangles) corner = mesh.vertex_position_indices.data[corner];
-  fit.inward = signed_volume(mesh.positions.data, fit.triangles.data, fit.triangle_count) < 0;
   return true;
 }
 
-/// Positions that points read, ascending, and the deformer of them.
+/// Positions of a mesh that points read, ascending, and the deformer of them.
 struct Chosen {
-  Span<uint32_t> positions;  // empty: all of the mesh
-  MienDeformer* deformer = nullptr;
-  ~Chosen() { mien_deformer_destroy(deformer); }
+  Span<uint32_t> positions;          // empty: all of the mesh
+  MienDeformer* deformer = nullptr;  // null: that of the rig
 
-  MienSolvePoint renumbered(MienSolvePoint point) const {
+  MienSolvePoint renumbered(MienSolvePoint point, uint32_t place) const {
+    point.mesh = place;
     if (positions.empty()) return point;
     for (uint32_t& position : point.positions) {
       position = static_cast<uint32_t>(
@@ -250,31 +252,48 @@ struct Chosen {
   }
 };
 
-/// `point(i)` is point i of `count`.
-template <class F>
-MienStatus choose_positions(const MienFitDesc& desc, const MienFit& fit, size_t count, F&& point,
-                            Arena& arena, Chosen& out, MienError* error) {
-  const Span<uint32_t> list = arena.array<uint32_t>(count * 3);
-  if (!list.data) return give_error(error, MIEN_ERROR_MEMORY, "no memory for a list of positions");
-  for (size_t i = 0; i < count; ++i) {
-    const MienSolvePoint& one = point(i);
-    std::copy(one.positions, one.positions + 3, list.data + 3 * i);
-  }
-  std::sort(list.begin(), list.end());
-  const size_t used = static_cast<size_t>(std::unique(list.begin(), list.end()) - list.begin());
-  if (used * 10 > fit.whole_count * 7) return MIEN_OK;  // nearly all
-  out.positions = list.first(used);
-  return mien_deformer_create_subset(desc.deformer, fit.mesh, list.data, used, desc.allocator,
-                                     &out.deformer, error);
-}
-
-/// What points read, and what the samples of them do, which may be the same.
+/// What points read, and what the samples of them do, which may be the same; mesh by mesh.
 struct Parts {
-  Chosen points, samples;
+  Span<uint32_t> places;   // [mesh of the rig] place in MienFit::meshes
+  Span<uint32_t> sampled;  // MienFit::samples
+  Span<Chosen> points, samples;
   bool all_sampled = false;
 
-  const Chosen& of_samples() const { return all_sampled ? points : samples; }
+  ~Parts() {
+    for (const Span<Chosen>& all : {points, samples}) {
+      for (const Chosen& one : all) mien_deformer_destroy(one.deformer);
+    }
+  }
+  const Chosen& of_samples(size_t place) const { return (all_sampled ? points : samples)[place]; }
+  MienSolvePoint point(const MienSolvePoint& given) const {
+    return points[places[given.mesh]].renumbered(given, places[given.mesh]);
+  }
+  MienSolvePoint sample(const MienSolvePoint& given) const {
+    return of_samples(places[given.mesh]).renumbered(given, places[given.mesh]);
+  }
 };
+
+/// Positions of a mesh that some points read; `point(i)` is point i of `count`.
+template <class F>
+MienStatus choose_positions(const MienFitDesc& desc, const MienFit& fit, uint32_t mesh,
+                            size_t count, F&& point, Arena& arena, Chosen& out, MienError* error) {
+  size_t own = 0;
+  for (size_t i = 0; i < count; ++i) own += point(i).mesh == mesh;
+  const Span<uint32_t> list = arena.array<uint32_t>(own * 3 + 1);
+  if (!list.data) return give_error(error, MIEN_ERROR_MEMORY, "no memory for a list of positions");
+  uint32_t* end = list.data;
+  for (size_t i = 0; i < count; ++i) {
+    const MienSolvePoint& one = point(i);
+    if (one.mesh == mesh) end = std::copy(one.positions, one.positions + 3, end);
+  }
+  std::sort(list.data, end);
+  const size_t used = static_cast<size_t>(std::unique(list.data, end) - list.data);
+  // Nearly all: the deformer of the rig serves, unless it has to serve others.
+  if (fit.meshes.count == 1 && used * 10 > fit.whole_count * 7) return MIEN_OK;
+  out.positions = list.first(used);
+  return mien_deformer_create_subset(desc.deformer, mesh, list.data, used, desc.allocator,
+                                     &out.deformer, error);
+}
 
 MienStatus create_derivatives(const MienFitDesc& desc, const MienFit& fit,
                               const MienDeformer* deformer, MienDerivatives** out,
@@ -292,24 +311,91 @@ MienStatus create_deformed(const MienFitDesc& desc, const MienDeformer* deformer
   return mien_deformer_instance_create(deformer, &deformed, out, error);
 }
 
+/// The meshes that points are on. False if memory ran out.
+bool list_meshes(const MienFitDesc& desc, MienFit& fit, Arena& arena, Parts& parts) {
+  parts.places = arena.array<uint32_t>(count_of(fit.rig, MIEN_KIND_MESH));
+  if (!parts.places.data) return false;
+  size_t count = 0;
+  for (size_t i = 0; i < desc.point_count; ++i) {
+    uint32_t& place = parts.places[desc.points[i].mesh];
+    count += place == 0;
+    place = 1;
+  }
+  fit.meshes = arena.array<FitMesh>(count);
+  parts.points = arena.array<Chosen>(count);
+  parts.samples = arena.array<Chosen>(count);
+  parts.sampled = arena.array<uint32_t>(sample_count(desc.point_count, kMostSamples));
+  if (!fit.meshes.data || !parts.points.data || !parts.samples.data || !parts.sampled.data) {
+    return false;
+  }
+  uint32_t place = 0;
+  for (uint32_t m = 0; m < parts.places.count; ++m) {
+    if (parts.places[m] == 0) continue;
+    const MienMesh mesh = mesh_of(desc.deformer, m);
+    FitMesh& one = fit.meshes[place];
+    one.mesh = m;
+    one.first_whole = fit.whole_count;
+    one.first_triangle = fit.triangle_count;
+    one.triangle_count = mesh.triangle_count;
+    fit.whole_count += mesh.position_count;
+    fit.triangle_count += mesh.triangle_count;
+    parts.places[m] = place++;
+  }
+  choose_samples(desc.point_count, parts.sampled);
+  parts.all_sampled = parts.sampled.count == desc.point_count;
+  return true;
+}
+
+MienStatus create_mesh_parts(const MienFitDesc& desc, MienFit& fit, size_t place, Arena& arena,
+                             Parts& parts, MienError* error) {
+  FitMesh& mesh = fit.meshes[place];
+  Chosen& points = parts.points[place];
+  Chosen& samples = parts.samples[place];
+  MienStatus status = choose_positions(
+      desc, fit, mesh.mesh, desc.point_count,
+      [&](size_t i) -> const MienSolvePoint& { return desc.points[i]; }, arena, points, error);
+  if (status == MIEN_OK && !parts.all_sampled) {
+    status = choose_positions(
+        desc, fit, mesh.mesh, parts.sampled.count,
+        [&](size_t i) -> const MienSolvePoint& { return desc.points[parts.sampled[i]]; }, arena,
+        samples, error);
+  }
+  const auto or_all = [&](const Chosen& chosen) -> const MienDeformer* {
+    return chosen.deformer ? chosen.deformer : desc.deformer;
+  };
+  const MienDeformer* const deformer = or_all(points);
+  const MienDeformer* const sampled = or_all(parts.of_samples(place));
+  if (status == MIEN_OK) status = create_derivatives(desc, fit, deformer, &mesh.derivatives, error);
+  if (status == MIEN_OK) status = create_deformed(desc, deformer, &mesh.deformed, error);
+  mesh.sample_derivatives = mesh.derivatives;
+  if (sampled != deformer && status == MIEN_OK) {
+    mesh.sample_derivatives = nullptr;
+    status = create_derivatives(desc, fit, sampled, &mesh.sample_derivatives, error);
+  }
+  mesh.first = fit.position_count;
+  mesh.count = mesh_of(deformer, mesh.mesh).position_count;
+  mesh.sample_count = mesh_of(sampled, mesh.mesh).position_count;
+  fit.position_count += mesh.count;
+  return status;
+}
+
+/// Each mesh, and joints by the first one.
 MienStatus create_point_parts(const MienFitDesc& desc, MienFit& fit, Arena& arena, Parts& parts,
                               MienError* error) {
-  const Span<uint32_t> samples =
-      arena.array<uint32_t>(sample_count(desc.point_count, kMostSamples));
-  if (!samples.data) return give_error(error, MIEN_ERROR_MEMORY, "no memory for samples");
-  choose_samples(desc.point_count, samples);
-  parts.all_sampled = samples.count == desc.point_count;
-  if (MienStatus status = choose_positions(
-          desc, fit, desc.point_count,
-          [&](size_t i) -> const MienSolvePoint& { return desc.points[i]; }, arena, parts.points,
-          error)) {
-    return status;
+  if (!list_meshes(desc, fit, arena, parts)) {
+    return give_error(error, MIEN_ERROR_MEMORY, "no memory for a list of meshes");
   }
-  if (parts.all_sampled) return MIEN_OK;
-  return choose_positions(
-      desc, fit, samples.count,
-      [&](size_t i) -> const MienSolvePoint& { return desc.points[samples[i]]; }, arena,
-      parts.samples, error);
+  MienStatus status = MIEN_OK;
+  for (size_t m = 0; m < fit.meshes.count && status == MIEN_OK; ++m) {
+    status = create_mesh_parts(desc, fit, m, arena, parts, error);
+  }
+  fit.derivatives = fit.meshes[0].derivatives;
+  fit.deformed = fit.whole = fit.meshes[0].deformed;
+  if (parts.points[0].deformer && status == MIEN_OK) {
+    fit.whole = nullptr;
+    status = create_deformed(desc, desc.deformer, &fit.whole, error);
+  }
+  return status;
 }
 
 /// The objects of libmien that the fit owns.
@@ -330,52 +416,39 @@ MienStatus create_parts(const MienFitDesc& desc, MienFit& fit, Arena& arena, Par
     status = mien_jacobian_create(fit.control_derivatives, &jacobian, &fit.by_raw, error);
   }
   if (status != MIEN_OK || !desc.deformer) return status;
-  if (desc.point_count != 0) status = create_point_parts(desc, fit, arena, parts, error);
-  const auto or_all = [&](const Chosen& chosen) -> const MienDeformer* {
-    return chosen.deformer ? chosen.deformer : desc.deformer;
-  };
-  const MienDeformer* const deformer = or_all(parts.points);
-  const MienDeformer* const sampled = or_all(parts.of_samples());
-  if (status == MIEN_OK) status = create_derivatives(desc, fit, deformer, &fit.derivatives, error);
-  if (status == MIEN_OK) status = create_deformed(desc, deformer, &fit.deformed, error);
-  if (status != MIEN_OK || desc.point_count == 0) return status;
-  fit.sample_derivatives = fit.derivatives;
+  if (desc.point_count != 0) return create_point_parts(desc, fit, arena, parts, error);
+  status = create_derivatives(desc, fit, desc.deformer, &fit.derivatives, error);
+  if (status == MIEN_OK) status = create_deformed(desc, desc.deformer, &fit.deformed, error);
   fit.whole = fit.deformed;
-  if (sampled != deformer) {
-    fit.sample_derivatives = nullptr;
-    status = create_derivatives(desc, fit, sampled, &fit.sample_derivatives, error);
-  }
-  if (deformer != desc.deformer && status == MIEN_OK) {
-    fit.whole = nullptr;
-    status = create_deformed(desc, desc.deformer, &fit.whole, error);
-  }
-  const auto count_of_positions = [&](const MienDeformer* of) {
-    MienMesh mesh = mien_mesh_default();
-    static_cast<void>(mien_deformer_mesh(of, fit.mesh, &mesh));
-    return size_t{mesh.position_count};
-  };
-  fit.position_count = count_of_positions(deformer);
-  fit.sample_position_count = count_of_positions(sampled);
   return status;
 }
 
 void copy_points(const MienFitDesc& desc, const Parts& parts, MienFit& fit) {
   if (desc.point_count == 0) return;
-  choose_samples(desc.point_count, fit.samples);
+  std::copy(parts.sampled.begin(), parts.sampled.end(), fit.samples.begin());
   for (size_t i = 0; i < desc.point_count; ++i) {
     fit.whole_points[i] = desc.points[i];
-    fit.points[i] = parts.points.renumbered(desc.points[i]);
+    fit.whole_points[i].mesh = parts.places[desc.points[i].mesh];
+    fit.points[i] = parts.point(desc.points[i]);
   }
   for (size_t s = 0; s < fit.samples.count; ++s) {
-    fit.sample_points[s] = parts.of_samples().renumbered(desc.points[fit.samples[s]]);
+    fit.sample_points[s] = parts.sample(desc.points[fit.samples[s]]);
   }
 }
 
 void destroy_parts(const MienFit& fit) {
   if (fit.whole != fit.deformed) mien_deformer_instance_destroy(fit.whole);
-  if (fit.sample_derivatives != fit.derivatives) mien_derivatives_destroy(fit.sample_derivatives);
-  mien_deformer_instance_destroy(fit.deformed);
-  mien_derivatives_destroy(fit.derivatives);
+  for (const FitMesh& mesh : fit.meshes) {
+    if (mesh.sample_derivatives != mesh.derivatives) {
+      mien_derivatives_destroy(mesh.sample_derivatives);
+    }
+    mien_deformer_instance_destroy(mesh.deformed);
+    mien_derivatives_destroy(mesh.derivatives);
+  }
+  if (fit.meshes.empty()) {
+    mien_deformer_instance_destroy(fit.deformed);
+    mien_derivatives_destroy(fit.derivatives);
+  }
   mien_jacobian_destroy(fit.by_raw);
   mien_derivatives_destroy(fit.control_derivatives);
   mien_instance_destroy(fit.instance);
@@ -430,9 +503,11 @@ MienStatus mien_fit_create(const MienRig* rig, const MienFitDesc* desc, MienFit*
   std::copy(fit->raw.begin(), fit->raw.end(), fit->initial.begin());
   static_cast<void>(mien_rig_evaluate(rig, fit->instance, fit->lod));
   fit->tag = kFitTag;
-  const MienDeformer* const deformer =
-      parts.points.deformer ? parts.points.deformer : known.deformer;
-  if (!copied || !measure_rig(*fit, deformer, arena)) {
+  const Span<const MienDeformer*> deformers = arena.array<const MienDeformer*>(fit->meshes.count);
+  for (size_t m = 0; m < deformers.count; ++m) {
+    deformers[m] = parts.points[m].deformer ? parts.points[m].deformer : known.deformer;
+  }
+  if (!copied || deformers.count != fit->meshes.count || !measure_rig(*fit, deformers, arena)) {
     mien_fit_destroy(fit);
     return give_error(error, MIEN_ERROR_MEMORY, "no memory to measure the rig");
   }

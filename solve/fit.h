@@ -30,6 +30,21 @@ struct KindTargets {
   Span<double> pulls;    // [point]: weights, less those of outliers
 };
 
+/// A mesh that points are on. Where they read few of its positions, its objects are of a deformer of those alone.
+struct FitMesh {
+  uint32_t mesh = 0;  // of the rig
+  MienDerivatives* derivatives = nullptr;
+  MienDeformerInstance* deformed = nullptr;
+  MienDerivatives* sample_derivatives =
+      nullptr;                  // of the positions of samples; may be `derivatives`
+  const float* at = nullptr;    // [position][3] of `deformed`, since it was deformed last
+  size_t first = 0, count = 0;  // positions of `deformed`, in lists of those of all meshes
+  size_t sample_count = 0;      // positions of `sample_derivatives`
+  size_t first_whole = 0;       // of all its positions, in lists of those of all meshes
+  size_t first_triangle = 0, triangle_count = 0;
+  bool inward = false;  // how they are wound
+};
+
 }  // namespace mien
 
 struct MienFit {
@@ -40,36 +55,34 @@ struct MienFit {
   MienInstance* instance = nullptr;
   MienDerivatives* control_derivatives = nullptr;  // up to joint values: no deformer
   MienJacobian* by_raw = nullptr;                  // of all controls by raw ones
-  // With a deformer. Where points read few positions, these are of a deformer of those positions alone.
+  mien::Span<mien::FitMesh> meshes;                // ascending
+  // With a deformer: those of the first mesh, for joints.
   MienDerivatives* derivatives = nullptr;
   MienDeformerInstance* deformed = nullptr;
-  MienDerivatives* sample_derivatives =
-      nullptr;                            // of the positions of samples; may be `derivatives`
-  MienDeformerInstance* whole = nullptr;  // of the whole mesh; may be `deformed`
+  MienDeformerInstance* whole = nullptr;  // of whole meshes; may be `deformed`
 
-  uint32_t lod = 0, mesh = 0;
+  uint32_t lod = 0;
   size_t raw_count = 0, control_count = 0;
-  size_t joint_count = 0, bone_count = 0;                // joint values; joints
-  size_t position_count = 0, sample_position_count = 0;  // of `deformed`; of `sample_derivatives`
-  size_t whole_count = 0, triangle_count = 0;            // positions and triangles of the mesh
+  size_t joint_count = 0, bone_count = 0;      // joint values; joints
+  size_t position_count = 0;                   // of all meshes
+  size_t whole_count = 0, triangle_count = 0;  // positions and triangles of whole meshes
 
-  mien::Span<float> raw;                     // of the instance
-  mien::Span<const float> joints;            // of the instance
-  mien::Span<const float> all_controls;      // of the instance
-  mien::Span<float> initial;                 // [raw control]
-  mien::Span<uint32_t> controls;             // that may move
-  mien::Span<float> lower, upper;            // beside controls
-  mien::Span<uint32_t> rotations;            // places in `controls` of quaternions: four in a row
-  mien::Span<uint8_t> resting;               // [control that may move] see rest_rotations()
-  mien::Span<uint32_t> symmetric;            // pairs of places in `controls`
-  mien::Span<MienSolvePoint> points;         // by positions of `deformed`
-  mien::Span<MienSolvePoint> whole_points;   // by positions of the mesh
-  mien::Span<MienSolvePoint> sample_points;  // [sample] by positions of `sample_derivatives`
-  mien::Span<float> joint_weights;           // [joint value]
-  mien::Span<uint32_t> triangles;            // [triangle][3] of the mesh, by positions
-  bool inward = false;                       // how they are wound
-  mien::Span<uint32_t> samples;              // points that stand for all in steps
-  mien::Span<float> sample_effects;          // [control][sample][3], at the neutral pose
+  mien::Span<float> raw;                 // of the instance
+  mien::Span<const float> joints;        // of the instance
+  mien::Span<const float> all_controls;  // of the instance
+  mien::Span<float> initial;             // [raw control]
+  mien::Span<uint32_t> controls;         // that may move
+  mien::Span<float> lower, upper;        // beside controls
+  mien::Span<uint32_t> rotations;        // places in `controls` of quaternions: four in a row
+  mien::Span<uint8_t> resting;           // [control that may move] see rest_rotations()
+  mien::Span<uint32_t> symmetric;        // pairs of places in `controls`
+  // Their meshes are places in `meshes`, their positions those of FitMesh::deformed, of the whole mesh, and, for each
+  // sample, of FitMesh::sample_derivatives.
+  mien::Span<MienSolvePoint> points, whole_points, sample_points;
+  mien::Span<float> joint_weights;   // [joint value]
+  mien::Span<uint32_t> triangles;    // [triangle][3] of whole meshes, by positions
+  mien::Span<uint32_t> samples;      // points that stand for all in steps
+  mien::Span<float> sample_effects;  // [control][sample][3], at the neutral pose
   mien::Span<double> joint_metric,
       point_metric;  // [control][control]; G without the weights of a frame
   // What controls add to joint values, by control, in a block of its own; empty unless joint values are sums.
@@ -85,7 +98,7 @@ struct MienFit {
   // Memory of a solve.
   mien::Span<float> start, prior, best;           // [raw control]
   mien::Span<float> joint_gradient;               // [joint value]
-  mien::Span<float> position_gradient;            // [position][3]
+  mien::Span<float> position_gradient;            // [position of all meshes][3]
   mien::Span<float> from_joints, from_positions;  // [raw control]
   mien::Span<float> model_gradient;               // [joint][16]
   mien::Span<float> metric_row;                   // [control]
@@ -106,7 +119,7 @@ struct MienFit {
   mien::Span<uint8_t> lost;         // [point] it has no target on the surface
   mien::Span<double> kept_targets;  // [point][3] on the surface, and `lost`, at the best controls
   mien::Span<uint8_t> kept_lost;
-  mien::Span<float> position_normals;   // [position of the mesh][3]
+  mien::Span<float> position_normals;   // [position of whole meshes][3]
   mien::Span<float> directions, moved;  // kDirections of [raw control]; of [position][3]
   mien::Span<uint32_t> own_samples;     // of a frame
   mien::Span<uint8_t> is_sample;        // [point] scratch
@@ -124,7 +137,8 @@ struct MienFit {
   mien::Span<double> joint_stiffness, point_stiffness;
   mien::Span<float> kept;             // [raw control]
   mien::Span<float> constraint_rows;  // [row][control or raw control]
-  mien::Span<float> row_models;       // kRowsAtOnce of [joint][16]; of positions: `moved`
+  mien::Span<float> row_models;  // kRowsAtOnce of [joint][16]; of positions: `moved`, mesh by mesh
+  mien::Span<float> row_parts;   // kRowsAtOnce of [control or raw control]: of a mesh
   mien::Span<double> row_residuals, row_weights, row_changes;  // [row]
   mien::Span<float> start_joints;    // [joint value] at the start of a frame
   mien::Span<double> start_surface;  // [point][3]
@@ -148,11 +162,11 @@ static_assert(kRowsAtOnce <= kDirections, "rows of positions are in MienFit::mov
 constexpr uint32_t kMostConstraints = 64;
 constexpr uint32_t kBlockFrames = 16;  // whose joint values are multiplied together
 
-/// Fills the metrics and the observability. `deformer` is that of `derivatives`. Temporary memory comes from the
-/// arena. False if it ran out.
-bool measure_rig(MienFit& fit, const MienDeformer* deformer, Arena& arena);
+/// Fills the metrics and the observability. `deformers` are those of FitMesh::derivatives. Temporary memory comes from
+/// the arena. False if it ran out.
+bool measure_rig(MienFit& fit, Span<const MienDeformer*> deformers, Arena& arena);
 /// The metric of points, and the effects of controls on samples (measure_points.cpp).
-bool measure_points(MienFit& fit, const MienDeformer* deformer, Arena& arena);
+bool measure_points(MienFit& fit, Span<const MienDeformer*> deformers, Arena& arena);
 
 // Rotations (rotations.cpp): a unit quaternion q among the controls. Its derivatives along q do not count.
 

@@ -135,6 +135,8 @@ Limits limits_of(const Frame& f, size_t place);
 Cost find_cost(Frame& f);
 /// Moves the target as a whole, or the camera, to where it fits the points, which have moved.
 void follow_points(Frame& f, uint32_t rounds);
+/// The derivatives of the meshes, and of joints, at the pose at hand.
+void linearize_points(MienFit& fit);
 /// Half of the gradient of the cost by the controls that may move.
 void find_gradient(Frame& f);
 /// The mean weight of points: what the metric of points is multiplied by.

@@ -45,7 +45,6 @@ bool find_entries(MienFit& fit, MienDerivatives* derivatives, uint32_t to, Arena
   MienJacobianDesc desc = mien_jacobian_desc_default();
   desc.from_point = MIEN_POINT_CONTROLS;
   desc.to_point = to;
-  desc.mesh = to == MIEN_POINT_POSITIONS ? fit.mesh : 0;
   desc.lod = fit.lod;
   const MienAllocator allocator = {fit.allocator.user, fit.allocator.allocate,
                                    fit.allocator.release};
@@ -247,10 +246,10 @@ void find_observability(MienFit& fit) {
 
 }  // namespace
 
-bool measure_rig(MienFit& fit, const MienDeformer* deformer, Arena& arena) {
+bool measure_rig(MienFit& fit, Span<const MienDeformer*> deformers, Arena& arena) {
   Entries joints;
   if (!measure_joints(fit, arena, joints)) return false;
-  if (fit.points.count != 0 && !measure_points(fit, deformer, arena)) return false;
+  if (fit.points.count != 0 && !measure_points(fit, deformers, arena)) return false;
   find_observability(fit);
   return true;
 }

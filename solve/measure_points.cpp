@@ -17,8 +17,8 @@ constexpr size_t kLeastPart = 256;       // points
 
 /// A part of the points, and memory for it.
 struct Part {
-  Span<uint32_t> positions;  // of MienFit::derivatives that its points read, ascending
-  Span<uint32_t> places;     // [point][3] in them
+  Span<uint32_t> positions;  // of a mesh that its points read, ascending
+  Span<uint32_t> places;     // [point][3] in those of its mesh
   Span<float> directions;    // kDirections of [control]
   Span<float> moved;         // kDirections of [position][3]
   Span<float> effects;       // [control][point][3]
@@ -26,15 +26,19 @@ struct Part {
   Span<uint32_t> active;     // these controls
 };
 
-void list_part(const MienFit& fit, size_t first, size_t count, Part& part, size_t& used) {
+/// Of the points on a mesh.
+void list_part(const MienFit& fit, uint32_t mesh, size_t first, size_t count, Part& part,
+               size_t& used) {
+  uint32_t* end = part.positions.data;
   for (size_t i = 0; i < count; ++i) {
-    std::copy(fit.points[first + i].positions, fit.points[first + i].positions + 3,
-              part.positions.data + 3 * i);
+    const MienSolvePoint& point = fit.points[first + i];
+    if (point.mesh == mesh) end = std::copy(point.positions, point.positions + 3, end);
   }
-  const Span<uint32_t> all = part.positions.first(3 * count);
+  const Span<uint32_t> all = part.positions.first(static_cast<size_t>(end - part.positions.data));
   std::sort(all.begin(), all.end());
   used = static_cast<size_t>(std::unique(all.begin(), all.end()) - all.begin());
   for (size_t i = 0; i < count; ++i) {
+    if (fit.points[first + i].mesh != mesh) continue;
     for (size_t n = 0; n < 3; ++n) {
       part.places[3 * i + n] = static_cast<uint32_t>(
           std::lower_bound(all.begin(), all.begin() + used, fit.points[first + i].positions[n]) -
@@ -43,14 +47,17 @@ void list_part(const MienFit& fit, size_t first, size_t count, Part& part, size_
   }
 }
 
-/// Effects of all controls on `count` points from `first` on. False if memory ran out.
-bool measure_part(MienFit& fit, const MienDeformer* whole, size_t first, size_t count, Part& part) {
+/// Effects of all controls on those of `count` points from `first` on that are on a mesh. False if memory ran out.
+bool measure_part(MienFit& fit, uint32_t mesh, const MienDeformer* whole, size_t first,
+                  size_t count, Part& part) {
+  const uint32_t of_rig = fit.meshes[mesh].mesh;
   size_t used = 0;
-  list_part(fit, first, count, part, used);
+  list_part(fit, mesh, first, count, part, used);
+  if (used == 0) return true;
   const MienAllocator allocator = {fit.allocator.user, fit.allocator.allocate,
                                    fit.allocator.release};
   MienDeformer* deformer = nullptr;
-  if (mien_deformer_create_subset(whole, fit.mesh, part.positions.data, used, &allocator, &deformer,
+  if (mien_deformer_create_subset(whole, of_rig, part.positions.data, used, &allocator, &deformer,
                                   nullptr) != MIEN_OK) {
     return false;
   }
@@ -67,20 +74,23 @@ bool measure_part(MienFit& fit, const MienDeformer* whole, size_t first, size_t 
     std::fill(part.directions.begin(), part.directions.end(), 0.0f);
     for (size_t k = 0; k < directions; ++k) part.directions[k * fit.control_count + c + k] = 1;
     static_cast<void>(mien_derivatives_forward(
-        derivatives, MIEN_POINT_CONTROLS, MIEN_POINT_POSITIONS, fit.mesh,
+        derivatives, MIEN_POINT_CONTROLS, MIEN_POINT_POSITIONS, of_rig,
         static_cast<uint32_t>(directions), part.directions.data, part.moved.data));
     for (size_t k = 0; k < directions; ++k) {
       const float* const moved = part.moved.data + k * used * 3;
-      float* to = part.effects.data + (c + k) * count * 3;
+      float* const effects = part.effects.data + (c + k) * count * 3;
       for (size_t i = 0; i < count; ++i) {
         const MienSolvePoint& point = fit.points[first + i];
+        if (point.mesh != mesh) continue;
         double sum[3] = {};
         for (size_t n = 0; n < 3; ++n) {
           const float* const from = moved + size_t{part.places[3 * i + n]} * 3;
           for (size_t axis = 0; axis < 3; ++axis)
             sum[axis] += double{point.weights[n]} * from[axis];
         }
-        for (const double v : sum) *to++ = static_cast<float>(v);
+        for (size_t axis = 0; axis < 3; ++axis) {
+          effects[3 * i + axis] = static_cast<float>(sum[axis]);
+        }
       }
     }
   }
@@ -108,7 +118,7 @@ void add_products(MienFit& fit, size_t row_count, const Part& part) {
 
 }  // namespace
 
-bool measure_points(MienFit& fit, const MienDeformer* deformer, Arena& arena) {
+bool measure_points(MienFit& fit, Span<const MienDeformer*> deformers, Arena& arena) {
   const size_t controls = fit.control_count;
   const size_t size = std::min(
       fit.points.count, std::max(kLeastPart, kPartBytes / sizeof(float) / 3 / (controls + 1)));
@@ -127,7 +137,9 @@ bool measure_points(MienFit& fit, const MienDeformer* deformer, Arena& arena) {
   size_t sample = 0;
   for (size_t first = 0; first < fit.points.count; first += size) {
     const size_t count = std::min(size, fit.points.count - first);
-    if (!measure_part(fit, deformer, first, count, part)) return false;
+    for (uint32_t m = 0; m < fit.meshes.count; ++m) {
+      if (!measure_part(fit, m, deformers[m], first, count, part)) return false;
+    }
     add_products(fit, count * 3, part);
     for (; sample < fit.samples.count && fit.samples[sample] < first + count; ++sample) {
       for (size_t c = 0; c < controls; ++c) {

@@ -164,24 +164,26 @@ double find_change(Frame& f) {
 void make_model(Frame& f) {
   MienFit& fit = f.fit;
   std::fill(fit.pull.begin(), fit.pull.end(), 0.0);
-  const auto add = [&](MienDerivatives* derivatives, uint32_t from, const float* gradient) {
-    static_cast<void>(mien_derivatives_reverse(derivatives, MIEN_POINT_CONTROLS, from, fit.mesh, 1,
+  const auto add = [&](MienDerivatives* derivatives, uint32_t from, uint32_t mesh,
+                       const float* gradient) {
+    static_cast<void>(mien_derivatives_reverse(derivatives, MIEN_POINT_CONTROLS, from, mesh, 1,
                                                gradient, fit.metric_row.data));
     for (size_t c = 0; c < fit.control_count; ++c) fit.pull[c] += double{fit.metric_row[c]};
   };
   if (f.in.joints) {
     static_cast<void>(
         mien_derivatives_linearize(fit.control_derivatives, fit.instance, MIEN_STAGE_ALL));
-    add(fit.control_derivatives, MIEN_POINT_JOINTS, fit.joint_gradient.data);
+    add(fit.control_derivatives, MIEN_POINT_JOINTS, 0, fit.joint_gradient.data);
   }
   f.row_count = 0;
   if (f.has_points() || f.in.constraints) {
-    static_cast<void>(mien_derivatives_linearize(fit.derivatives, fit.instance, MIEN_STAGE_ALL));
-    if (fit.points.count != 0) {
-      add(fit.derivatives, MIEN_POINT_POSITIONS, fit.position_gradient.data);
+    linearize_points(fit);
+    for (const FitMesh& mesh : fit.meshes) {
+      add(mesh.derivatives, MIEN_POINT_POSITIONS, mesh.mesh,
+          fit.position_gradient.data + 3 * mesh.first);
     }
     if (has_joint_constraints(f)) {
-      add(fit.derivatives, MIEN_POINT_MODELS, fit.model_gradient.data);
+      add(fit.derivatives, MIEN_POINT_MODELS, 0, fit.model_gradient.data);
     }
     list_constraint_rows(f, MIEN_POINT_CONTROLS);
   }

@@ -7,22 +7,22 @@
 namespace mien {
 namespace {
 
-/// Sums of the area vectors around each position.
-void find_position_normals(MienFit& fit, const float* positions) {
-  std::fill(fit.position_normals.begin(), fit.position_normals.end(), 0.0f);
-  for (size_t t = 0; t < fit.triangle_count; ++t) {
-    const uint32_t* corner = fit.triangles.data + 3 * t;
+/// Sums of the area vectors around each position of a mesh.
+void find_position_normals(MienFit& fit, const FitMesh& mesh, const float* positions) {
+  float* const normals = fit.position_normals.data + 3 * mesh.first_whole;
+  for (size_t t = 0; t < mesh.triangle_count; ++t) {
+    const uint32_t* corner = fit.triangles.data + 3 * (mesh.first_triangle + t);
     const float *a = positions + size_t{corner[0]} * 3, *b = positions + size_t{corner[1]} * 3,
                 *c = positions + size_t{corner[2]} * 3;
     float ab[3], ac[3];
     for (int k = 0; k < 3; ++k) ab[k] = b[k] - a[k], ac[k] = c[k] - a[k];
-    const float sign = fit.inward ? -1.0f : 1.0f;
+    const float sign = mesh.inward ? -1.0f : 1.0f;
     const float normal[3] = {sign * (ab[1] * ac[2] - ab[2] * ac[1]),
                              sign * (ab[2] * ac[0] - ab[0] * ac[2]),
                              sign * (ab[0] * ac[1] - ab[1] * ac[0])};
     for (int n = 0; n < 3; ++n) {
       for (int k = 0; k < 3; ++k)
-        fit.position_normals[size_t{corner[n]} * 3 + static_cast<size_t>(k)] += normal[k];
+        normals[size_t{corner[n]} * 3 + static_cast<size_t>(k)] += normal[k];
     }
   }
 }
@@ -132,31 +132,39 @@ void read_points(Frame& f) {
 
 void find_points(Frame& f) {
   MienFit& fit = f.fit;
-  const auto deform = [&](MienDeformerInstance* deformed) {
+  const auto deform = [&](MienDeformerInstance* deformed, uint32_t mesh) {
     MienFloatView positions = {};
-    static_cast<void>(mien_deformer_instance_update(deformed, fit.instance));
-    if (fit.points.count == 0) return positions;
-    static_cast<void>(
-        mien_deformer_instance_deform(deformed, fit.mesh, MIEN_NORMALS_NONE, nullptr));
-    static_cast<void>(mien_deformer_instance_positions(deformed, fit.mesh, &positions));
-    return positions;
+    static_cast<void>(mien_deformer_instance_deform(deformed, mesh, MIEN_NORMALS_NONE, nullptr));
+    static_cast<void>(mien_deformer_instance_positions(deformed, mesh, &positions));
+    return positions.data;
   };
-  MienFloatView positions = deform(fit.deformed);
+  if (fit.meshes.empty()) {
+    static_cast<void>(mien_deformer_instance_update(fit.deformed, fit.instance));
+  }
+  for (FitMesh& mesh : fit.meshes) {
+    static_cast<void>(mien_deformer_instance_update(mesh.deformed, fit.instance));
+    mesh.at = deform(mesh.deformed, mesh.mesh);
+  }
   for (size_t i = 0; i < fit.points.count; ++i) {
     const MienSolvePoint& point = fit.points[i];
+    const float* const positions = fit.meshes[point.mesh].at;
     double* const to = fit.surface.data + 3 * i;
     if (point.weights[0] == 1 && point.weights[1] == 0 && point.weights[2] == 0) {
-      const float* from = positions.data + size_t{point.positions[0]} * 3;
+      const float* from = positions + size_t{point.positions[0]} * 3;
       for (size_t k = 0; k < 3; ++k) to[k] = double{from[k]};
     } else {
-      sum_rows(point, positions.data, to);
+      sum_rows(point, positions, to);
     }
     for (size_t k = 0; f.in.point_offsets && k < 3; ++k)
       to[k] += double{f.in.point_offsets[3 * i + k]};
   }
   if (!f.in.surface) return;
-  if (fit.whole != fit.deformed) positions = deform(fit.whole);
-  find_position_normals(fit, positions.data);
+  std::fill(fit.position_normals.begin(), fit.position_normals.end(), 0.0f);
+  const bool own = fit.whole != fit.deformed;
+  if (own) static_cast<void>(mien_deformer_instance_update(fit.whole, fit.instance));
+  for (const FitMesh& mesh : fit.meshes) {
+    find_position_normals(fit, mesh, own ? deform(fit.whole, mesh.mesh) : mesh.at);
+  }
 }
 
 void view_point(const Frame& f, Kind kind, const double* point, double* out) {
@@ -177,7 +185,8 @@ void match_surface(Frame& f) {
     if (!(to.weights[i] > 0)) continue;
     double at[3], own[3], normal[3] = {};
     motion.place(fit.surface.data + 3 * i, at);
-    sum_rows(fit.whole_points[i], fit.position_normals.data, own);
+    const MienSolvePoint& point = fit.whole_points[i];
+    sum_rows(point, fit.position_normals.data + 3 * fit.meshes[point.mesh].first_whole, own);
     const double length = std::sqrt(squared_length(own));
     for (size_t r = 0; r < 3 && length > 0; ++r) {
       for (size_t c = 0; c < 3; ++c) normal[r] += motion.rotation[3 * r + c] * own[c] / length;

@@ -10,9 +10,8 @@ namespace {
 /// What free controls do to the samples at the pose at hand, kDirections at a time.
 void measure_controls(Frame& f, size_t free_count) {
   MienFit& fit = f.fit;
-  MienDerivatives* const derivatives = f.own_samples ? fit.derivatives : fit.sample_derivatives;
-  const size_t width = f.samples.count * 3,
-               size = (f.own_samples ? fit.position_count : fit.sample_position_count) * 3;
+  const size_t width = f.samples.count * 3;
+  const Span<MienSolvePoint>& points = f.own_samples ? fit.points : fit.sample_points;
   size_t a = 0;
   while (a < free_count) {
     uint32_t places[kDirections], count = 0;
@@ -25,24 +24,29 @@ void measure_controls(Frame& f, size_t free_count) {
       direction[fit.controls[places[k]]] = 1;
     }
     if (count == 0) return;
-    static_cast<void>(mien_derivatives_forward(derivatives, MIEN_POINT_RAW, MIEN_POINT_POSITIONS,
-                                               fit.mesh, count, fit.directions.data,
-                                               fit.moved.data));
-    for (uint32_t k = 0; k < count; ++k) {
-      float* to = fit.step_effects.data + places[k] * width;
-      for (size_t s = 0; s < f.samples.count; ++s) {
-        const MienSolvePoint& point =
-            f.own_samples ? fit.points[f.samples[s]] : fit.sample_points[s];
-        for (size_t axis = 0; axis < 3; ++axis) {
-          float sum = 0;
-          for (size_t n = 0; n < 3; ++n) {
-            sum += point.weights[n] * fit.moved[k * size + size_t{point.positions[n]} * 3 + axis];
+    for (uint32_t m = 0; m < fit.meshes.count; ++m) {
+      const FitMesh& mesh = fit.meshes[m];
+      const size_t size = (f.own_samples ? mesh.count : mesh.sample_count) * 3;
+      if (size == 0) continue;
+      static_cast<void>(mien_derivatives_forward(
+          f.own_samples ? mesh.derivatives : mesh.sample_derivatives, MIEN_POINT_RAW,
+          MIEN_POINT_POSITIONS, mesh.mesh, count, fit.directions.data, fit.moved.data));
+      for (uint32_t k = 0; k < count; ++k) {
+        float* const effects = fit.step_effects.data + places[k] * width;
+        for (size_t s = 0; s < f.samples.count; ++s) {
+          const MienSolvePoint& point = points[f.own_samples ? f.samples[s] : s];
+          if (point.mesh != m) continue;
+          for (size_t axis = 0; axis < 3; ++axis) {
+            float sum = 0;
+            for (size_t n = 0; n < 3; ++n) {
+              sum += point.weights[n] * fit.moved[k * size + size_t{point.positions[n]} * 3 + axis];
+            }
+            effects[3 * s + axis] = sum;
           }
-          *to++ = sum;
         }
       }
-      fit.measured[places[k]] = 1;
     }
+    for (uint32_t k = 0; k < count; ++k) fit.measured[places[k]] = 1;
   }
 }
 
@@ -51,9 +55,10 @@ void find_effects(Frame& f, size_t free_count) {
   MienFit& fit = f.fit;
   const size_t width = f.samples.count * 3;
   if (f.exact || f.own_samples) {
-    if (!f.own_samples && fit.sample_derivatives != fit.derivatives) {
+    for (const FitMesh& mesh : fit.meshes) {
+      if (f.own_samples || mesh.sample_derivatives == mesh.derivatives) continue;
       static_cast<void>(
-          mien_derivatives_linearize(fit.sample_derivatives, fit.instance, MIEN_STAGE_ALL));
+          mien_derivatives_linearize(mesh.sample_derivatives, fit.instance, MIEN_STAGE_ALL));
     }
     return measure_controls(f, free_count);
   }

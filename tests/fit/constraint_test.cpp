@@ -189,6 +189,37 @@ TEST(Constraint, PointsTouchOrKeepTheirDistance) {
   EXPECT_LT(it.result.point_residual, 1) << "pixels";
 }
 
+// What a fit solved before leaves nothing in the rows of its constraints.
+TEST(Constraint, ContactsHaveTheSameBitsWhateverWasSolvedBefore) {
+  Constrained it;
+  Random random = Random::from_seed(5, 5);
+  const std::vector<float> all = it.head.positions(it.head.pose(random, 8));
+  std::vector<float> targets, few;
+  for (const MienSolvePoint& point : it.points) {
+    for (size_t k = 0; k < 3; ++k) targets.push_back(all[point.positions[0] * size_t{3} + k]);
+    few.push_back(few.size() % 5 == 0 ? 1.0f : 0.0f);  // effects are measured at the pose
+  }
+  MienFitConstraint contact = {};
+  contact.kind = MIEN_CONSTRAINT_POINT_DISTANCE;
+  contact.points[1] = 5;
+  contact.weight = 3;
+  MienFitFrame frame = mien_fit_frame_default();
+  frame.points = targets.data();
+  frame.rigid = 1;
+  frame.constraints = &contact;
+  frame.constraint_count = 1;
+  frame.prior_weight = 1e-2f;
+  MienFitFrame before = mien_fit_frame_default();
+  before.points = targets.data();
+  before.point_weights = few.data();
+  ASSERT_EQ(it.solve(frame), MIEN_OK);
+  const std::vector<float> first = it.found;
+  ASSERT_EQ(it.solve(before), MIEN_OK);
+  EXPECT_NE(it.found, first);
+  ASSERT_EQ(it.solve(frame), MIEN_OK);
+  EXPECT_EQ(it.found, first);
+}
+
 TEST(Constraint, MissingOnesDoNothingAndWrongOnesAreRefused) {
   Constrained it;
   MienFitConstraint c = {};

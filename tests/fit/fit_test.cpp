@@ -548,11 +548,12 @@ TEST(Fit, SurvivesEveryFailedAllocation) {
   Head head(MIEN_PRESET_TINY);
   CountingAllocator memory;
   const MienAllocator allocator = memory.get();
-  MienSolvePoint point = {0, {0, 0, 0}, {1, 0, 0}};
+  // On two meshes.
+  const MienSolvePoint points[] = {{0, {0, 0, 0}, {1, 0, 0}}, {1, {0, 0, 0}, {1, 0, 0}}};
   MienFitDesc desc = sized<MienFitDesc>();
   desc.deformer = head.deformer.get();
-  desc.points = &point;
-  desc.point_count = 1;
+  desc.points = points;
+  desc.point_count = 2;
   desc.allocator = &allocator;
   for (size_t k = 1;; ++k) {
     memory.restart();

@@ -2655,7 +2655,7 @@ namespace Mien.Native {
   /// <summary>A point of a surface: the weighted sum of three positions of a mesh. One position: weights 1 0 0.</summary>
   [StructLayout(LayoutKind.Sequential)]
   public unsafe struct MienSolvePoint {
-    /// <summary>the same for all points of a fit</summary>
+    /// <summary>of the rig; points of a fit may be on several meshes</summary>
     public uint Mesh;
     /// <summary>in the order of the file</summary>
     public fixed uint Positions[3];
@@ -4910,8 +4910,7 @@ namespace Mien.Native {
     /// mien_fit_destroy().
     /// Fails with MIEN_ERROR_INDEX if a control, position or mesh does not exist, MIEN_ERROR_LOD if the rig has no
     /// such LOD, MIEN_ERROR_MISMATCH if the deformer belongs to another rig, MIEN_ERROR_INVALID_ARGUMENT if controls are
-    /// not ascending, a lower bound is above its upper one, a weight is not finite, or points are on several
-    /// meshes.</summary>
+    /// not ascending, a lower bound is above its upper one, or a weight is not finite.</summary>
     [DllImport("mien-solve", CallingConvention = CallingConvention.Cdecl)]
     public static extern Status mien_fit_create(RigHandle rig, MienFitDesc* desc, out IntPtr out_fit, MienError* error);
 

@@ -1103,7 +1103,7 @@ typedef struct MienByteSink {
 
 /* A point of a surface: the weighted sum of three positions of a mesh. One position: weights 1 0 0. */
 typedef struct MienSolvePoint {
-    uint32_t mesh; /* the same for all points of a fit */
+    uint32_t mesh; /* of the rig; points of a fit may be on several meshes */
     uint32_t positions[3]; /* in the order of the file */
     float weights[3];
 } MienSolvePoint;
@@ -2753,8 +2753,7 @@ the effect of each control, which takes up to some seconds for large rigs. Destr
 mien_fit_destroy().
 Fails with MIEN_ERROR_INDEX if a control, position or mesh does not exist, MIEN_ERROR_LOD if the rig has no
 such LOD, MIEN_ERROR_MISMATCH if the deformer belongs to another rig, MIEN_ERROR_INVALID_ARGUMENT if controls are
-not ascending, a lower bound is above its upper one, a weight is not finite, or points are on several
-meshes. */
+not ascending, a lower bound is above its upper one, or a weight is not finite. */
 MienStatus mien_fit_create(MienRig const* rig, MienFitDesc const* desc, MienFit** out_fit, MienError* error);
 
 /* Destroys a fit. NULL is allowed. */

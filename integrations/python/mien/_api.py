@@ -5789,8 +5789,8 @@ STATUSES: Dict[str, Tuple[Tuple[Status, str], ...]] = {
     ),
     "mien_fit_create": (
         (Status.INVALID_ARGUMENT,
-         "controls are not ascending, a lower bound is above its upper one, a weight is "
-         "not finite, or points are on several meshes"),
+         "controls are not ascending, a lower bound is above its upper one, or a weight "
+         "is not finite"),
         (Status.MISMATCH,
          "the deformer belongs to another rig"),
         (Status.INDEX,

@@ -130,7 +130,7 @@ class Fit(Closable):
     lower, upper:  bounds, one number or one for each of these controls; None: 0 and 1. Rotations, whose
                    four parts are named .qx .qy .qz .qw or .x .y .z .w, have none
     symmetric:     pairs (left, right) of raw controls kept similar
-    mesh:          the mesh of all points
+    mesh:          the mesh of all points, or, with `positions`, (points,): that of each
     positions:     (points,) indices of positions, or (points, 3) with `weights`; None: every position if
                    there is a deformer
     weights:       (points, 3) weights of these positions
@@ -141,7 +141,7 @@ class Fit(Closable):
 
     @raises("mien_fit_create")
     def __init__(self, rig: Rig, deformer: Optional[Deformer] = None, controls: Any = None,
-                 lower: Any = None, upper: Any = None, symmetric: Any = None, mesh: int = 0,
+                 lower: Any = None, upper: Any = None, symmetric: Any = None, mesh: Any = 0,
                  positions: Any = None, weights: Any = None, joint_weights: Any = None,
                  lod: int = 0) -> None:
         if numpy is None:
@@ -178,7 +178,7 @@ class Fit(Closable):
         self._lock = allocate_lock()
 
     @staticmethod
-    def _points(deformer: Optional[Deformer], mesh: int, positions: Any, weights: Any) -> Any:
+    def _points(deformer: Optional[Deformer], mesh: Any, positions: Any, weights: Any) -> Any:
         if positions is None and deformer is None:
             return (_api.MienSolvePoint * 0)()
         if deformer is None:
@@ -193,9 +193,14 @@ class Fit(Closable):
             raise ArgumentError("points are whole numbers (points,), or (points, 3) with weights (points, 3)")
         if chosen.size and (chosen.min() < 0 or chosen.max() > 0xFFFFFFFF):
             raise ArgumentError("a position is not an index")
+        meshes = numpy.asarray(mesh)
+        if meshes.shape not in ((), chosen.shape[:1]) or meshes.dtype.kind not in "iu":
+            raise ArgumentError("a mesh is an index, or one for each point")
+        if meshes.size and (meshes.min() < 0 or meshes.max() > 0xFFFFFFFF):
+            raise ArgumentError("a mesh is not an index")
         # The layout of MienSolvePoint.
         rows = numpy.zeros(len(chosen), [("mesh", "u4"), ("positions", "u4", 3), ("weights", "f4", 3)])
-        rows["mesh"], rows["positions"], rows["weights"] = uint32(mesh, "mesh"), chosen, shares
+        rows["mesh"], rows["positions"], rows["weights"] = meshes, chosen, shares
         return (_api.MienSolvePoint * len(chosen)).from_buffer_copy(rows.tobytes())
 
     @contextmanager
@@ -358,7 +363,7 @@ class Fit(Closable):
 
 
 def solve(rig: Rig, deformer: Optional[Deformer] = None, *, joints: Any = None, points: Any = None,
-          mesh: int = 0, positions: Any = None, weights: Any = None, controls: Any = None,
+          mesh: Any = 0, positions: Any = None, weights: Any = None, controls: Any = None,
           smooth_weight: float = 0, **terms: Any) -> Any:
     """The raw controls of a take, float32 (frames, raw controls): each frame starts from the one before.
 

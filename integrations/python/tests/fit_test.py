@@ -171,6 +171,20 @@ class Fits(unittest.TestCase):
         with self.assertRaises(mien.ArgumentError):
             fit.solve(images=images)
 
+    def test_points_on_several_meshes(self):
+        deformer, face = deformer_of(), posed()
+        pose = deformer.instance()
+        pose.update(face)
+        for mesh in (0, 1):
+            pose.deform(mesh)
+        meshes, positions = [1, 0, 1, 0], [0, 1, 2, 3]
+        targets = numpy.array([pose.positions(mesh).reshape(-1, 3)[p] for mesh, p in zip(meshes, positions)])
+        with mien.Fit(rig_of(), deformer, mesh=meshes, positions=positions) as fit:
+            self.assertLess(fit.solve(points=targets, start=face.raw_controls).point_worst, 1e-4)
+        for wrong in ([0, 1], [[0, 1, 0, 1]], [0, 1, 0, -1], [0, 1, 0, 0.5], [0, 1, 0, 99], 2**32):
+            with self.assertRaises(mien.Error, msg=wrong):
+                mien.Fit(rig_of(), deformer, mesh=wrong, positions=positions)
+
     def test_surfaces(self):
         deformer, face = deformer_of(), posed()
         pose = deformer.instance()

@@ -2199,7 +2199,7 @@ export interface ControlError {
  * A point of a surface: the weighted sum of three positions of a mesh. One position: weights 1 0 0.
  */
 export interface SolvePoint {
-  /** the same for all points of a fit */
+  /** of the rig; points of a fit may be on several meshes */
   mesh?: number;
   /** in the order of the file */
   positions?: readonly number[];
@@ -4012,8 +4012,7 @@ export interface Exports {
    * mien_fit_destroy().
    * Fails with MIEN_ERROR_INDEX if a control, position or mesh does not exist, MIEN_ERROR_LOD if the rig has no
    * such LOD, MIEN_ERROR_MISMATCH if the deformer belongs to another rig, MIEN_ERROR_INVALID_ARGUMENT if controls are
-   * not ascending, a lower bound is above its upper one, a weight is not finite, or points are on several
-   * meshes.
+   * not ascending, a lower bound is above its upper one, or a weight is not finite.
    */
   mien_fit_create(rig: number, desc: number, out_fit: number, error: number): number;
   /** Destroys a fit. NULL is allowed. */

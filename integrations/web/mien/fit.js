@@ -43,7 +43,7 @@ function pointOf(point, mesh) {
   if (typeof point === "number") return { mesh, positions: [point, point, point], weights: [1, 0, 0] };
   const { positions, weights } = point;
   if (!positions || !weights) throw new TypeError("a point is a position, or three of them with their weights");
-  return { mesh, positions, weights };
+  return { mesh: point.mesh ?? mesh, positions, weights };
 }
 
 function constraintOf(constraint) {

@@ -743,7 +743,9 @@ export const Gaze: { readonly prototype: Gaze };
 // ---- fits ------------------------------------------------------------------------------------------------
 
 /** A position of a mesh, or the weighted sum of three. */
-export type FitPoint = number | { positions: readonly [number, number, number]; weights: readonly [number, number, number] };
+export type FitPoint =
+  | number
+  | { positions: readonly [number, number, number]; weights: readonly [number, number, number]; mesh?: number };
 
 /** How to create a fit. Raw controls are given by name or index. */
 export interface FitOptions {
@@ -756,7 +758,7 @@ export interface FitOptions {
   upper?: number | Numbers;
   /** Pairs of raw controls that are kept similar: left and right. */
   symmetric?: readonly (readonly [string | number, string | number])[];
-  /** The mesh of all points. */
+  /** The mesh of points that do not name another. */
   mesh?: number;
   /** Points to match. Without any, joint values are matched. */
   points?: readonly FitPoint[] | Uint32Array;

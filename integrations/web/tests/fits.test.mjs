@@ -86,6 +86,15 @@ test("points, images and surfaces", () => {
   for (const object of [surface, fit]) object.dispose();
 });
 
+test("points on several meshes", () => {
+  const point = (mesh, p) => ({ mesh, positions: [p, p, p], weights: [1, 0, 0] });
+  const fit = rig.fit({ points: [point(1, 0), 1, point(1, 2)] });
+  const places = [[1, 0], [0, 1], [1, 2]].flatMap(([mesh, p]) => [...rig.deformer.mesh(mesh).positions.subarray(3 * p, 3 * p + 3)]);
+  assert.ok(fit.solve({ points: places }).pointWorst < 1e-4 * extent);
+  fit.dispose();
+  assert.throws(() => rig.fit({ points: [0, point(99, 0)] }));
+});
+
 test("constraints", () => {
   const fit = rig.fit({ points: [0, 1] });
   const pose = rig.deformer.instance();

@@ -3457,7 +3457,7 @@ impl Default for MienByteSink {
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct MienSolvePoint {
-    /// The same for all points of a fit.
+    /// Of the rig; points of a fit may be on several meshes.
     pub mesh: u32,
     /// In the order of the file.
     pub positions: [u32; 3],
@@ -5618,7 +5618,7 @@ extern "C" {
     /// Fails with `MIEN_ERROR_INDEX` if a control, position or mesh does not exist,
     /// `MIEN_ERROR_LOD` if the rig has no such LOD, `MIEN_ERROR_MISMATCH` if the deformer belongs
     /// to another rig, `MIEN_ERROR_INVALID_ARGUMENT` if controls are not ascending, a lower bound
-    /// is above its upper one, a weight is not finite, or points are on several meshes.
+    /// is above its upper one, or a weight is not finite.
     pub fn mien_fit_create(rig: *const MienRig, desc: *const MienFitDesc, out_fit: *mut *mut MienFit, error: *mut MienError) -> MienStatus;
 
     /// Destroys a fit. NULL is allowed.

@@ -13,6 +13,8 @@ use std::ptr::{null, null_mut, NonNull};
 /// A point of a surface: the weighted sum of three positions of a mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FitPoint {
+    /// Its mesh; that of [`FitOptions::mesh`] if `None`.
+    pub mesh: Option<usize>,
     /// Positions, in the order of the file.
     pub positions: [usize; 3],
     /// Weights of these positions.
@@ -22,7 +24,7 @@ pub struct FitPoint {
 impl From<usize> for FitPoint {
     /// One position of the mesh.
     fn from(position: usize) -> Self {
-        Self { positions: [position; 3], weights: [1.0, 0.0, 0.0] }
+        Self { mesh: None, positions: [position; 3], weights: [1.0, 0.0, 0.0] }
     }
 }
 
@@ -40,7 +42,7 @@ pub struct FitOptions<'a> {
     pub upper: Option<&'a [f32]>,
     /// Pairs of raw controls that are kept similar: left and right.
     pub symmetric: &'a [[u32; 2]],
-    /// The mesh of all points.
+    /// The mesh of points that do not name another.
     pub mesh: usize,
     /// Points to match, such as landmarks.
     pub points: &'a [FitPoint],
@@ -686,7 +688,7 @@ impl FitOptions<'_> {
             .points
             .iter()
             .map(|point| sys::MienSolvePoint {
-                mesh: index(self.mesh),
+                mesh: index(point.mesh.unwrap_or(self.mesh)),
                 positions: point.positions.map(index),
                 weights: point.weights,
             })

@@ -2957,7 +2957,7 @@ macro_rules! errors {
          - [`Status::DNA_LIMIT`](crate::Status::DNA_LIMIT) if the file would exceed 4 GiB"
     };
     (mien_fit_create) => {
-        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if controls are not ascending, a lower bound is above its upper one, a weight is not finite, or points are on several meshes\n\
+        "- [`Status::INVALID_ARGUMENT`](crate::Status::INVALID_ARGUMENT) if controls are not ascending, a lower bound is above its upper one, or a weight is not finite\n\
          - [`Status::MISMATCH`](crate::Status::MISMATCH) if the deformer belongs to another rig\n\
          - [`Status::INDEX`](crate::Status::INDEX) if a control, position or mesh does not exist\n\
          - [`Status::LOD`](crate::Status::LOD) if the rig has no such LOD\n\

@@ -333,10 +333,14 @@ fn wrong_arguments_are_errors() {
     fails(Status::INVALID_ARGUMENT, with(FitOptions { joint_weights: Some(&[1.0]), ..base }));
     fails(Status::INDEX, with(FitOptions { symmetric: &[[0, raw as u32]], ..base }));
     assert!(with(FitOptions { points: &point, ..base }).is_err());
-    let far = [FitPoint { positions: [usize::MAX, 0, 0], weights: [1.0, 0.0, 0.0] }];
+    let far = [FitPoint { mesh: None, positions: [usize::MAX, 0, 0], weights: [1.0, 0.0, 0.0] }];
     let deformer = Some(&deformer);
     fails(Status::INDEX, with(FitOptions { deformer, points: &far, ..base }));
     fails(Status::INDEX, with(FitOptions { deformer, points: &point, mesh: 99, ..base }));
+    let other = [FitPoint { mesh: Some(99), ..point[0] }];
+    fails(Status::INDEX, with(FitOptions { deformer, points: &other, ..base }));
+    let both = [FitPoint { mesh: Some(1), ..point[0] }, point[0]];
+    assert!(with(FitOptions { deformer, points: &both, ..base }).is_ok());
 
     let mut fit = with(FitOptions { deformer, points: &point, ..base }).unwrap();
     let mut out = vec![0.0; raw];
