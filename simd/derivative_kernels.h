@@ -20,8 +20,8 @@ constexpr uint32_t kTransposedLanes = 8;
 ///
 /// There are 16 sums: of each row of the even and of the odd block rows, in the order of the blocks; those of
 /// pairs first. Each eight are added up in halves, then odd to even. So lanes have the bits of single gradients.
-/// The inputs of the runs are not used. Single gradients are fastest if neighboring runs are of about the same
-/// length.
+/// The inputs of the runs are not used. With one lane, neighboring runs should have about as many pairs and single
+/// blocks, which are then multiplied at the same time.
 struct JointTransposedArgs {
   const void* values;  // float, or int16_t
   const uint16_t* block_rows;

@@ -12,7 +12,7 @@ namespace {
 
 // The values of a block are multiplied by four columns of one gradient, or by several gradients of one
 // column: sums that do not wait for each other. Those of pairs stay in registers. Which half a block without
-// its other half belongs to is known only when it is read, so those sums are in memory.
+// its other half belongs to is known only when it is read, so its sums are in memory.
 
 constexpr size_t kPairRows = 2 * kJointBlockRows;
 constexpr size_t kColumnsTogether = 4;
@@ -29,23 +29,22 @@ constexpr size_t kColumnStep = kColumnsTogether, kLaneStep = 4;
 #endif
 constexpr size_t kPairVecs = kPairRows / InPairs::kRows;
 
-/// Pairs or single blocks of a run: their values and numbers, and one past the last.
+/// Pairs or single blocks of a run.
 template <class Value>
 struct RunPart {
   const Value* values;
-  const uint16_t *numbers, *end;
+  const uint16_t* numbers;
+  size_t count;
 };
 template <class Value>
 inline RunPart<Value> pairs_of(const JointTransposedArgs& args, const JointRun& run) {
-  const uint16_t* numbers = args.block_rows + run.start.pair_entry;
   return {static_cast<const Value*>(args.values) + size_t{run.start.first_pair} * kJointBlockRows,
-          numbers, numbers + run.pair_count};
+          args.block_rows + run.start.pair_entry, run.pair_count};
 }
 template <class Value>
 inline RunPart<Value> singles_of(const JointTransposedArgs& args, const JointRun& run) {
-  const uint16_t* numbers = args.block_rows + run.start.single_entry;
   return {static_cast<const Value*>(args.values) + size_t{run.start.first_single} * kJointBlockRows,
-          numbers, numbers + run.single_count};
+          args.block_rows + run.start.single_entry, run.single_count};
 }
 
 /// The rows of the first lane for the pair that a block row belongs to, numbered as in JointColumnsArgs.
@@ -54,16 +53,11 @@ inline const float* rows_of_pair(const float* rows, size_t number, size_t lane_c
 }
 inline size_t half_of(size_t number) { return (number / kBlockRowUnit & 1) * kJointBlockRows; }
 
-/// The sums of the pairs that all of these columns have: a V per vector of 16 rows of each column.
+/// The sums of the first `count` pairs of columns and one gradient: a V per vector of 16 rows of each column.
 template <class How, class Value, size_t... V>
-inline void sum_columns_of_pairs(RunPart<Value>* parts, const float* rows, float* sums,
-                                 std::index_sequence<V...>) {
-  constexpr size_t kColumns = sizeof...(V) / kPairVecs, kRows = InPairs::kRows;
-  size_t count = static_cast<size_t>(parts[0].end - parts[0].numbers);
-  for (size_t c = 1; c < kColumns; ++c) {
-    const auto other = static_cast<size_t>(parts[c].end - parts[c].numbers);
-    count = other < count ? other : count;
-  }
+inline void sum_columns_of_pairs(const RunPart<Value>* parts, size_t count, const float* rows,
+                                 float* sums, std::index_sequence<V...>) {
+  constexpr size_t kRows = InPairs::kRows;
   const Value* const values[] = {parts[V / kPairVecs].values + V % kPairVecs * kRows...};
   const uint16_t* const numbers[] = {parts[V / kPairVecs].numbers...};
   InPairs::Rows sum[] = {(static_cast<void>(V), InPairs::broadcast(0.0f))...};
@@ -74,21 +68,18 @@ inline void sum_columns_of_pairs(RunPart<Value>* parts, const float* rows, float
      ...);
   }
   (InPairs::store(sums + V * kRows, sum[V]), ...);
-  for (size_t c = 0; c < kColumns; ++c) {
-    parts[c].values += count * kPairRows;
-    parts[c].numbers += count;
-  }
 }
 
-/// The same for the rest of a column.
+/// Adds the pairs of a column from `first` on.
 template <class How, class Value, size_t... V>
-inline void add_pairs_of_column(const RunPart<Value>& part, const float* rows, float* sums,
-                                std::index_sequence<V...>) {
+inline void add_pairs_of_column(const RunPart<Value>& part, size_t first, const float* rows,
+                                float* sums, std::index_sequence<V...>) {
+  if (first == part.count) return;
   constexpr size_t kRows = InPairs::kRows;
   InPairs::Rows sum[] = {InPairs::load(sums + V * kRows)...};
-  const Value* values = part.values;
-  for (const uint16_t* number = part.numbers; number < part.end; ++number, values += kPairRows) {
-    const float* const from = rows_of_pair(rows, *number, 1);
+  for (size_t i = first; i < part.count; ++i) {
+    const Value* const values = part.values + i * kPairRows;
+    const float* const from = rows_of_pair(rows, part.numbers[i], 1);
     ((sum[V] = How::mul_add(InPairs::load_values(values + V * kRows),
                             InPairs::load(from + V * kRows), sum[V])),
      ...);
@@ -102,22 +93,36 @@ inline void sum_lanes_of_pairs(const RunPart<Value>& part, const float* rows, fl
                                std::index_sequence<V...>) {
   constexpr size_t kRows = InPairs::kRows;
   InPairs::Rows sum[] = {(static_cast<void>(V), InPairs::broadcast(0.0f))...};
-  const Value* values = part.values;
-  for (const uint16_t* number = part.numbers; number < part.end; ++number, values += kPairRows) {
-    const float* const from = rows_of_pair(rows, *number, kTransposedLanes);
-    const InPairs::Rows value[] = {InPairs::load_values(values + V % kPairVecs * kRows)...};
-    ((sum[V] = How::mul_add(value[V], InPairs::load(from + V * kRows), sum[V])), ...);
+  for (size_t i = 0; i < part.count; ++i) {
+    const Value* const values = part.values + i * kPairRows;
+    const float* const from = rows_of_pair(rows, part.numbers[i], kTransposedLanes);
+    ((sum[V] = How::mul_add(InPairs::load_values(values + V % kPairVecs * kRows),
+                            InPairs::load(from + V * kRows), sum[V])),
+     ...);
   }
   (InPairs::store(sums + V * kRows, sum[V]), ...);
 }
 
-/// Adds a block without its other half.
-template <class How, class Value>
-inline void add_single(const Value* values, const float* rows, float* sums) {
+/// Adds a block without its other half: a C per column or lane.
+template <class How, class Value, size_t... C>
+inline void add_singles_of(const Value* const* values, const float* const* rows, float* const* sums,
+                           std::index_sequence<C...>) {
   for (size_t r = 0; r < kJointBlockRows; r += kBlockWidth) {
-    store_block(sums + r,
-                How::mul_add(load_block(values + r), load_block(rows + r), load_block(sums + r)));
+    const BlockVec added[] = {How::mul_add(load_block(values[C] + r), load_block(rows[C] + r),
+                                           load_block(sums[C] + r))...};
+    (store_block(sums[C] + r, added[C]), ...);
   }
+}
+
+/// Adds single block `i` of each of these columns of one gradient.
+template <class How, class Value, size_t... C>
+inline void add_singles_of_columns(const RunPart<Value>* parts, const float* rows, float* sums,
+                                   size_t i, std::index_sequence<C...> each) {
+  const size_t numbers[] = {parts[C].numbers[i]...};
+  const Value* const values[] = {parts[C].values + i * kJointBlockRows...};
+  const float* const from[] = {rows_of_pair(rows, numbers[C], 1) + half_of(numbers[C])...};
+  float* const to[] = {sums + C * kPairRows + half_of(numbers[C])...};
+  add_singles_of<How>(values, from, to, each);
 }
 
 inline float sum_of_eight(const float* v) {
@@ -129,52 +134,69 @@ inline float sum_of_rows(const float* sums) {
 }
 
 /// sum_of_rows() of four times 16 sums.
+inline Quad halves_of_eight(const float* sums) { return load4(sums) + load4(sums + 4); }
 inline Quad four_sums_of_eight(const float* sums) {
-  Quad q[4];
-  for (size_t k = 0; k < 4; ++k) {
-    q[k] = load4(sums + k * kPairRows) + load4(sums + k * kPairRows + 4);
-  }
-  transpose4(q[0], q[1], q[2], q[3]);
-  return (q[0] + q[2]) + (q[1] + q[3]);
+  Quad a = halves_of_eight(sums), b = halves_of_eight(sums + kPairRows);
+  Quad c = halves_of_eight(sums + 2 * kPairRows), d = halves_of_eight(sums + 3 * kPairRows);
+  transpose4(a, b, c, d);
+  return (a + c) + (b + d);
 }
 inline void four_sums_of_rows(const float* sums, float* to) {
   store4(to, four_sums_of_eight(sums) + four_sums_of_eight(sums + kJointBlockRows));
+}
+
+inline size_t lesser_of(size_t a, size_t b) { return a < b ? a : b; }
+
+/// The sums of one gradient and neighboring runs, one for each C.
+template <class How, class Value, size_t... C>
+inline void sum_columns_of_one(const JointTransposedArgs& args, const JointRun* runs, float* sums,
+                               std::index_sequence<C...> each) {
+  const float* const rows = args.rows;
+  RunPart<Value> parts[] = {pairs_of<Value>(args, runs[C])...};
+  size_t shared = runs[0].pair_count;
+  ((shared = lesser_of(shared, runs[C].pair_count)), ...);
+  sum_columns_of_pairs<How>(parts, shared, rows, sums,
+                            std::make_index_sequence<sizeof...(C) * kPairVecs>());
+  (add_pairs_of_column<How>(parts[C], shared, rows, sums + C * kPairRows,
+                            std::make_index_sequence<kPairVecs>()),
+   ...);
+  ((parts[C] = singles_of<Value>(args, runs[C])), ...);
+  shared = runs[0].single_count;
+  ((shared = lesser_of(shared, runs[C].single_count)), ...);
+  for (size_t i = 0; i < shared; ++i) add_singles_of_columns<How>(parts, rows, sums, i, each);
+  const auto add_others = [&](const RunPart<Value>& part, float* of_column) {
+    for (size_t i = shared; i < part.count; ++i) {
+      add_singles_of_columns<How>(&part, rows, of_column, i, std::index_sequence<0>());
+    }
+  };
+  (add_others(parts[C], sums + C * kPairRows), ...);
 }
 
 /// One gradient, kColumnsTogether columns at a time.
 template <class How, class Value>
 inline void sum_columns_of_one(const JointTransposedArgs& args) {
   alignas(64) float sums[kColumnsTogether * kPairRows];
-  const float* const rows = args.rows;
-  const auto finish = [&](const RunPart<Value>& pairs, const JointRun& run, float* of_column) {
-    add_pairs_of_column<How>(pairs, rows, of_column, std::make_index_sequence<kPairVecs>());
-    const RunPart<Value> singles = singles_of<Value>(args, run);
-    const Value* values = singles.values;
-    for (const uint16_t* n = singles.numbers; n < singles.end; ++n, values += kJointBlockRows) {
-      add_single<How>(values, rows_of_pair(rows, *n, 1) + half_of(*n), of_column + half_of(*n));
-    }
-  };
   size_t i = 0;
   for (; i + kColumnsTogether <= args.run_count; i += kColumnsTogether) {
     for (size_t c = 0; c < kColumnsTogether; c += kColumnStep) {
-      RunPart<Value> parts[kColumnStep];
-      for (size_t k = 0; k < kColumnStep; ++k) {
-        parts[k] = pairs_of<Value>(args, args.runs[i + c + k]);
-      }
-      float* const of_step = sums + c * kPairRows;
-      sum_columns_of_pairs<How>(parts, rows, of_step,
-                                std::make_index_sequence<kColumnStep * kPairVecs>());
-      for (size_t k = 0; k < kColumnStep; ++k) {
-        finish(parts[k], args.runs[i + c + k], of_step + k * kPairRows);
-      }
+      sum_columns_of_one<How, Value>(args, args.runs + i + c, sums + c * kPairRows,
+                                     std::make_index_sequence<kColumnStep>());
     }
     four_sums_of_rows(sums, args.outputs + i);
   }
   for (; i < args.run_count; ++i) {
-    for (size_t r = 0; r < kPairRows; ++r) sums[r] = 0.0f;
-    finish(pairs_of<Value>(args, args.runs[i]), args.runs[i], sums);
+    sum_columns_of_one<How, Value>(args, args.runs + i, sums, std::index_sequence<0>());
     args.outputs[i] = sum_of_rows(sums);
   }
+}
+
+template <class How, class Value, size_t... K>
+inline void add_single_of_lanes(const Value* values, const float* rows, float* sums,
+                                std::index_sequence<K...> each) {
+  const Value* const same[] = {(static_cast<void>(K), values)...};
+  const float* const from[] = {rows + K * kPairRows...};
+  float* const to[] = {sums + K * kPairRows...};
+  add_singles_of<How>(same, from, to, each);
 }
 
 /// kTransposedLanes gradients, one column at a time.
@@ -188,13 +210,13 @@ inline void sum_columns_of_lanes(const JointTransposedArgs& args) {
                               std::make_index_sequence<kLaneStep * kPairVecs>());
     }
     const RunPart<Value> singles = singles_of<Value>(args, args.runs[i]);
-    const Value* values = singles.values;
-    for (const uint16_t* n = singles.numbers; n < singles.end; ++n, values += kJointBlockRows) {
-      const float* const from = rows_of_pair(args.rows, *n, kTransposedLanes) + half_of(*n);
-      float* const to = sums + half_of(*n);
-      for (size_t k = 0; k < kTransposedLanes * kPairRows; k += kPairRows) {
-        add_single<How>(values, from + k, to + k);
-      }
+    for (size_t n = 0; n < singles.count; ++n) {
+      const Value* const values = singles.values + n * kJointBlockRows;
+      const size_t half = half_of(singles.numbers[n]);
+      const float* const from =
+          rows_of_pair(args.rows, singles.numbers[n], kTransposedLanes) + half;
+      add_single_of_lanes<How>(values, from, sums + half,
+                               std::make_index_sequence<kTransposedLanes>());
     }
     for (size_t k = 0; k < kTransposedLanes; k += 4) {
       four_sums_of_rows(sums + k * kPairRows, args.outputs + i * kTransposedLanes + k);

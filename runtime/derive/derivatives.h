@@ -93,7 +93,7 @@ struct Derivatives : Object {
   // The joint matrix.
   Span<uint32_t> value_rows;         // [joint value, angle] packed row that writes it at the LOD
   Span<uint32_t> row_values;         // [packed row] the value that it writes, or kNoValue
-  Span<uint32_t> columns_by_length;  // columns by their number of pairs at the LOD
+  Span<uint32_t> columns_by_length;  // neighbors have about as many blocks at the LOD
   Span<uint8_t> moved_columns;       // [column] some direction moves it
   Span<uint32_t> block_starts;       // [block row] into blocks, one more at the end
   Span<uint32_t> block_ends;         // [block row] into blocks

@@ -111,8 +111,8 @@ bool find_moved_columns(Derivatives& d) {
   int64_t saved = -kPassCost * passes * block_rows_at(d);
   for (uint32_t c = 0; c < joints.columns.count; ++c) {
     const float* lanes = d.controls.data + size_t{joints.columns[c]} * kBatchLanes;
-    int64_t users = 0;
-    for (uint32_t k = 0; k < d.lane_count; ++k) users += lanes[k] != 0.0f;
+    int32_t users = 0;  // lanes past lane_count are 0
+    for (uint32_t k = 0; k < kBatchLanes; ++k) users += lanes[k] != 0.0f;
     const uint8_t is_moved = users != 0;
     d.blocks_listed &= d.moved_columns[c] == is_moved;
     d.moved_columns[c] = is_moved;
@@ -256,8 +256,12 @@ void find_joint_rows(Derivatives& d) {
   }
   for (uint32_t c = 0; c < d.columns_by_length.count; ++c) d.columns_by_length[c] = c;
   std::sort(d.columns_by_length.begin(), d.columns_by_length.end(), [&](uint32_t a, uint32_t b) {
-    const uint32_t of_a = joints.part(a, panels).pairs, of_b = joints.part(b, panels).pairs;
-    return of_a != of_b ? of_a < of_b : a < b;
+    const ColumnPart &of_a = joints.part(a, panels), &of_b = joints.part(b, panels);
+    // Single blocks that are not shared cost more than pairs.
+    const uint32_t singles_of_a = of_a.singles / 4u, singles_of_b = of_b.singles / 4u;
+    if (singles_of_a != singles_of_b) return singles_of_a < singles_of_b;
+    if (of_a.pairs != of_b.pairs) return of_a.pairs < of_b.pairs;
+    return of_a.singles != of_b.singles ? of_a.singles < of_b.singles : a < b;
   });
   d.blocks_listed = false;
 }

@@ -285,12 +285,12 @@ void push_rbf(Derivatives& d) {
     float* const results = d.rbf_lanes.data;
     const float* slopes = d.rbf_slopes.data + d.rbf_first[index];
     for (uint32_t t = 0; t < plan.pose_count; ++t, slopes += inputs) {
-      clear<L>(results + size_t{t} * L);
+      float sum[L] = {};  // compilers must assume that buffers overlap
       for (uint32_t i = 0; i < inputs; ++i) {
         if (slopes[i] == 0.0f) continue;
-        add_scaled<L>(results + size_t{t} * L, x + size_t{rbf_input_control(rbf, plan, i)} * L,
-                      slopes[i]);
+        add_scaled<L>(sum, x + size_t{rbf_input_control(rbf, plan, i)} * L, slopes[i]);
       }
+      std::copy(sum, sum + L, results + size_t{t} * L);
     }
     for (uint32_t t = 0; t < plan.pose_count; ++t) {
       const float* result = results + size_t{t} * L;

@@ -257,6 +257,25 @@ void clear_rotation(const Rig& rig, float* rotation) {
 
 }  // namespace
 
+/// The sums of a rotation's parts, apart from the buffers: compilers must assume that those overlap. Not in the
+/// unnamed namespace, because what for_each_step() takes captures it.
+template <uint32_t L>
+struct RotationSums {
+  const uint32_t count;
+  float parts[4][L] = {};
+
+  explicit RotationSums(const Rig& rig) : count(parts_of_output(rig)) {}
+  /// Adds one input times its slopes by part, `stride` apart.
+  void add(const float* input, const float* slopes, size_t stride) {
+    // All four of a single direction, which takes no loop.
+    const size_t n = L == 1 ? 4 : count;
+    for (size_t r = 0; r < n; ++r) add_scaled<L>(parts[r], input, slopes[r * stride]);
+  }
+  void store(float* rotation) const {
+    for (size_t r = 0; r < count; ++r) std::copy(parts[r], parts[r] + L, rotation + r * L);
+  }
+};
+
 void convert_rotation_slopes(Derivatives& d, float* x, float* slopes) {
   const Rig& rig = *d.rig;
   const CoordinateChange& change = rig.ml.change;
@@ -315,38 +334,28 @@ void push_rotations(Derivatives& d) {
   const float* const x = d.controls.data;
   for_each_output(rig.rotations.turns, d.lod, turn_blocks(rig, d.lod),
                   [&](const RotationOutput& output) {
-                    float* to = d.joints.data + rotation_value(rig, output.joint) * L;
-                    clear_rotation<L>(rig, to);
+                    RotationSums<L> sums(rig);
                     for_each_step(rig, d.lod, output.lane, [&](uint16_t control, size_t step) {
-                      const float* slopes = d.turn_slopes.data + step * 4;
-                      for (uint32_t r = 0; r < parts; ++r) {
-                        add_scaled<L>(to + size_t{r} * L, x + size_t{control} * L, slopes[r]);
-                      }
+                      sums.add(x + size_t{control} * L, d.turn_slopes.data + step * 4, 1);
                     });
+                    sums.store(d.joints.data + rotation_value(rig, output.joint) * L);
                   });
   for_each_angle_joint(rig, d.lod, [&](uint32_t joint) {
-    float* to = d.joints.data + rotation_value(rig, joint) * L;
     const float* angles = d.joints.data + (rig.joint_value_count() + size_t{joint} * 3) * L;
     const float* slopes = d.angle_slopes.data + size_t{joint} * 12;
-    clear_rotation<L>(rig, to);
-    for (uint32_t r = 0; r < 4; ++r) {
-      for (uint32_t k = 0; k < 3; ++k) {
-        add_scaled<L>(to + size_t{r} * L, angles + size_t{k} * L, slopes[3 * r + k]);
-      }
-    }
+    RotationSums<L> sums(rig);
+    for (size_t k = 0; k < 3; ++k) sums.add(angles + k * L, slopes + k, 3);
+    sums.store(d.joints.data + rotation_value(rig, joint) * L);
   });
   for_each_output(rig.twist_swing.outputs, d.lod, twist_blocks(rig, d.lod),
                   [&](const RotationOutput& output) {
-                    float* to = d.joints.data + rotation_value(rig, output.joint) * L;
                     const float* slopes = d.twist_slopes.data + size_t{output.lane} * 16;
-                    clear_rotation<L>(rig, to);
-                    for (uint32_t r = 0; r < parts; ++r) {
-                      for (uint32_t k = 0; k < 4; ++k) {
-                        add_scaled<L>(to + size_t{r} * L,
-                                      x + size_t{twist_input(rig.twist_swing, output.lane, k)} * L,
-                                      slopes[4 * r + k]);
-                      }
+                    RotationSums<L> sums(rig);
+                    for (size_t k = 0; k < 4; ++k) {
+                      const size_t control = twist_input(rig.twist_swing, output.lane, k);
+                      sums.add(x + control * L, slopes + k, 4);
                     }
+                    sums.store(d.joints.data + rotation_value(rig, output.joint) * L);
                   });
   for (size_t j = 0; j < rig.ml.joints.count; ++j) {
     const MlJoint& joint = rig.ml.joints[j];
