@@ -131,7 +131,7 @@ void interpolate(const RbfTable& rbf, const RbfSolverPlan& plan, const RbfScratc
 }
 
 /// Results of the poses. A weight below the threshold has the result 0, but the derivative that it would have
-/// without a threshold, so that a solver sees where to go.
+/// without a threshold, so that a solver sees where to go. Negative scales never reach a threshold of 0.
 void normalize(const RbfTable& rbf, const RbfSolverPlan& plan, const RbfScratch& s) {
   const uint32_t count = compared_count(plan);
   double sum = 0;
@@ -143,17 +143,16 @@ void normalize(const RbfTable& rbf, const RbfSolverPlan& plan, const RbfScratch&
   const bool divides = sum > 1 || (plan.always_normalize && sum > 0);
   const double scale = divides ? (1 / sum < 3.4e38 ? 1 / sum : 0) : 1;
   for (uint32_t t = 0; t < plan.pose_count; ++t) {
-    const double factor =
-        double{rbf.pose_scales[plan.first_lane + t]} * rbf.pose_factors[plan.first_lane + t];
+    const double pose_scale = rbf.pose_scales[plan.first_lane + t];
+    const double factor = pose_scale * rbf.pose_factors[plan.first_lane + t];
     const double weight = s.weights[t] * scale;
-    const double before = weight * rbf.pose_scales[plan.first_lane + t];
     for (uint32_t i = 0; i < count; ++i) {
       double& slope = s.by_compared[size_t{t} * count + i];
       slope *= scale;
       if (divides) slope -= weight * scale * s.sums[i];
-      slope *= before > 0 || plan.threshold < 0 ? factor : 0;
+      slope *= pose_scale > 0 || plan.threshold < 0 ? factor : 0;
     }
-    s.weights[t] = before > plan.threshold ? weight * factor : 0;
+    s.weights[t] = weight * pose_scale > plan.threshold ? weight * factor : 0;
   }
 }
 

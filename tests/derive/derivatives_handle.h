@@ -41,6 +41,14 @@ inline std::vector<float> forward(const DerivativesHandle& d, uint32_t from, uin
             MIEN_OK);
   return out;
 }
+inline std::vector<float> reverse(const DerivativesHandle& d, uint32_t from, uint32_t to,
+                                  const std::vector<float>& rows, uint32_t count = 1,
+                                  uint32_t mesh = 0) {
+  std::vector<float> out(size_of(d, from, mesh) * count);
+  EXPECT_EQ(mien_derivatives_reverse(d.get(), from, to, mesh, count, rows.data(), out.data()),
+            MIEN_OK);
+  return out;
+}
 inline void linearize(const DerivativesHandle& d, const Character& character,
                       uint32_t stages = MIEN_STAGE_ALL) {
   EXPECT_EQ(mien_derivatives_linearize(d.get(), character.instance.get(), stages), MIEN_OK);

@@ -8,8 +8,8 @@
 
 #include "tests/derive/derivatives_handle.h"
 #include "tests/fit/fit_head.h"
+#include "tests/support/authored_head.h"
 #include "tests/support/golden.h"
-#include "tests/support/mesh_source.h"
 
 namespace mien {
 namespace {
@@ -232,33 +232,6 @@ void expect_most(const std::string& name, Subject&& subject, size_t first, size_
   EXPECT_GE(100 * met, 99 * count);
 }
 
-/// The skin of the procedural head with its 52 expressions, rigged by libmien-author.
-DnaHandle author_head() {
-  author::TestMesh source = author::procedural_mesh(4, true);
-  std::vector<MienAuthorShape> shapes(source.shape_names.size());
-  for (size_t s = 0; s < shapes.size(); ++s) {
-    shapes[s].name = {source.shape_names[s].data(), source.shape_names[s].size()};
-    shapes[s].position_count = source.positions.size() / 3;
-    shapes[s].displacements = source.displacements[s].data();
-  }
-  MienAuthorMesh mesh = sized<MienAuthorMesh>();
-  mesh.positions = source.positions.data();
-  mesh.position_count = source.positions.size() / 3;
-  mesh.face_sizes = source.face_sizes.data();
-  mesh.face_count = source.face_sizes.size();
-  mesh.corners = source.corners.data();
-  mesh.corner_count = source.corners.size();
-  mesh.shapes = shapes.data();
-  mesh.shape_count = shapes.size();
-  MienAuthorDesc desc = sized<MienAuthorDesc>();
-  desc.facial_joints = 60;
-  desc.lods = 1;
-  MienError error = sized<MienError>();
-  MienDna* dna = nullptr;
-  EXPECT_EQ(mien_author_rig(&mesh, &desc, &dna, nullptr, &error), MIEN_OK) << error.message;
-  return DnaHandle(dna);
-}
-
 /// A golden rig. The components of quaternions among its raw controls stay as they are: RBF solvers read them, and
 /// they are no expressions.
 Subject golden_rig(const std::string& name) {
@@ -292,7 +265,7 @@ void expect_all(size_t first, size_t count) {
     expect_most(name, golden_rig(name), first, count);
   }
   expect_most("ml_ext", determined_rig("ml_ext"), first, count);
-  expect_most("authored", Subject(author_head()), first, count);
+  expect_most("authored", Subject(author_head(4, 60)), first, count);
 }
 
 // Among these are poses of ml whose controls move the mesh through networks alone.

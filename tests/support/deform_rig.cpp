@@ -160,13 +160,17 @@ Mesh random_mesh(std::mt19937& random, Arena& arena, const DeformRigOptions& opt
 
 // Arithmetic --------------------------------------------------------------------------------------
 
-Matrix4d identity() {
-  Matrix4d m = {};
+using model::Dual;
+
+template <class T = double>
+Matrix4Of<T> identity() {
+  Matrix4Of<T> m = {};
   for (size_t i = 0; i < 4; ++i) m[i][i] = 1;
   return m;
 }
-Matrix4d operator*(const Matrix4d& a, const Matrix4d& b) {
-  Matrix4d product = {};
+template <class A, class B>
+auto operator*(const Matrix4Of<A>& a, const Matrix4Of<B>& b) {
+  Matrix4Of<decltype(A() * B())> product = {};
   for (size_t r = 0; r < 4; ++r) {
     for (size_t c = 0; c < 4; ++c) {
       for (size_t k = 0; k < 4; ++k) product[r][c] += a[r][k] * b[k][c];
@@ -174,12 +178,15 @@ Matrix4d operator*(const Matrix4d& a, const Matrix4d& b) {
   }
   return product;
 }
-Matrix4d about(uint32_t axis, double angle) {
-  Matrix4d m = identity();
+template <class T>
+Matrix4Of<T> about(uint32_t axis, const T& angle) {
+  using model::cos;
+  using model::sin;
+  Matrix4Of<T> m = identity<T>();
   const size_t a = (axis + 1) % 3, b = (axis + 2) % 3;
-  m[a][a] = m[b][b] = std::cos(angle);
-  m[a][b] = -std::sin(angle);
-  m[b][a] = std::sin(angle);
+  m[a][a] = m[b][b] = cos(angle);
+  m[a][b] = -sin(angle);
+  m[b][a] = sin(angle);
   return m;
 }
 /// Gauss and Jordan, with pivots.
@@ -215,8 +222,9 @@ Matrix4d transposed(const Matrix4d& m) {
   }
   return t;
 }
-Vec3d apply(const Matrix4d& m, const Vec3d& v, double w) {
-  Vec3d out;
+template <class T>
+Vec3Of<T> apply(const Matrix4Of<T>& m, const Vec3Of<T>& v, double w) {
+  Vec3Of<T> out;
   for (size_t r = 0; r < 3; ++r)
     out[r] = m[r][0] * v[0] + m[r][1] * v[1] + m[r][2] * v[2] + m[r][3] * w;
   return out;
@@ -232,25 +240,21 @@ Vec3d unit(Vec3d v) {
   for (double& part : v) part /= length;
   return v;
 }
-Matrix4d from_quaternion(double x, double y, double z, double w) {
-  const double length = std::sqrt(x * x + y * y + z * z + w * w);
-  if (!(length > 0)) return identity();
-  // A turn by `angle` about a unit axis, after Rodrigues.
-  const double half = std::atan2(std::sqrt(x * x + y * y + z * z), w);
-  const Vec3d axis = unit({x, y, z});
-  const double angle = 2 * half;
-  Matrix4d k = {}, m = identity();
-  k[0][1] = -axis[2];
-  k[0][2] = axis[1];
-  k[1][0] = axis[2];
-  k[1][2] = -axis[0];
-  k[2][0] = -axis[1];
-  k[2][1] = axis[0];
-  const Matrix4d kk = k * k;
+template <class T>
+Matrix4Of<T> from_quaternion(const T& x, const T& y, const T& z, const T& w) {
+  const T squared = x * x + y * y + z * z + w * w;
+  if (!(squared > 0)) return identity<T>();
+  // A turn about an axis, after Rodrigues. With half its angle: sin(angle) = 2 sin cos, 1 - cos(angle) = 2 sin^2.
+  Matrix4Of<T> k = {}, m = identity<T>();
+  k[0][1] = -z;
+  k[0][2] = y;
+  k[1][0] = z;
+  k[1][2] = -x;
+  k[2][0] = -y;
+  k[2][1] = x;
+  const Matrix4Of<T> kk = k * k;
   for (size_t r = 0; r < 3; ++r) {
-    for (size_t c = 0; c < 3; ++c) {
-      m[r][c] += std::sin(angle) * k[r][c] + (1 - std::cos(angle)) * kk[r][c];
-    }
+    for (size_t c = 0; c < 3; ++c) m[r][c] += 2 * (w * k[r][c] + kk[r][c]) / squared;
   }
   return m;
 }
@@ -259,13 +263,14 @@ Vec3d at(const Vec3Array& vectors, size_t i) {
   return {vectors.xs[i], vectors.ys[i], vectors.zs[i]};
 }
 
-Matrix4d turn_of(const DnaView& view, const Vec3d& angles) {
+template <class T>
+Matrix4Of<T> turn_of(const DnaView& view, const Vec3Of<T>& angles) {
   static constexpr uint32_t kAxes[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2},
                                            {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
   const double signs[3] = {double(view.dsce.rotation_sign.x), double(view.dsce.rotation_sign.y),
                            double(view.dsce.rotation_sign.z)};
   const double unit_angle = view.desc.rotation_unit == 0 ? kPi / 180 : 1;
-  Matrix4d turn = identity();
+  Matrix4Of<T> turn = identity<T>();
   for (uint32_t axis : kAxes[view.dsce.rotation_sequence]) {
     turn = about(axis, angles[axis] * signs[axis] * unit_angle) * turn;
   }
@@ -387,34 +392,40 @@ DeformValues random_values(const MienRig* rig, uint32_t seed, double scale_skew)
   return values;
 }
 
-Matrix4d PlainDeformer::local(uint32_t joint, const float* delta) const {
-  const Vec3d translation = at(view.defn.neutral_translations, joint);
-  const Vec3d angles = at(view.defn.neutral_rotations, joint);
-  const int scales = quaternions ? 7 : 6;
-  Matrix4d scale = identity();
-  for (size_t i = 0; i < 3; ++i) scale[i][i] = 1.0 + delta[scales + int(i)];
-  Matrix4d turn;
-  if (quaternions) {
-    turn = turn_of(view, angles) * from_quaternion(delta[3], delta[4], delta[5], delta[6]);
-  } else if (add_angles) {
-    turn = turn_of(view, {angles[0] + delta[3], angles[1] + delta[4], angles[2] + delta[5]});
-  } else {
-    turn = turn_of(view, angles) * turn_of(view, {delta[3], delta[4], delta[5]});
+template <class T>
+std::vector<Matrix4Of<T>> PlainDeformer::locals(const std::vector<T>& values) const {
+  std::vector<Matrix4Of<T>> result;
+  const uint32_t attributes = quaternions ? 10 : 9;
+  for (uint32_t j = 0; j < view.defn.joint_names.count; ++j) {
+    const T* delta = values.data() + j * attributes;
+    const Vec3d translation = at(view.defn.neutral_translations, j);
+    const Vec3d angles = at(view.defn.neutral_rotations, j);
+    Matrix4Of<T> move = identity<T>(), scale = move, turn;
+    for (size_t i = 0; i < 3; ++i) {
+      move[i][3] = translation[i] + delta[i];
+      scale[i][i] = 1.0 + delta[attributes - 3 + i];
+    }
+    if (quaternions) {
+      turn = turn_of(view, angles) * from_quaternion(delta[3], delta[4], delta[5], delta[6]);
+    } else if (add_angles) {
+      turn = turn_of(view,
+                     Vec3Of<T>{angles[0] + delta[3], angles[1] + delta[4], angles[2] + delta[5]});
+    } else {
+      turn = turn_of(view, angles) * turn_of(view, Vec3Of<T>{delta[3], delta[4], delta[5]});
+    }
+    result.push_back(move * turn * scale);
   }
-  Matrix4d move = identity();
-  for (size_t i = 0; i < 3; ++i) move[i][3] = translation[i] + delta[i];
-  return move * turn * scale;
+  return result;
 }
 
-std::vector<Matrix4d> PlainDeformer::models(const std::vector<float>& values) const {
-  const uint32_t count = view.defn.joint_names.count;
-  const uint32_t attributes = quaternions ? 10 : 9;
-  std::vector<Matrix4d> result;
-  for (uint32_t j = 0; j < count; ++j) {
+template <class T>
+std::vector<Matrix4Of<T>> PlainDeformer::models_of(const std::vector<Matrix4Of<T>>& locals) const {
+  std::vector<Matrix4Of<T>> result;
+  for (uint32_t j = 0; j < locals.size(); ++j) {
     // Each joint walks to its root anew.
-    Matrix4d m = identity();
+    Matrix4Of<T> m = identity<T>();
     for (uint32_t a = j;; a = view.defn.joint_hierarchy[a]) {
-      m = local(a, values.data() + a * attributes) * m;
+      m = locals[a] * m;
       if (view.defn.joint_hierarchy[a] == a) break;
     }
     result.push_back(m);
@@ -422,28 +433,33 @@ std::vector<Matrix4d> PlainDeformer::models(const std::vector<float>& values) co
   return result;
 }
 
-std::vector<Matrix4d> PlainDeformer::skins(const std::vector<float>& values) const {
-  std::vector<float> neutral(values.size(), 0.0f);
-  if (quaternions) {
-    for (size_t i = 6; i < neutral.size(); i += 10) neutral[i] = 1;
-  }
-  std::vector<Matrix4d> now = models(values);
-  const std::vector<Matrix4d> bind = models(neutral);
-  for (size_t j = 0; j < now.size(); ++j) now[j] = now[j] * inverse(bind[j]);
-  return now;
+template <class T>
+std::vector<Matrix4Of<T>> PlainDeformer::skins_of(std::vector<Matrix4Of<T>> models) const {
+  const uint32_t attributes = quaternions ? 10 : 9;
+  std::vector<double> neutral(models.size() * attributes, 0.0);
+  for (size_t i = 6; quaternions && i < neutral.size(); i += 10) neutral[i] = 1;
+  const std::vector<Matrix4d> bind = models_of(locals(neutral));
+  for (size_t j = 0; j < models.size(); ++j) models[j] = models[j] * inverse(bind[j]);
+  return models;
 }
 
 namespace {
 
+std::vector<double> doubles(const std::vector<float>& values) {
+  return {values.begin(), values.end()};
+}
+
+template <class T>
 struct Blended {
-  std::vector<Matrix4d> at;  // [position]
+  std::vector<Matrix4Of<T>> at;  // [position]
 };
 
-Blended blend(const PlainDeformer& plain, const dna::Mesh& mesh,
-              const std::vector<Matrix4d>& skins) {
-  Blended blended;
+template <class T>
+Blended<T> blend(const PlainDeformer& plain, const dna::Mesh& mesh,
+                 const std::vector<Matrix4Of<T>>& skins) {
+  Blended<T> blended;
   for (uint32_t p = 0; p < mesh.positions.xs.count; ++p) {
-    Matrix4d sum = {};
+    Matrix4Of<T> sum = {};
     double total = 0;
     bool held = false;
     if (mesh.skin_weights.count != 0) {
@@ -461,35 +477,61 @@ Blended blend(const PlainDeformer& plain, const dna::Mesh& mesh,
     }
     if (plain.fix_weights && held) {
       for (auto& row : sum) {
-        for (double& value : row) value /= total;
+        for (T& value : row) value /= total;
       }
     }
-    blended.at.push_back(held ? sum : identity());
+    blended.at.push_back(held ? sum : identity<T>());
   }
   return blended;
 }
 
 }  // namespace
 
-std::vector<Vec3d> PlainDeformer::positions(uint32_t m, const DeformValues& values) const {
+template <class T>
+std::vector<Vec3Of<T>> PlainDeformer::positions_of(uint32_t m,
+                                                   const std::vector<Matrix4Of<T>>& skins,
+                                                   const std::vector<T>& channels) const {
   const dna::Mesh& mesh = view.geom.meshes[m];
-  std::vector<Vec3d> result;
-  for (uint32_t p = 0; p < mesh.positions.xs.count; ++p) result.push_back(at(mesh.positions, p));
+  std::vector<Vec3Of<T>> result;
+  for (uint32_t p = 0; p < mesh.positions.xs.count; ++p) {
+    const Vec3d neutral = at(mesh.positions, p);
+    result.push_back({neutral[0], neutral[1], neutral[2]});
+  }
   for (const auto& target : mesh.blend_shape_targets) {
-    const double weight = values.channels[target.channel_index];
+    const T weight = channels[target.channel_index];
     for (uint32_t i = 0; i < target.vertex_indices.count; ++i) {
       const Vec3d delta = at(target.deltas, i);
       for (size_t k = 0; k < 3; ++k) result[target.vertex_indices[i]][k] += weight * delta[k];
     }
   }
-  const Blended blended = blend(*this, mesh, skins(values.joints));
+  const Blended<T> blended = blend(*this, mesh, skins);
   for (size_t p = 0; p < result.size(); ++p) result[p] = apply(blended.at[p], result[p], 1);
   return result;
 }
 
+#define MIEN_PLAIN_DEFORMER(T)                                                                  \
+  template std::vector<Matrix4Of<T>> PlainDeformer::locals(const std::vector<T>&) const;        \
+  template std::vector<Matrix4Of<T>> PlainDeformer::models_of(const std::vector<Matrix4Of<T>>&) \
+      const;                                                                                    \
+  template std::vector<Matrix4Of<T>> PlainDeformer::skins_of(std::vector<Matrix4Of<T>>) const;  \
+  template std::vector<Vec3Of<T>> PlainDeformer::positions_of(                                  \
+      uint32_t, const std::vector<Matrix4Of<T>>&, const std::vector<T>&) const;
+MIEN_PLAIN_DEFORMER(double)
+MIEN_PLAIN_DEFORMER(Dual)
+
+std::vector<Matrix4d> PlainDeformer::models(const std::vector<float>& values) const {
+  return models_of(locals(doubles(values)));
+}
+std::vector<Matrix4d> PlainDeformer::skins(const std::vector<float>& values) const {
+  return skins_of(models(values));
+}
+std::vector<Vec3d> PlainDeformer::positions(uint32_t m, const DeformValues& values) const {
+  return positions_of(m, skins(values.joints), doubles(values.channels));
+}
+
 std::vector<Vec3d> PlainDeformer::skinned_normals(uint32_t m, const DeformValues& values) const {
   const dna::Mesh& mesh = view.geom.meshes[m];
-  const Blended blended = blend(*this, mesh, skins(values.joints));
+  const Blended<double> blended = blend(*this, mesh, skins(values.joints));
   std::vector<Vec3d> result;
   for (uint32_t v = 0; v < mesh.layouts.positions.count; ++v) {
     Matrix4d turn = blended.at[mesh.layouts.positions[v]];
@@ -621,11 +663,11 @@ std::vector<Vec4d> PlainDeformer::neutral_tangents(uint32_t m, Span<const float>
 std::vector<Vec3d> PlainDeformer::skinned_tangents(uint32_t m, const DeformValues& values,
                                                    const std::vector<Vec4d>& neutral) const {
   const dna::Mesh& mesh = view.geom.meshes[m];
-  const Blended blended = blend(*this, mesh, skins(values.joints));
+  const Blended<double> blended = blend(*this, mesh, skins(values.joints));
   std::vector<Vec3d> result;
   for (uint32_t v = 0; v < neutral.size(); ++v) {
     const Vec4d& t = neutral[v];
-    result.push_back(apply(blended.at[mesh.layouts.positions[v]], {t[0], t[1], t[2]}, 0));
+    result.push_back(apply(blended.at[mesh.layouts.positions[v]], Vec3d{t[0], t[1], t[2]}, 0));
   }
   return result;
 }

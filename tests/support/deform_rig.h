@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Rigs with geometry for tests of the deformer, and the deformer once more in double precision:
-// straight from the formulas, sharing no code with the library.
+// straight from the formulas, sharing no code with the library. Templates take duals, too.
 #pragma once
 
 #include <array>
 #include <random>
 #include <vector>
 
+#include "integrations/program/model/dual.h"
 #include "runtime/load/dna/format/dna_view.h"
 #include "tests/support/rig_handles.h"
 
@@ -54,9 +55,13 @@ struct DeformValues {
 /// `scale_skew` 0: uniform scales.
 DeformValues random_values(const MienRig* rig, uint32_t seed, double scale_skew = 0.1);
 
-using Vec3d = std::array<double, 3>;
+template <class T>
+using Vec3Of = std::array<T, 3>;
+using Vec3d = Vec3Of<double>;
 using Vec4d = std::array<double, 4>;
-using Matrix4d = std::array<std::array<double, 4>, 4>;  // [row][column]
+template <class T>
+using Matrix4Of = std::array<std::array<T, 4>, 4>;  // [row][column]
+using Matrix4d = Matrix4Of<double>;
 
 struct PlainDeformer {
   const dna::DnaView& view;
@@ -64,6 +69,18 @@ struct PlainDeformer {
   bool add_angles = false;
   bool fix_weights = false;
 
+  // Stage by stage.
+  template <class T>
+  std::vector<Matrix4Of<T>> locals(const std::vector<T>& values) const;
+  template <class T>
+  std::vector<Matrix4Of<T>> models_of(const std::vector<Matrix4Of<T>>& locals) const;
+  template <class T>
+  std::vector<Matrix4Of<T>> skins_of(std::vector<Matrix4Of<T>> models) const;
+  template <class T>
+  std::vector<Vec3Of<T>> positions_of(uint32_t mesh, const std::vector<Matrix4Of<T>>& skins,
+                                      const std::vector<T>& channels) const;
+
+  // From joint values.
   std::vector<Matrix4d> models(const std::vector<float>& values) const;
   std::vector<Matrix4d> skins(const std::vector<float>& values) const;
   std::vector<Vec3d> positions(uint32_t mesh, const DeformValues& values) const;
@@ -78,7 +95,6 @@ struct PlainDeformer {
   double diagonal(uint32_t mesh) const;
 
  private:
-  Matrix4d local(uint32_t joint, const float* delta) const;
   std::vector<Vec3d> directions(uint32_t mesh, const std::vector<Vec3d>& positions) const;
 };
 

@@ -160,7 +160,172 @@ List<Turn> turns(const std::vector<PlainTurn>& from, Maker& make) {
   return make.list(all);
 }
 
+// The way back.
+
+template <class T>
+std::vector<T> copy_array(const dna::Array<T>& array) {
+  std::vector<T> all(array.count);
+  for (uint32_t i = 0; i < array.count; ++i) all[i] = array[i];
+  return all;
+}
+
+/// LODs that the file leaves out have no rows.
+std::vector<uint16_t> row_counts(const dna::Array<uint16_t>& lods, size_t lod_count) {
+  std::vector<uint16_t> counts = copy_array(lods);
+  counts.resize(lod_count);
+  return counts;
+}
+
+LodIndices read_lods(const dna::LodMap& map, size_t lod_count) {
+  LodIndices rows;
+  for (size_t lod = 0; lod < lod_count; ++lod) rows.push_back(copy_array(map.at(lod)));
+  return rows;
+}
+
+PlainTable read_table(const dna::ConditionalTable& t) {
+  PlainTable table;
+  for (uint32_t r = 0; r < t.input_indices.count; ++r) {
+    table.push_back({t.input_indices[r], t.output_indices[r], t.from_values[r], t.to_values[r],
+                     t.slope_values[r], t.cut_values[r]});
+  }
+  return table;
+}
+
+std::vector<uint16_t> with_w(const List<String>& names) {
+  std::vector<uint16_t> found;
+  for (uint32_t i = 0; i < names.count; ++i) {
+    const std::string name(names[i].chars(), names[i].count);
+    for (const std::string end : {".w", ".qw"}) {
+      const bool ends =
+          name.size() >= end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0;
+      if (ends) found.push_back(static_cast<uint16_t>(i));
+    }
+  }
+  return found;
+}
+
+std::vector<std::pair<uint16_t, uint16_t>> read_pairs(const dna::Array<uint16_t>& first,
+                                                      const dna::Array<uint16_t>& second) {
+  std::vector<std::pair<uint16_t, uint16_t>> pairs;
+  for (uint32_t i = 0; i < first.count; ++i) pairs.emplace_back(first[i], second[i]);
+  return pairs;
+}
+
+void read_base(const dna::DnaView& view, PlainRig& base) {
+  const dna::Behavior& bhvr = view.bhvr;
+  const auto count = [](const List<String>& names) { return static_cast<uint16_t>(names.count); };
+  base.lod_count = view.desc.lod_count;
+  base.gui_count = count(view.defn.gui_control_names);
+  base.raw_count = count(view.defn.raw_control_names);
+  base.psd_count = bhvr.controls.psd_count;
+  base.joint_count = count(view.defn.joint_names);
+  base.channel_count = count(view.defn.channel_names);
+  base.map_count = count(view.defn.map_names);
+  base.gui_to_raw = read_table(bhvr.controls.conditionals);
+  const dna::PsdTable& psds = bhvr.controls.psds;
+  for (uint32_t i = 0; i < psds.rows.count; ++i) {
+    base.psds.push_back({psds.rows[i], psds.columns[i], psds.values[i]});
+  }
+  for (const dna::JointGroup& group : bhvr.joints.groups) {
+    base.groups.push_back({row_counts(group.lods, base.lod_count), copy_array(group.input_indices),
+                           copy_array(group.output_indices), copy_array(group.values)});
+  }
+  base.channel_lods = row_counts(bhvr.channels.lods, base.lod_count);
+  base.channel_inputs = copy_array(bhvr.channels.input_indices);
+  base.channel_outputs = copy_array(bhvr.channels.output_indices);
+  base.map_lods = row_counts(bhvr.maps.lods, base.lod_count);
+  base.maps = read_table(bhvr.maps.conditionals);
+}
+
+void read_rbf(const dna::DnaView& view, LayerRig& rig) {
+  for (const dna::RbfSolver& s : view.rbfb.solvers) {
+    rig.solvers.push_back({copy_array(s.raw_control_indices), copy_array(s.pose_indices),
+                           copy_array(s.raw_control_values), s.radius, s.weight_threshold,
+                           s.solver_type, s.automatic_radius, s.distance_method, s.normalize_method,
+                           s.function_type, s.twist_axis});
+  }
+  rig.lod_solvers = read_lods(view.rbfb.lod_solvers, rig.base.lod_count);
+  for (uint32_t p = 0; p < view.rbfb.poses.count; ++p) {
+    // Before 2.5 each pose drives a control of its own.
+    PlainRbfPose pose = {
+        view.rbfb.poses[p].scale, {}, {static_cast<uint16_t>(rig.first_rbf() + p)}, {1.0f}};
+    if (view.rbfe.pose_control_names.count != 0) {
+      const dna::RbfPoseControls& controls = view.rbfe.poses[p];
+      pose = {pose.scale, copy_array(controls.input_control_indices),
+              copy_array(controls.output_control_indices),
+              copy_array(controls.output_control_weights)};
+    }
+    rig.poses.push_back(pose);
+  }
+}
+
+void read_networks(const dna::DnaView& view, LayerRig& rig) {
+  for (const dna::NeuralNetwork& n : view.mlbh.networks) {
+    PlainNetwork network = {copy_array(n.input_indices), copy_array(n.output_indices), {}};
+    for (const dna::NetworkLayer& l : n.layers) {
+      network.layers.push_back(
+          {copy_array(l.biases), copy_array(l.weights), l.function_id, copy_array(l.parameters)});
+    }
+    rig.networks.push_back(network);
+  }
+  rig.lod_networks = read_lods(view.mlbh.lod_networks, rig.base.lod_count);
+  for (const auto& mesh : view.mlbh.mesh_regions.indices) {
+    for (const auto& region : mesh) rig.regions.push_back(copy_array(region));
+  }
+  for (const dna::MlType& type : view.mlbe.types) {
+    const auto first_set = static_cast<uint16_t>(rig.operations.size());
+    for (uint32_t s = 0; s < type.operations.count; ++s) {
+      PlainOperationSet set;
+      for (const dna::MlOperation& o : type.operations[s]) {
+        set.push_back({static_cast<OperationType>(o.type), copy_array(o.parameters),
+                       read_pairs(o.set_dependencies, o.operation_dependencies)});
+        for (auto& dependency : set.back().dependencies) dependency.first += first_set;
+      }
+      rig.operations.push_back(set);
+      rig.lod_operations.push_back(read_lods(type.lod_operations[s], rig.base.lod_count));
+    }
+  }
+  const dna::MlJoints& joints = view.mlbe.joints;
+  rig.ml_parameters = read_pairs(joints.parameter_keys, joints.parameter_values);
+  rig.ml_joints = read_pairs(joints.input_indices, joints.output_indices);
+}
+
+template <class Turn>
+std::vector<PlainTurn> read_turns(const List<Turn>& from) {
+  std::vector<PlainTurn> turns;
+  for (const Turn& turn : from) {
+    turns.push_back({turn.twist_axis, copy_array(turn.input_control_indices),
+                     copy_array(turn.output_joint_indices), copy_array(turn.blend_weights)});
+  }
+  return turns;
+}
+
 }  // namespace
+
+LayerRig read_layer_rig(const dna::DnaView& view, const RigHandle& of) {
+  LayerRig rig;
+  read_base(view, rig.base);
+  rig.ml_count = static_cast<uint16_t>(view.ml_control_count);
+  rig.rbf_count = static_cast<uint16_t>(count_of(of, MIEN_KIND_RBF_CONTROL));
+  rig.absent_count = static_cast<uint16_t>(info_of(of).control_count - rig.control_count());
+  rig.rotation_unit = view.desc.rotation_unit;
+  rig.sequence = static_cast<uint16_t>(view.dsce.rotation_sequence);
+  rig.signs = {view.dsce.rotation_sign.x, view.dsce.rotation_sign.y, view.dsce.rotation_sign.z};
+  const dna::FileCoordinateSystem& system = view.desc.coordinate_system;
+  rig.axes = {system.x_axis, system.y_axis, system.z_axis};
+  rig.rotations.resize(rig.base.joint_count);
+  for (uint32_t j = 0; j < view.jbmd.joints.count && j < rig.rotations.size(); ++j) {
+    rig.rotations[j] = view.jbmd.joints[j].rotation;
+  }
+  rig.lod_joints = read_lods(view.defn.lod_joints, rig.base.lod_count);
+  rig.raw_w = with_w(view.defn.raw_control_names);
+  rig.ml_w = with_w(view.mlbh.control_names);
+  read_rbf(view, rig);
+  read_networks(view, rig);
+  rig.twists = read_turns(view.twsw.twists);
+  rig.swings = read_turns(view.twsw.swings);
+  return rig;
+}
 
 dna::DnaView to_view(const LayerRig& rig, Arena& arena) {
   Maker make{arena};

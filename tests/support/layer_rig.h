@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A LayerRig as a DNA file for the library.
+// A LayerRig as a DNA file for the library, and a DNA file as a LayerRig.
 #pragma once
 
 #include "integrations/program/model/layer_rig.h"
@@ -16,6 +16,9 @@ struct LayerFile {
   std::vector<uint8_t> bytes;
   DnaHandle dna;
 };
+
+/// The behavior of any file, for the model; `rig` was made of it.
+LayerRig read_layer_rig(const dna::DnaView& view, const RigHandle& rig);
 
 /// A row of random raw controls, with every quaternion of `quaternions` (first control) of
 /// length 1.

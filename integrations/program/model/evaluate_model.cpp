@@ -13,7 +13,7 @@ std::vector<double> evaluate_controls(const LayerRig& rig, const std::vector<flo
   std::vector<double> controls = initial_controls(rig);
   std::copy(raw.begin(), raw.end(), controls.begin());
   model_ml(rig, lod, std::vector<double>(rig.regions.size(), 1.0), false, controls);
-  if (rig.rbf_count != 0) model_rbf(rig, lod, controls, noise);
+  if (rig.rbf_count != 0) model_rbf(rig, lod, controls, {noise});
   model_psds(rig.base, controls);
   return controls;
 }

@@ -92,6 +92,7 @@ struct LayerRig {
 };
 
 /// The controls of a new instance (docs/rig-evaluation.md, 1.2 "Initial values").
-std::vector<double> initial_controls(const LayerRig& rig);
+template <class T = double>
+std::vector<T> initial_controls(const LayerRig& rig);
 
 }  // namespace mien::model

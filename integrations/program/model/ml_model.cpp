@@ -11,6 +11,10 @@ namespace mien::model {
 namespace {
 
 using Row = std::vector<double>;
+template <class T>
+using RowOf = std::vector<T>;
+template <class T>
+using Triple = std::array<T, 3>;
 
 constexpr double kDirections[6][3] = {{-1, 0, 0}, {1, 0, 0}, {0, 1, 0},
                                       {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
@@ -30,6 +34,17 @@ double default_of(const LayerRig& rig, uint32_t control) {
   return 0;
 }
 
+template <class T>
+T activation(uint16_t function, const T& v, double alpha) {
+  switch (function) {
+    case 1: return v < 0 ? T(0) : v;
+    case 2: return v < 0 ? alpha * v : v;
+    case 3: return tanh(v);
+    case 4: return 1 / (1 + exp(-v));
+    default: return v;
+  }
+}
+
 /// The share that the mask of a network leaves (docs/rig-evaluation.md, 8.5 "Region masks" and 12.12 "Masks
 /// may blend").
 double mask_of(const LayerRig& rig, uint32_t network, const Row& masks, bool blend) {
@@ -47,26 +62,29 @@ struct Converter {
   ModelConvention from;
   double c[3][3] = {};
 
-  std::array<double, 3> turned(const std::array<double, 3>& v) const {
-    std::array<double, 3> out = {};
+  template <class T>
+  Triple<T> turned(const Triple<T>& v) const {
+    Triple<T> out = {};
     for (int i = 0; i < 3; ++i) {
       for (int k = 0; k < 3; ++k) out[i] += v[k] * c[k][i];
     }
     return out;
   }
   /// C^T R C turns as R does, about the turned axis, the other way if C mirrors.
-  ModelQuaternion turned(const ModelQuaternion& q) const {
+  template <class T>
+  QuaternionOf<T> turned(const QuaternionOf<T>& q) const {
     double determinant = 0;
     for (int i = 0; i < 3; ++i) {
       determinant +=
           c[0][i] * (c[1][(i + 1) % 3] * c[2][(i + 2) % 3] - c[1][(i + 2) % 3] * c[2][(i + 1) % 3]);
     }
-    const std::array<double, 3> axis = turned(std::array<double, 3>{q.x, q.y, q.z});
+    const Triple<T> axis = turned(Triple<T>{q.x, q.y, q.z});
     return {determinant * axis[0], determinant * axis[1], determinant * axis[2], q.w};
   }
 };
 
-void convert(const LayerRig& rig, uint32_t lod, Row& controls) {
+template <class T>
+void convert(const LayerRig& rig, uint32_t lod, RowOf<T>& controls) {
   uint32_t axes[3] = {}, seen = 0;
   Converter converter = {rig, convention_of(rig)};
   bool magnitude = true;
@@ -101,41 +119,42 @@ void convert(const LayerRig& rig, uint32_t lod, Row& controls) {
     }
     for (const auto* triple : {&translation, &scale}) {
       if (triple->size() != 3) continue;  // the tests give all three or none
-      const std::array<double, 3> v = {controls[(*triple)[0]], controls[(*triple)[1]],
-                                       controls[(*triple)[2]]};
+      const Triple<T> v = {controls[(*triple)[0]], controls[(*triple)[1]], controls[(*triple)[2]]};
       // Scale has no direction: it goes to the other axis as it is, or its magnitude alone does.
       for (int i = 0; i < 3; ++i) {
-        double sum = 0;
+        T sum = 0;
         for (int k = 0; k < 3; ++k) {
           sum += v[k] * (triple == &scale ? std::fabs(converter.c[k][i]) : converter.c[k][i]);
         }
-        controls[(*triple)[i]] = triple == &scale && magnitude ? std::fabs(sum) : sum;
+        controls[(*triple)[i]] = triple == &scale && magnitude && sum < 0 ? -sum : sum;
       }
     }
     if (rotation < 0) continue;
-    double* x = controls.data() + rotation;
+    T* x = controls.data() + rotation;
     const ModelConvention to = convention_of(rig);
-    // R is read from the angles in the source system; quaternions pass through them as well.
-    std::array<double, 3> angles = {x[0], x[1], x[2]};
-    if (layout.rotation == 4) angles = model_angles(converter.from, {x[0], x[1], x[2], x[3]});
-    const ModelQuaternion q = converter.turned(model_quaternion(converter.from, angles));
+    const Triple<T> angles = {x[0], x[1], x[2]};
+    const QuaternionOf<T> q =
+        converter.turned(layout.rotation == 4 ? unit(QuaternionOf<T>{x[0], x[1], x[2], x[3]})
+                                              : model_quaternion(converter.from, angles));
     if (layout.rotation == 4) {
       x[0] = q.x, x[1] = q.y, x[2] = q.z, x[3] = q.w;
     } else {
-      const std::array<double, 3> out = model_angles(to, q);
+      const Triple<T> out = model_angles(to, q);
       std::copy(out.begin(), out.end(), x);
     }
   }
 }
 
 /// A file without operations is gather, run, scatter for each network (8.1).
-void run_networks(const LayerRig& rig, uint32_t lod, const Row& masks, bool blend, Row& controls) {
+template <class T>
+void run_networks(const LayerRig& rig, uint32_t lod, const Row& masks, bool blend,
+                  RowOf<T>& controls) {
   for (size_t n = 0; n < rig.networks.size(); ++n) {
     if (!rig.has(rig.lod_networks, lod, static_cast<uint32_t>(n))) continue;
     const PlainNetwork& network = rig.networks[n];
-    Row inputs;
+    RowOf<T> inputs;
     for (uint16_t input : network.inputs) inputs.push_back(controls[input]);
-    const Row outputs = model_network(network, inputs);
+    const RowOf<T> outputs = model_network(network, inputs);
     const double mask = mask_of(rig, static_cast<uint32_t>(n), masks, blend);
     for (size_t i = 0; i < network.outputs.size(); ++i) {
       const double rest = default_of(rig, network.outputs[i]);
@@ -144,29 +163,30 @@ void run_networks(const LayerRig& rig, uint32_t lod, const Row& masks, bool blen
   }
 }
 
+template <class T>
 void run_operations(const LayerRig& rig, uint32_t lod, const Row& masks, bool blend,
-                    Row& controls) {
-  std::vector<std::vector<Row>> results(rig.operations.size());
+                    RowOf<T>& controls) {
+  std::vector<std::vector<RowOf<T>>> results(rig.operations.size());
   // Controls are gathered when they are needed.
   const auto result_of = [&](const std::pair<uint16_t, uint16_t>& dependency) {
     const PlainOperation& from = rig.operations[dependency.first][dependency.second];
     if (from.type != OperationType::kGather) return results[dependency.first][dependency.second];
-    Row gathered;
+    RowOf<T> gathered;
     for (uint32_t control : from.parameters) gathered.push_back(controls[control]);
     return gathered;
   };
   for (size_t s = 0; s < rig.operations.size(); ++s) {
     for (size_t o = 0; o < rig.operations[s].size(); ++o) {
       const PlainOperation& operation = rig.operations[s][o];
-      Row out;
+      RowOf<T> out;
       const bool runs = rig.lod_operations.empty() ||
                         rig.has(rig.lod_operations[s], lod, static_cast<uint32_t>(o));
       if (operation.type == OperationType::kMlp && !runs) {
         out.assign(rig.networks[operation.parameters[0]].layers.back().biases.size(), 0.0);
       } else if (operation.type == OperationType::kMlp) {
-        Row gathered, all;
+        RowOf<T> gathered, all;
         for (const auto& [set, number] : operation.dependencies) {
-          const Row from = result_of({set, number});
+          const RowOf<T> from = result_of({set, number});
           all.insert(all.end(), from.begin(), from.end());
           if (rig.operations[set][number].type != OperationType::kGather) continue;
           gathered.insert(gathered.end(), from.begin(), from.end());
@@ -174,8 +194,8 @@ void run_operations(const LayerRig& rig, uint32_t lod, const Row& masks, bool bl
         const uint32_t network = operation.parameters[0];
         out = model_network(rig.networks[network], gathered.empty() ? all : gathered);
         const double mask = mask_of(rig, network, masks, blend);
-        Row scattered = out;
-        for (double& v : out) v *= mask;
+        const RowOf<T> scattered = out;
+        for (T& v : out) v *= mask;
         // Scatters, wherever they stand, take effect with the network (8.2).
         size_t at = 0, limit = ~size_t{0};
         const size_t limits = operation.parameters.size() - 1;
@@ -198,7 +218,7 @@ void run_operations(const LayerRig& rig, uint32_t lod, const Row& masks, bool bl
       } else if (operation.type == OperationType::kWeightedSum) {
         out.assign(operation.dependencies.empty() ? 0 : operation.parameters[0], 0);
         for (size_t d = 0; runs && d < operation.dependencies.size(); ++d) {
-          const Row from = result_of(operation.dependencies[d]);
+          const RowOf<T> from = result_of(operation.dependencies[d]);
           float weight;
           memcpy(&weight, &operation.parameters[d + 1], sizeof(weight));
           for (size_t i = 0; i < out.size(); ++i) out[i] += weight * from[i];
@@ -222,33 +242,25 @@ MlJointLayout ml_joint_layout(const LayerRig& rig) {
   return layout;
 }
 
-double model_activation(uint16_t function, double v, double alpha) {
-  switch (function) {
-    case 1: return v < 0 ? 0 : v;
-    case 2: return v < 0 ? alpha * v : v;
-    case 3: return std::tanh(v);
-    case 4: return 1 / (1 + std::exp(-v));
-    default: return v;
-  }
-}
-
-std::vector<double> model_network(const PlainNetwork& network, std::vector<double> values) {
+template <class T>
+std::vector<T> model_network(const PlainNetwork& network, std::vector<T> values) {
   for (const PlainNetworkLayer& layer : network.layers) {
-    Row out;
+    RowOf<T> out;
     const size_t inputs = layer.weights.size() / layer.biases.size();
     const double alpha = layer.parameters.empty() ? 0.01 : layer.parameters[0];
     for (size_t r = 0; r < layer.biases.size(); ++r) {
-      double sum = layer.biases[r];
+      T sum = layer.biases[r];
       for (size_t c = 0; c < inputs; ++c) sum += layer.weights[r * inputs + c] * values[c];
-      out.push_back(model_activation(layer.function, sum, alpha));
+      out.push_back(activation(layer.function, sum, alpha));
     }
     values = out;
   }
   return values;
 }
 
+template <class T>
 void model_ml(const LayerRig& rig, uint32_t lod, const std::vector<double>& masks, bool blend_masks,
-              std::vector<double>& controls) {
+              std::vector<T>& controls) {
   if (rig.operations.empty()) {
     run_networks(rig, lod, masks, blend_masks, controls);
   } else {
@@ -256,5 +268,12 @@ void model_ml(const LayerRig& rig, uint32_t lod, const std::vector<double>& mask
   }
   convert(rig, lod, controls);
 }
+
+#define MIEN_MODEL_ML(T)                                                              \
+  template std::vector<T> model_network(const PlainNetwork&, std::vector<T>);         \
+  template void model_ml(const LayerRig&, uint32_t, const std::vector<double>&, bool, \
+                         std::vector<T>&);
+MIEN_MODEL_ML(double)
+MIEN_MODEL_ML(Dual)
 
 }  // namespace mien::model

@@ -15,14 +15,14 @@ struct MlJointLayout {
 };
 MlJointLayout ml_joint_layout(const LayerRig& rig);
 
-double model_activation(uint16_t function, double v, double alpha);
-
 /// Outputs of a network.
-std::vector<double> model_network(const PlainNetwork& network, std::vector<double> inputs);
+template <class T>
+std::vector<T> model_network(const PlainNetwork& network, std::vector<T> inputs);
 
 /// Runs all operations, or networks, of a LOD on the controls, then converts what ML joints read.
 /// `masks` are those of the regions.
+template <class T>
 void model_ml(const LayerRig& rig, uint32_t lod, const std::vector<double>& masks, bool blend_masks,
-              std::vector<double>& controls);
+              std::vector<T>& controls);
 
 }  // namespace mien::model

@@ -8,14 +8,20 @@ namespace mien::model {
 
 namespace {
 
-double clamp01(double value) { return std::fmin(std::fmax(value, 0), 1); }
-
 bool fires(const PlainRow& row, double value) {
   return std::fmin(row.from, row.to) <= value && value <= std::fmax(row.from, row.to);
 }
 
 uint16_t at_lod(const std::vector<uint16_t>& lods, uint32_t lod) {
   return lod < lods.size() ? lods[lod] : uint16_t{0};
+}
+
+/// Where two intervals of a run meet, the first row gives the value, and the steeper one the derivative.
+double row_value(const PlainRow& row, double, double input) {
+  return double{row.slope} * input + double{row.cut};
+}
+Dual row_value(const PlainRow& row, double steepest, const Dual& input) {
+  return {row_value(row, steepest, input.value), steepest * input.slope};
 }
 
 bool is_zero_row(const PlainGroup& group, size_t row) {
@@ -28,20 +34,29 @@ bool is_zero_row(const PlainGroup& group, size_t row) {
 
 }  // namespace
 
-std::vector<double> forward_plain(const PlainTable& table, size_t row_count,
-                                  const std::vector<double>& inputs, size_t output_count) {
-  std::vector<double> outputs(output_count, 0.0);
+template <class T>
+std::vector<T> forward_plain(const PlainTable& table, size_t row_count,
+                             const std::vector<T>& inputs, size_t output_count) {
+  std::vector<T> outputs(output_count, 0.0);
+  const auto same_pair = [&](size_t a, size_t b) {
+    return table[a].input == table[b].input && table[a].output == table[b].output;
+  };
   bool skipping = false;
   for (size_t r = 0; r < row_count; ++r) {
     const PlainRow& row = table[r];
-    const bool goes_on =
-        r > 0 && row.input == table[r - 1].input && row.output == table[r - 1].output;
-    if (!goes_on) skipping = false;
-    if (skipping || !fires(row, inputs[row.input])) continue;
-    outputs[row.output] += double{row.slope} * inputs[row.input] + double{row.cut};
+    const T& input = inputs[row.input];
+    if (r == 0 || !same_pair(r - 1, r)) skipping = false;
+    if (skipping || !fires(row, value_of(input))) continue;
+    double steepest = row.slope;
+    for (size_t next = r + 1; next < row_count && same_pair(r, next); ++next) {
+      const double slope = table[next].slope;
+      if (!fires(table[next], value_of(input))) continue;
+      if (std::fabs(slope) > std::fabs(steepest)) steepest = slope;
+    }
+    outputs[row.output] += row_value(row, steepest, input);
     skipping = true;
   }
-  for (double& output : outputs) output = clamp01(output);
+  for (T& output : outputs) output = clamp01(output);
   return outputs;
 }
 
@@ -119,38 +134,41 @@ PsdTriples triples_of(const PlainRig& plain) {
   return triples;
 }
 
-double psd_value(const PlainRig& plain, const PsdTriples& triples, size_t psd,
-                 const std::vector<double>& controls) {
-  double product = 1;
+template <class T>
+T psd_value(const PlainRig& plain, const PsdTriples& triples, size_t psd,
+            const std::vector<T>& controls) {
+  T product = 1;
   for (const PlainPsd& triple : triples[psd]) {
     const size_t other = size_t{triple.column} - plain.raw_count;  // huge for a raw control
-    const double input = other < plain.psd_count ? psd_value(plain, triples, other, controls)
-                                                 : controls[triple.column];
+    const T input = other < plain.psd_count ? psd_value(plain, triples, other, controls)
+                                            : controls[triple.column];
     product *= double{triple.value} * clamp01(input);
   }
-  return triples[psd].empty() ? 0.0 : std::fmin(product, 1.0);
+  if (triples[psd].empty()) return 0;
+  return product > 1 ? T(1) : product;
 }
 
 }  // namespace
 
-void model_psds(const PlainRig& plain, std::vector<double>& controls) {
+template <class T>
+void model_psds(const PlainRig& plain, std::vector<T>& controls) {
   const PsdTriples triples = triples_of(plain);
   for (size_t p = 0; p < plain.psd_count; ++p) {
     controls[plain.raw_count + p] = psd_value(plain, triples, p, controls);
   }
 }
 
-std::vector<double> plain_channels(const PlainRig& plain, const std::vector<double>& controls,
-                                   uint32_t lod) {
-  std::vector<double> channels(plain.channel_count, 0.0);
+template <class T>
+std::vector<T> plain_channels(const PlainRig& plain, const std::vector<T>& controls, uint32_t lod) {
+  std::vector<T> channels(plain.channel_count, 0.0);
   for (size_t r = 0; r < at_lod(plain.channel_lods, lod); ++r) {
     channels[plain.channel_outputs[r]] = controls[plain.channel_inputs[r]];
   }
   return channels;
 }
 
-std::vector<double> plain_maps(const PlainRig& plain, const std::vector<double>& controls,
-                               uint32_t lod) {
+template <class T>
+std::vector<T> plain_maps(const PlainRig& plain, const std::vector<T>& controls, uint32_t lod) {
   return forward_plain(plain.maps, at_lod(plain.map_lods, lod), controls, plain.map_count);
 }
 
@@ -186,5 +204,13 @@ PlainResults evaluate_plain(const PlainRig& plain, const std::vector<float>& raw
   out.maps = plain_maps(plain, out.controls, lod);
   return out;
 }
+
+#define MIEN_MODEL_PLAIN(T)                                                                        \
+  template std::vector<T> forward_plain(const PlainTable&, size_t, const std::vector<T>&, size_t); \
+  template void model_psds(const PlainRig&, std::vector<T>&);                                      \
+  template std::vector<T> plain_channels(const PlainRig&, const std::vector<T>&, uint32_t);        \
+  template std::vector<T> plain_maps(const PlainRig&, const std::vector<T>&, uint32_t);
+MIEN_MODEL_PLAIN(double)
+MIEN_MODEL_PLAIN(Dual)
 
 }  // namespace mien::model

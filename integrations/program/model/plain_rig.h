@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 // A rig as plain vectors, evaluated in double precision, as slowly and literally as the formulas of
 // docs/rig-evaluation.md read. It shares no code with the library, so that the two can be compared: the
-// tests do, and `mien accept`.
+// tests do, and `mien accept`. T is double, or Dual, whose derivatives tests compare.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <vector>
+
+#include "integrations/program/model/dual.h"
 
 namespace mien::model {
 
@@ -50,17 +52,19 @@ struct PlainResults {
 PlainResults evaluate_plain(const PlainRig& plain, const std::vector<float>& raw, uint32_t lod);
 
 /// Sets all correctives, from the other controls.
-void model_psds(const PlainRig& plain, std::vector<double>& controls);
+template <class T>
+void model_psds(const PlainRig& plain, std::vector<T>& controls);
 
 /// Channel and map weights of a LOD, from all controls.
-std::vector<double> plain_channels(const PlainRig& plain, const std::vector<double>& controls,
-                                   uint32_t lod);
-std::vector<double> plain_maps(const PlainRig& plain, const std::vector<double>& controls,
-                               uint32_t lod);
+template <class T>
+std::vector<T> plain_channels(const PlainRig& plain, const std::vector<T>& controls, uint32_t lod);
+template <class T>
+std::vector<T> plain_maps(const PlainRig& plain, const std::vector<T>& controls, uint32_t lod);
 
 /// The first `row_count` rows, clamped outputs included.
-std::vector<double> forward_plain(const PlainTable& table, size_t row_count,
-                                  const std::vector<double>& inputs, size_t output_count);
+template <class T>
+std::vector<T> forward_plain(const PlainTable& table, size_t row_count,
+                             const std::vector<T>& inputs, size_t output_count);
 
 /// GUI controls that explain raw controls. In float: whether a value lies within an interval
 /// depends on it.

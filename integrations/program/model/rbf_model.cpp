@@ -7,16 +7,19 @@
 namespace mien::model {
 namespace {
 
-using Row = std::vector<double>;
+template <class T>
+using RowOf = std::vector<T>;
+using Row = RowOf<double>;
 
 // 6.2
-Row prepared(const PlainRbfSolver& solver, Row values) {
+template <class T>
+RowOf<T> prepared(const PlainRbfSolver& solver, RowOf<T> values) {
   if (solver.distance < 2) return values;
   for (size_t i = 0; i + 4 <= values.size(); i += 4) {
-    const double x = values[i], y = values[i + 1], z = values[i + 2], w = values[i + 3];
-    const double a = solver.axis == 0 ? x : solver.axis == 1 ? y : z;
-    const double n = std::sqrt(a * a + w * w);
-    Row q(4);
+    const T x = values[i], y = values[i + 1], z = values[i + 2], w = values[i + 3];
+    const T a = solver.axis == 0 ? x : solver.axis == 1 ? y : z;
+    const T n = sqrt(a * a + w * w);
+    RowOf<T> q(4);
     if (solver.distance == 3) {
       q[solver.axis] = a / n;
       q[3] = w / n;
@@ -39,19 +42,31 @@ Row target(const PlainRbfSolver& solver, size_t pose) {
 }
 
 // 6.3: as it says there, the dot product of quaternions has 32-bit floats, each product and sum rounded once.
-double distance(const PlainRbfSolver& solver, const Row& a, const Row& b, double noise = 0) {
-  double sum = 0;
+double squared_dot(const double* a, const double* b) {
+  float dot = 0;
+  for (size_t k = 0; k < 4; ++k) dot += static_cast<float>(a[k]) * static_cast<float>(b[k]);
+  return dot * dot;
+}
+// Targets are floats, but rounding of products has no derivative.
+Dual squared_dot(const double* a, const Dual* b) {
+  Dual dot;
+  for (size_t k = 0; k < 4; ++k) dot += double{static_cast<float>(a[k])} * b[k];
+  return dot * dot;
+}
+
+template <class T>
+T distance(const PlainRbfSolver& solver, const Row& a, const RowOf<T>& b, double noise = 0) {
+  T sum = 0;
   if (solver.distance == 0) {
     for (size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
-    return std::sqrt(sum);
+    return sqrt(sum);
   }
   for (size_t i = 0; i + 4 <= a.size(); i += 4) {
-    float dot = 0;
-    for (size_t k = i; k < i + 4; ++k) dot += static_cast<float>(a[k]) * static_cast<float>(b[k]);
-    const double u = double{dot * dot} * (1 + noise), angle = u > 1 ? 0 : std::acos(2 * u - 1);
+    const T u = squared_dot(a.data() + i, b.data() + i) * (1 + noise);
+    const T angle = u > 1 ? T(0) : acos(2 * u - 1);
     sum += angle * angle;
   }
-  return std::sqrt(sum);
+  return sqrt(sum);
 }
 
 // 6.4
@@ -70,18 +85,22 @@ double radius(const LayerRig& rig, const PlainRbfSolver& solver) {
 }
 
 // 6.5
-double weight(const PlainRbfSolver& solver, double d, double r) {
+template <class T>
+T weight(const PlainRbfSolver& solver, const T& d, double r) {
+  T w;
   switch (solver.function) {
-    case 0: return std::exp(-d / (r * r));
-    case 1: return std::exp(-2 * d / r);
-    case 2: return std::fmax(0, 1 - d / r);
-    case 3: return std::fmax(0, 1 - std::pow(d / r, 3));
-    default: return std::fmax(0, 1 - std::pow(d / r, 5));
+    case 0: w = exp(-d / (r * r)); break;
+    case 1: w = exp(-2 * d / r); break;
+    case 2: w = 1 - d / r; break;
+    case 3: w = 1 - pow(d / r, 3); break;
+    default: w = 1 - pow(d / r, 5); break;
   }
+  return w > 0 ? w : T(0);  // also where it is no number
 }
 
 /// Solves m * x = b.
-Row solution(std::vector<Row> m, Row b) {
+template <class T>
+RowOf<T> solution(std::vector<Row> m, RowOf<T> b) {
   const size_t n = b.size();
   for (size_t c = 0; c < n; ++c) {
     size_t best = c;
@@ -105,48 +124,52 @@ Row solution(std::vector<Row> m, Row b) {
 
 }  // namespace
 
-std::vector<double> model_rbf_weights(const LayerRig& rig, const PlainRbfSolver& solver,
-                                      const std::vector<double>& inputs, double noise) {
+template <class T>
+std::vector<T> model_rbf_weights(const LayerRig& rig, const PlainRbfSolver& solver,
+                                 const std::vector<T>& inputs, const Rounding& rounding) {
   const double r = radius(rig, solver);
-  uint32_t draw = 0;  // of a linear congruential sequence, whose highest bit is the sign
-  const auto next_noise = [&] {
+  // The highest bit of a linear congruential sequence is the sign.
+  uint32_t distances = rounding.signs, products = ~rounding.signs;
+  const auto next_noise = [&](uint32_t& draw) {
     draw = draw * 1664525u + 1013904223u;
-    return draw >> 31 ? noise : -noise;
+    return draw >> 31 ? rounding.noise : -rounding.noise;
   };
   const size_t n = solver.poses.size();
-  const Row input = prepared(solver, inputs);
-  Row weights(n);
+  const RowOf<T> input = prepared(solver, inputs);
+  RowOf<T> weights(n);
   for (size_t t = 0; t < n; ++t) {
-    weights[t] = weight(solver, distance(solver, target(solver, t), input, next_noise()), r);
+    weights[t] =
+        weight(solver, distance(solver, target(solver, t), input, next_noise(distances)), r) *
+        (1 + next_noise(products) / 32);
   }
   if (solver.type == 0) return weights;
   std::vector<Row> kernel(n, Row(n));
   for (size_t s = 0; s < n; ++s) {
     for (size_t t = 0; t < n; ++t) {
-      kernel[s][t] =
-          weight(solver, distance(solver, target(solver, s), target(solver, t), next_noise()), r);
+      kernel[s][t] = weight(
+          solver, distance(solver, target(solver, s), target(solver, t), next_noise(distances)), r);
     }
   }
   weights = solution(kernel, weights);
-  for (double& w : weights) w = std::fmin(std::fmax(w, 0), 1);
+  for (T& w : weights) w = clamp01(w + rounding.noise);
   return weights;
 }
 
-void model_rbf_solver(const LayerRig& rig, const PlainRbfSolver& solver,
-                      std::vector<double>& controls, double noise) {
+template <class T>
+void model_rbf_solver(const LayerRig& rig, const PlainRbfSolver& solver, std::vector<T>& controls,
+                      const Rounding& rounding) {
   for (uint16_t pose : solver.poses) {
     for (uint16_t output : rig.poses[pose].outputs) controls[output] = 0;
   }
-  Row inputs;
+  RowOf<T> inputs;
   for (uint16_t input : solver.inputs) inputs.push_back(controls[input]);
-  const Row weights = model_rbf_weights(rig, solver, inputs, noise);
-  double sum = 0;
-  for (double w : weights) sum += w;
-  const double scale = sum > 1 || (solver.normalize == 1 && sum > 0) ? 1 / sum : 1;
+  const RowOf<T> weights = model_rbf_weights(rig, solver, inputs, rounding);
+  T sum = 0;
+  for (const T& w : weights) sum += w;
+  const T scale = sum > 1 || (solver.normalize == 1 && sum > 0) ? 1 / sum : T(1);
   for (size_t t = 0; t < solver.poses.size(); ++t) {
     const PlainRbfPose& pose = rig.poses[solver.poses[t]];
-    double value = weights[t] * scale * pose.scale;
-    if (!(value > solver.threshold)) continue;
+    T value = beyond(weights[t] * scale * pose.scale, solver.threshold);
     for (uint16_t input : pose.inputs) value *= controls[input];
     for (size_t o = 0; o < pose.outputs.size(); ++o) {
       controls[pose.outputs[o]] += pose.weights[o] * value;
@@ -154,12 +177,23 @@ void model_rbf_solver(const LayerRig& rig, const PlainRbfSolver& solver,
   }
 }
 
-void model_rbf(const LayerRig& rig, uint32_t lod, std::vector<double>& controls, double noise) {
+template <class T>
+void model_rbf(const LayerRig& rig, uint32_t lod, std::vector<T>& controls,
+               const Rounding& rounding) {
   for (size_t s = 0; s < rig.solvers.size(); ++s) {
     if (rig.has(rig.lod_solvers, lod, static_cast<uint32_t>(s))) {
-      model_rbf_solver(rig, rig.solvers[s], controls, noise);
+      model_rbf_solver(rig, rig.solvers[s], controls, rounding);
     }
   }
 }
+
+#define MIEN_MODEL_RBF(T)                                                                 \
+  template std::vector<T> model_rbf_weights(const LayerRig&, const PlainRbfSolver&,       \
+                                            const std::vector<T>&, const Rounding&);      \
+  template void model_rbf_solver(const LayerRig&, const PlainRbfSolver&, std::vector<T>&, \
+                                 const Rounding&);                                        \
+  template void model_rbf(const LayerRig&, uint32_t, std::vector<T>&, const Rounding&);
+MIEN_MODEL_RBF(double)
+MIEN_MODEL_RBF(Dual)
 
 }  // namespace mien::model

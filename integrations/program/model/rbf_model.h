@@ -8,17 +8,27 @@
 
 namespace mien::model {
 
-/// Weight of each pose before normalization, for inputs as the controls give them. With `noise` the squared
-/// dot products of angular distances are off by this part of themselves, up or down, as rounding may have it: what
-/// that changes tells how far results can be trusted (docs/rig-evaluation.md, 10).
-std::vector<double> model_rbf_weights(const LayerRig& rig, const PlainRbfSolver& solver,
-                                      const std::vector<double>& inputs, double noise = 0);
+/// What rounding may do to solvers: the squared dot products of angular distances are off by `noise` of themselves, up or
+/// down, and the weights that an inverse multiplies by a 32nd of it; the products by `noise`. `signs` chooses a sequence
+/// of ups and downs. What that changes tells how far results can be trusted (docs/rig-evaluation.md, 10).
+struct Rounding {
+  double noise = 0;
+  uint32_t signs = 0;
+};
+
+/// Weight of each pose before normalization, for inputs as the controls give them.
+template <class T>
+std::vector<T> model_rbf_weights(const LayerRig& rig, const PlainRbfSolver& solver,
+                                 const std::vector<T>& inputs, const Rounding& rounding = {});
 
 /// Runs one solver on the controls.
-void model_rbf_solver(const LayerRig& rig, const PlainRbfSolver& solver,
-                      std::vector<double>& controls, double noise = 0);
+template <class T>
+void model_rbf_solver(const LayerRig& rig, const PlainRbfSolver& solver, std::vector<T>& controls,
+                      const Rounding& rounding = {});
 
 /// Runs those of a LOD.
-void model_rbf(const LayerRig& rig, uint32_t lod, std::vector<double>& controls, double noise = 0);
+template <class T>
+void model_rbf(const LayerRig& rig, uint32_t lod, std::vector<T>& controls,
+               const Rounding& rounding = {});
 
 }  // namespace mien::model

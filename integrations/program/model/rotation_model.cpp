@@ -13,56 +13,69 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 constexpr int kAxes[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
 
-ModelQuaternion turn_about(int axis, double angle) {
-  ModelQuaternion q;
-  (axis == 0 ? q.x : axis == 1 ? q.y : q.z) = std::sin(angle / 2);
-  q.w = std::cos(angle / 2);
+template <class T>
+QuaternionOf<T> turn_about(int axis, const T& angle) {
+  QuaternionOf<T> q;
+  (axis == 0 ? q.x : axis == 1 ? q.y : q.z) = sin(angle / 2);
+  q.w = cos(angle / 2);
   return q;
 }
 
-ModelQuaternion conjugate(const ModelQuaternion& q) { return {-q.x, -q.y, -q.z, q.w}; }
-double squared(const ModelQuaternion& q) { return q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w; }
+template <class T>
+QuaternionOf<T> conjugate(const QuaternionOf<T>& q) {
+  return {-q.x, -q.y, -q.z, q.w};
+}
+template <class T>
+T squared(const QuaternionOf<T>& q) {
+  return q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
+}
 
-ModelQuaternion inverse(const ModelQuaternion& q) {
-  const ModelQuaternion c = conjugate(q);
-  const double s = squared(q);
+template <class T>
+QuaternionOf<T> inverse(const QuaternionOf<T>& q) {
+  const QuaternionOf<T> c = conjugate(q);
+  const T s = squared(q);
   return {c.x / s, c.y / s, c.z / s, c.w / s};
 }
 
 /// docs/rig-evaluation.md, 7 "Twist and swing".
-ModelQuaternion twist_of(const ModelQuaternion& q, int axis) {
-  ModelQuaternion part = {0, 0, 0, q.w};
+template <class T>
+QuaternionOf<T> twist_of(const QuaternionOf<T>& q, int axis) {
+  QuaternionOf<T> part = {0, 0, 0, q.w};
   (axis == 0 ? part.x : axis == 1 ? part.y : part.z) = axis == 0 ? q.x : axis == 1 ? q.y : q.z;
-  return squared(part) > 0 ? unit(part) : ModelQuaternion{};
+  return unit(part);
 }
 
-ModelQuaternion slerp_to_one(const ModelQuaternion& p, double t) {
-  const double sign = p.w < 0 ? -1 : 1, cosine = p.w * sign;
-  double from = 1 - t, to = t;
+template <class T>
+QuaternionOf<T> slerp_to_one(const QuaternionOf<T>& p, double t) {
+  const double sign = p.w < 0 ? -1 : 1;
+  const T cosine = p.w * sign;
+  T from = 1 - t, to = t;
   if (cosine <= 1 - std::ldexp(1.0, -23)) {
-    const double angle = std::acos(cosine);
-    from = std::sin((1 - t) * angle) / std::sin(angle);
-    to = std::sin(t * angle) / std::sin(angle);
+    const T angle = acos(cosine);
+    from = sin((1 - t) * angle) / sin(angle);
+    to = sin(t * angle) / sin(angle);
   }
   return {p.x * from, p.y * from, p.z * from, p.w * from + to * sign};
 }
 
 /// Outputs while they are computed: angles in Euler mode, quaternions else.
+template <class T>
 struct Outputs {
   const LayerRig& rig;
   bool quaternions;
   ModelConvention convention;
-  std::vector<ModelJoint> joints;
-  std::vector<std::array<double, 3>> angles;
+  std::vector<JointOf<T>> joints;
+  std::vector<std::array<T, 3>> angles;
 
-  void set(uint32_t joint, const ModelQuaternion& q) {
+  void set(uint32_t joint, const QuaternionOf<T>& q) {
     joints[joint].rotation = q;
     if (!quaternions) angles[joint] = model_angles(convention, q);
   }
 };
 
 // 4.3, 4.4, 4.7
-void add_rows(const std::vector<double>& controls, uint32_t lod, Outputs& out) {
+template <class T>
+void add_rows(const std::vector<T>& controls, uint32_t lod, Outputs<T>& out) {
   const LayerRig& rig = out.rig;
   for (const PlainGroup& group : rig.base.groups) {
     const size_t columns = group.inputs.size();
@@ -70,7 +83,7 @@ void add_rows(const std::vector<double>& controls, uint32_t lod, Outputs& out) {
       const uint32_t joint = group.outputs[r] / 9, k = group.outputs[r] % 9;
       const bool rotation = k >= 3 && k < 6;
       if (rotation && !rig.rotations.empty() && rig.rotations[joint] == 1) continue;
-      double sum = 0;
+      T sum = 0;
       bool any = false;
       for (size_t c = 0; c < columns; ++c) {
         sum += double{group.values[r * columns + c]} * controls[group.inputs[c]];
@@ -88,8 +101,9 @@ void add_rows(const std::vector<double>& controls, uint32_t lod, Outputs& out) {
 }
 
 // 4.3, 4.8: as literally as it is told there.
-void quaternion_joints(const PlainGroup& group, const std::vector<double>& controls, uint32_t lod,
-                       Outputs& out) {
+template <class T>
+void quaternion_joints(const PlainGroup& group, const std::vector<T>& controls, uint32_t lod,
+                       Outputs<T>& out) {
   const LayerRig& rig = out.rig;
   const size_t columns = group.inputs.size();
   struct JointRow {
@@ -136,18 +150,21 @@ void quaternion_joints(const PlainGroup& group, const std::vector<double>& contr
     if (i < row_counts[lod]) turned[rows[i].joint];
   }
   for (const JointRow& row : rows) {
-    if (turned.count(row.joint)) turned[row.joint][row.axis] = row.row + 1;
+    if (!turned.count(row.joint)) continue;
+    size_t& first = turned[row.joint][row.axis];
+    if (first == 0) first = row.row + 1;
   }
   for (const auto& [joint, axis_rows] : turned) {
-    ModelQuaternion a;
+    QuaternionOf<T> a;
     for (size_t i = 0; i < used_at[lod]; ++i) {
       std::array<double, 3> angles = {};
       for (int k = 0; k < 3; ++k) {
         if (axis_rows[k]) angles[k] = group.values[(axis_rows[k] - 1) * columns + order[i]];
       }
       const ModelQuaternion q = model_quaternion(out.convention, angles);
-      const double w = controls[group.inputs[order[i]]], b = q.w >= 0 ? 1 : -1;
-      a = unit({w * q.x, w * q.y, w * q.z, w * q.w + b * (1 - w)}) * a;
+      const T w = controls[group.inputs[order[i]]];
+      const double b = q.w >= 0 ? 1 : -1;
+      a = unit(QuaternionOf<T>{w * q.x, w * q.y, w * q.z, w * q.w + b * (1 - w)}) * a;
     }
     out.set(joint, a);
   }
@@ -157,23 +174,25 @@ bool exists(const LayerRig& rig, uint32_t lod, uint32_t joint) {
   return rig.has(rig.lod_joints, lod, joint);
 }
 
-void twist(const PlainTurn& turn, const ModelQuaternion& q, uint32_t lod, Outputs& out) {
+template <class T>
+void twist(const PlainTurn& turn, const QuaternionOf<T>& q, uint32_t lod, Outputs<T>& out) {
   for (size_t i = 0; i < turn.joints.size(); ++i) {
     if (!exists(out.rig, lod, turn.joints[i])) continue;
     out.set(turn.joints[i], slerp_to_one(q, turn.blends[i]));
   }
 }
 
-void twist_and_swing(const std::vector<double>& controls, uint32_t lod, Outputs& out) {
+template <class T>
+void twist_and_swing(const std::vector<T>& controls, uint32_t lod, Outputs<T>& out) {
   const LayerRig& rig = out.rig;
   const auto input = [&](const PlainTurn& turn) {
-    return ModelQuaternion{controls[turn.inputs[0]], controls[turn.inputs[1]],
+    return QuaternionOf<T>{controls[turn.inputs[0]], controls[turn.inputs[1]],
                            controls[turn.inputs[2]], controls[turn.inputs[3]]};
   };
   std::vector<uint8_t> merged(rig.twists.size());
   for (const PlainTurn& swing : rig.swings) {
-    const ModelQuaternion v = conjugate(twist_of(input(swing), swing.axis));
-    const ModelQuaternion s = inverse(input(swing) * v);
+    const QuaternionOf<T> v = conjugate(twist_of(input(swing), swing.axis));
+    const QuaternionOf<T> s = inverse(input(swing) * v);
     for (size_t i = 0; i < swing.joints.size(); ++i) {
       if (!exists(rig, lod, swing.joints[i])) continue;
       out.set(swing.joints[i], v * slerp_to_one(s, swing.blends[i]));
@@ -191,28 +210,30 @@ void twist_and_swing(const std::vector<double>& controls, uint32_t lod, Outputs&
 }
 
 // 8.6. What a joint's rotation takes stands in consecutive controls.
-void add_learned(const std::vector<double>& controls, uint32_t lod, Outputs& out) {
+template <class T>
+void add_learned(const std::vector<T>& controls, uint32_t lod, Outputs<T>& out) {
   const LayerRig& rig = out.rig;
   const MlJointLayout layout = ml_joint_layout(rig);
   std::vector<uint8_t> turned(out.joints.size());
   for (const auto& [control, attribute] : rig.ml_joints) {
     const uint32_t joint = attribute / layout.width, k = attribute % layout.width;
     if (!exists(rig, lod, joint)) continue;
-    ModelJoint& to = out.joints[joint];
+    JointOf<T>& to = out.joints[joint];
     if (k < layout.translation) {
       to.translation[k] += controls[control];
     } else if (k >= layout.translation + layout.rotation) {
       to.scale[k - layout.translation - layout.rotation] += controls[control];
     } else if (!turned[joint]) {
       turned[joint] = 1;
-      const double* x = controls.data() + control;
+      const T* x = controls.data() + control;
       if (layout.rotation == 4) {
-        const ModelQuaternion q = unit({x[0], x[1], x[2], x[3]});
+        const QuaternionOf<T> q = unit(QuaternionOf<T>{x[0], x[1], x[2], x[3]});
         to.rotation = q * to.rotation;
-        const std::array<double, 3> angles = model_angles(out.convention, q);
+        const std::array<T, 3> angles = model_angles(out.convention, q);
         for (int i = 0; i < 3; ++i) out.angles[joint][i] += angles[i];
       } else {
-        to.rotation = model_quaternion(out.convention, {x[0], x[1], x[2]}) * to.rotation;
+        const std::array<T, 3> angles = {x[0], x[1], x[2]};
+        to.rotation = model_quaternion(out.convention, angles) * to.rotation;
         for (int i = 0; i < 3; ++i) out.angles[joint][i] += x[i];
       }
     }
@@ -221,14 +242,17 @@ void add_learned(const std::vector<double>& controls, uint32_t lod, Outputs& out
 
 }  // namespace
 
-ModelQuaternion operator*(const ModelQuaternion& a, const ModelQuaternion& b) {
+template <class T>
+QuaternionOf<T> operator*(const QuaternionOf<T>& a, const QuaternionOf<T>& b) {
   return {
       a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
       a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
 }
 
-ModelQuaternion unit(const ModelQuaternion& q) {
-  const double n = std::sqrt(squared(q));
+template <class T>
+QuaternionOf<T> unit(const QuaternionOf<T>& q) {
+  const T n = sqrt(squared(q));
+  if (!(n > 0)) return {};
   return {q.x / n, q.y / n, q.z / n, q.w / n};
 }
 
@@ -236,31 +260,33 @@ ModelConvention convention_of(const LayerRig& rig) {
   return {rig.sequence, rig.signs, rig.rotation_unit == 0};
 }
 
-ModelQuaternion model_quaternion(const ModelConvention& convention,
-                                 const std::array<double, 3>& angles) {
-  ModelQuaternion q;
+template <class T>
+QuaternionOf<T> model_quaternion(const ModelConvention& convention,
+                                 const std::array<T, 3>& angles) {
+  QuaternionOf<T> q;
   for (int axis : kAxes[convention.sequence]) {
-    const double angle =
-        angles[axis] * convention.signs[axis] * (convention.degrees ? kPi / 180 : 1);
+    const T angle = angles[axis] * convention.signs[axis] * (convention.degrees ? kPi / 180 : 1);
     q = turn_about(axis, angle) * q;
   }
   return q;
 }
 
-std::array<double, 3> model_angles(const ModelConvention& convention, const ModelQuaternion& from) {
-  const ModelQuaternion q = unit(from);
-  const double x = q.x, y = q.y, z = q.z, w = q.w;
-  const double m[3][3] = {{1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)},
-                          {2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)},
-                          {2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)}};
+template <class T>
+std::array<T, 3> model_angles(const ModelConvention& convention, const QuaternionOf<T>& from) {
+  const QuaternionOf<T> q = unit(from);
+  const T x = q.x, y = q.y, z = q.z, w = q.w;
+  const T m[3][3] = {{1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)},
+                     {2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)},
+                     {2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)}};
   const int* axes = kAxes[convention.sequence];
   const int a = axes[0], b = axes[1], c = axes[2];
   const double p =
       convention.sequence == 0 || convention.sequence == 3 || convention.sequence == 4 ? 1 : -1;
-  std::array<double, 3> angles;
-  angles[b] = std::asin(std::fmax(-1, std::fmin(1, -p * m[a][c])));
-  angles[a] = std::atan2(p * m[b][c], m[c][c]);
-  angles[c] = std::atan2(p * m[a][b], m[a][a]);
+  std::array<T, 3> angles;
+  const T sine = -p * m[a][c];
+  angles[b] = asin(sine > 1 ? T(1) : sine < -1 ? T(-1) : sine);
+  angles[a] = atan2(p * m[b][c], m[c][c]);
+  angles[c] = atan2(p * m[a][b], m[a][a]);
   for (int i = 0; i < 3; ++i) {
     angles[i] *= convention.signs[i] * (convention.degrees ? 180 / kPi : 1);
   }
@@ -272,9 +298,10 @@ double angle_between(const ModelQuaternion& a, const ModelQuaternion& b) {
   return 2 * std::atan2(std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z), std::fabs(d.w));
 }
 
-std::vector<ModelJoint> model_joints(const LayerRig& rig, const std::vector<double>& controls,
+template <class T>
+std::vector<JointOf<T>> model_joints(const LayerRig& rig, const std::vector<T>& controls,
                                      uint32_t lod, bool quaternion_outputs) {
-  Outputs out = {rig, quaternion_outputs, convention_of(rig), {}, {}};
+  Outputs<T> out = {rig, quaternion_outputs, convention_of(rig), {}, {}};
   out.joints.resize(rig.base.joint_count);
   out.angles.resize(rig.base.joint_count);
   add_rows(controls, lod, out);
@@ -301,5 +328,15 @@ std::vector<ModelJoint> joints_of(const LayerRig& rig, const float* outputs, siz
   }
   return joints;
 }
+
+#define MIEN_MODEL_ROTATIONS(T)                                                                   \
+  template QuaternionOf<T> operator*(const QuaternionOf<T>&, const QuaternionOf<T>&);             \
+  template QuaternionOf<T> unit(const QuaternionOf<T>&);                                          \
+  template QuaternionOf<T> model_quaternion(const ModelConvention&, const std::array<T, 3>&);     \
+  template std::array<T, 3> model_angles(const ModelConvention&, const QuaternionOf<T>&);         \
+  template std::vector<JointOf<T>> model_joints(const LayerRig&, const std::vector<T>&, uint32_t, \
+                                                bool);
+MIEN_MODEL_ROTATIONS(double)
+MIEN_MODEL_ROTATIONS(Dual)
 
 }  // namespace mien::model

@@ -11,11 +11,16 @@
 namespace mien::model {
 
 /// x y z w. a * b turns by b first.
-struct ModelQuaternion {
-  double x = 0, y = 0, z = 0, w = 1;
+template <class T>
+struct QuaternionOf {
+  T x = 0, y = 0, z = 0, w = 1;
 };
-ModelQuaternion operator*(const ModelQuaternion& a, const ModelQuaternion& b);
-ModelQuaternion unit(const ModelQuaternion& q);
+using ModelQuaternion = QuaternionOf<double>;
+template <class T>
+QuaternionOf<T> operator*(const QuaternionOf<T>& a, const QuaternionOf<T>& b);
+/// The identity if all parts are 0.
+template <class T>
+QuaternionOf<T> unit(const QuaternionOf<T>& q);
 
 /// Sequence 0 ... 5 as the format numbers them, signs of the angles about x y z, and their unit.
 struct ModelConvention {
@@ -25,21 +30,25 @@ struct ModelConvention {
 };
 ModelConvention convention_of(const LayerRig& rig);
 
-ModelQuaternion model_quaternion(const ModelConvention& convention,
-                                 const std::array<double, 3>& angles);
+template <class T = double>
+QuaternionOf<T> model_quaternion(const ModelConvention& convention, const std::array<T, 3>& angles);
 /// Away from the poles.
-std::array<double, 3> model_angles(const ModelConvention& convention, const ModelQuaternion& q);
+template <class T>
+std::array<T, 3> model_angles(const ModelConvention& convention, const QuaternionOf<T>& q);
 
 /// Radians of the turn that leads from one rotation to the other. Neither need be unit.
 double angle_between(const ModelQuaternion& a, const ModelQuaternion& b);
 
-struct ModelJoint {
-  std::array<double, 3> translation = {}, scale = {};
-  ModelQuaternion rotation;  // what the angles, or the quaternion, of the output mean
+template <class T>
+struct JointOf {
+  std::array<T, 3> translation = {}, scale = {};
+  QuaternionOf<T> rotation;  // what the angles, or the quaternion, of the output mean
 };
+using ModelJoint = JointOf<double>;
 
 /// All joints at a LOD, from all controls.
-std::vector<ModelJoint> model_joints(const LayerRig& rig, const std::vector<double>& controls,
+template <class T>
+std::vector<JointOf<T>> model_joints(const LayerRig& rig, const std::vector<T>& controls,
                                      uint32_t lod, bool quaternion_outputs);
 
 /// Joint values of the library, 9 or 10 floats for each joint, as the model sees them.
