@@ -1377,7 +1377,7 @@ type FitResult struct {
 	ConstraintResidual float64
 	// largest residual of a constraint that counts
 	ConstraintWorst float64
-	// joint values or points moved farther from where they are at `start` than their targets ask for, as roots of mean squares; points without a target count as such that ask for nothing
+	// joint values or points moved farther from where they are at `start` than their targets ask for, as roots of mean squares; those without a target count as such that ask for nothing
 	Jumped     uint32
 	Reserved_2 uint32
 	// weighted root mean square of the distances in the image

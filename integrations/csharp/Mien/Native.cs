@@ -2845,7 +2845,7 @@ namespace Mien.Native {
     public double ConstraintResidual;
     /// <summary>largest residual of a constraint that counts</summary>
     public double ConstraintWorst;
-    /// <summary>joint values or points moved farther from where they are at `start` than their targets ask for, as roots of mean squares; points without a target count as such that ask for nothing</summary>
+    /// <summary>joint values or points moved farther from where they are at `start` than their targets ask for, as roots of mean squares; those without a target count as such that ask for nothing</summary>
     public uint Jumped;
     public uint Reserved_2;
     /// <summary>weighted root mean square of the distances in the image</summary>

@@ -1211,7 +1211,7 @@ typedef struct MienFitResult {
     float focal[2]; /* of the camera, with images; else 0 */
     double constraint_residual; /* weighted root mean square of the residuals of constraints */
     double constraint_worst; /* largest residual of a constraint that counts */
-    uint32_t jumped; /* joint values or points moved farther from where they are at `start` than their targets ask for, as roots of mean squares; points without a target count as such that ask for nothing */
+    uint32_t jumped; /* joint values or points moved farther from where they are at `start` than their targets ask for, as roots of mean squares; those without a target count as such that ask for nothing */
     uint32_t reserved_2;
     double image_residual; /* weighted root mean square of the distances in the image */
     double image_worst;

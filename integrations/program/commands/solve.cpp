@@ -12,6 +12,7 @@
 #include "integrations/program/commands/landmark_sets.h"
 #include "integrations/program/commands/solve_neutral.h"
 #include "integrations/program/commands/solve_output.h"
+#include "integrations/program/commands/solve_residuals.h"
 #include "integrations/program/commands/solve_space.h"
 #include "integrations/program/commands/solve_target.h"
 #include "integrations/program/io/controls.h"
@@ -197,13 +198,46 @@ void adapt_to_neutral(const NeutralOption& option, const SolveCommand& command,
   };
 }
 
-void note_frames_without_data(const SolvedTake& take, const Session& session) {
-  const auto count =
-      std::count_if(take.frames.begin(), take.frames.end(),
-                    [](const SolvedFrame& frame) { return frame.status == MIEN_FIT_NO_DATA; });
-  if (count == 0) return;
-  note(session, grouped(static_cast<uint64_t>(count)) + " of " + grouped(take.frames.size()) +
-                    " frames have no data; they hold the frame before");
+/// "3 of 200 frames SAY: 7, 8 and 20", if there are any. Numbers are those of the report, from 0 on.
+template <class F>
+void note_frames(const SolvedTake& take, const Session& session, const std::string& say, F&& is) {
+  constexpr size_t kMostNamed = 8;
+  std::vector<size_t> found;
+  for (size_t f = 0; f < take.frames.size(); ++f) {
+    if (is(take.frames[f])) found.push_back(f);
+  }
+  if (found.empty()) return;
+  std::string names;
+  for (size_t i = 0; i < std::min(found.size(), kMostNamed); ++i) {
+    names += (i == 0 ? "" : ", ") + std::to_string(found[i]);
+  }
+  note(session, grouped(found.size()) + " of " + grouped(take.frames.size()) + " frames " + say +
+                    ": " + names + (found.size() > kMostNamed ? ", ..." : ""));
+}
+
+void note_results(const SolvedTake& take, const SolveTarget& target, const Session& session) {
+  note_frames(take, session, "have no data and hold the frame before",
+              [](const SolvedFrame& frame) { return frame.status == MIEN_FIT_NO_DATA; });
+  note_frames(take, session, "moved farther than their targets ask for",
+              [](const SolvedFrame& frame) { return frame.jumped; });
+  if (target.kind == TargetKind::kSurface) return;
+  uint32_t most = 0;
+  for (const SolvedFrame& frame : take.frames) most = std::max(most, frame.missing);
+  const bool joints = target.points.empty();
+  note_frames(take, session,
+              "lack some targets, at most " + grouped(most) + " of " +
+                  grouped(joints ? target.width : target.points.size()) +
+                  (joints ? " joint values" : " points"),
+              [](const SolvedFrame& frame) { return frame.missing != 0; });
+}
+
+/// Joint values that count and have no target.
+uint32_t count_missing(const SolveTarget& target, const std::vector<float>& row) {
+  uint32_t count = 0;
+  for (size_t i = 0; i < row.size(); ++i) {
+    count += std::isnan(row[i]) && (target.weights.empty() || target.weights[i] > 0);
+  }
+  return count;
 }
 
 SolvedTake solve_take(const SolveCommand& command, const SolvedRig& rig, const SolveTarget& target,
@@ -220,15 +254,15 @@ SolvedTake solve_take(const SolveCommand& command, const SolvedRig& rig, const S
   const bool masked = !target.weights.empty();
   const float amount = masked ? std::accumulate(target.weights.begin(), target.weights.end(), 0.0f)
                               : static_cast<float>(joints ? target.width : target.points.size());
-  std::vector<float> row(target.width), weights;
+  std::vector<float> row(target.width), given(target.width), weights;
   const std::vector<uint32_t> used = list_used_points(target);
   for (size_t i = 0; masked && i < used.size(); ++i) weights.push_back(target.weights[used[i]]);
   const size_t per_point = joints ? 0 : target.width / target.points.size();
   auto frame = sized<MienFitFrame>();
-  frame.joints = joints ? row.data() : nullptr;
-  frame.images = target.kind == TargetKind::kLandmarks2 ? row.data() : nullptr;
+  frame.joints = joints ? given.data() : nullptr;
+  frame.images = target.kind == TargetKind::kLandmarks2 ? given.data() : nullptr;
   const bool surfaces = target.kind == TargetKind::kSurface;
-  frame.points = joints || frame.images || surfaces ? nullptr : row.data();
+  frame.points = joints || frame.images || surfaces ? nullptr : given.data();
   MienFitCamera camera = target.camera ? *target.camera : MienFitCamera{};
   if (!command.rigid && !knows_rotation(camera)) {
     for (const int k : {0, 4, 8}) camera.rotation[k] = 1;
@@ -249,20 +283,27 @@ SolvedTake solve_take(const SolveCommand& command, const SolvedRig& rig, const S
     for (const uint32_t c : find_moving(command.first, rig.rig, rig.shown)) stages[c] = 0;
     frame.stages = stages.data();
   }
-  const auto begin = std::chrono::steady_clock::now();
+  std::optional<ResidualTable> residuals;
+  if (!command.report.empty()) residuals.emplace(rig, target);
   Progress progress(session, "frame", target.frame_count);
   for (size_t f = 0; f < target.frame_count; ++f) {
     progress.at(f);
     target.read(f, row.data());
-    keep_used(used, per_point, row.data());
-    const FitSurface surface = surfaces ? create_surface(target.read_surface(f)) : nullptr;
+    std::copy(row.begin(), row.end(), given.begin());
+    keep_used(used, per_point, given.data());
+    const SurfaceMesh mesh = surfaces ? target.read_surface(f) : SurfaceMesh{};
+    const FitSurface surface = surfaces ? create_surface(mesh) : nullptr;
     frame.surface = surface.get();
     auto result = sized<MienFitResult>();
     float* const out = take.values.data() + f * count;
+    const auto begin = std::chrono::steady_clock::now();
     check(mien_fit_solve(fit.get(), &frame, out, &result), nullptr, "cannot solve", rig.shown);
+    take.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     take.frames.push_back({joints ? result.joint_residual : result.point_residual,
                            joints ? result.joint_worst : result.point_worst, result.iterations,
                            result.status});
+    take.frames.back().jumped = f != 0 && result.jumped != 0;  // the first one begins at rest
+    take.frames.back().missing = joints ? count_missing(target, row) : result.missing_points;
     if (command.rigid) {
       std::copy_n(result.rotation, 9, take.frames.back().rotation);
       std::copy_n(result.translation, 3, take.frames.back().translation);
@@ -274,12 +315,13 @@ SolvedTake solve_take(const SolveCommand& command, const SolvedRig& rig, const S
         std::copy_n(result.focal, 2, take.frames.back().focal);
       }
     }
+    if (residuals) residuals->add(take, row.data(), mesh);
     frame.start = out;
     frame.stages = nullptr;
     frame.smooth_weight = parse_weight("--smooth", command.smooth) * amount;
     frame.max_iterations = kMostIterations;
   }
-  take.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  if (residuals) take.data = residuals->list();
   return take;
 }
 
@@ -356,7 +398,7 @@ void solve_file(const SolveCommand& command, const Session& session) {
   take.rig = rig.file ? read_string(*rig.file, "desc.name") : rig.shown;
   take.rate = rate.known() ? rate : target.rate.known() ? target.rate : Rate{60, 1};
   take.unobservable = list_unobservable(fit, moving, take.controls);
-  note_frames_without_data(take, session);
+  note_results(take, target, session);
   std::string image;
   if (!command.images.empty()) image = draw_solve(take, target, rig, command.rig, session);
   if (keys > 0) reduce_keys(take, keys);
@@ -482,7 +524,8 @@ Command add_solve_command(CLI::App& app, const Session& session) {
       ->type_name("S");
   solve
       ->add_option("--report", options->report,
-                   "Write residuals, unobservable controls and times as JSON")
+                   "Write residuals of frames and of each landmark, joint or region,\nunobservable "
+                   "controls, missing data, jumps and times as JSON")
       ->type_name("R.json");
   solve
       ->add_option("--pictures", options->images,

@@ -165,6 +165,10 @@ std::vector<Vec3> outward_normals(const SurfaceMesh& mesh) {
   return normals;
 }
 
+Vec3 place_target(const SolvedFrame& frame, Vec3 place) {
+  return turn(frame.rotation, place - load3(frame.translation, 0), true);
+}
+
 std::vector<SolvedMark> compare_landmarks(const SolvedTake& take, const SolveTarget& target,
                                           size_t f, const float* row, const float* positions) {
   const bool images = target.kind == TargetKind::kLandmarks2;
@@ -175,6 +179,7 @@ std::vector<SolvedMark> compare_landmarks(const SolvedTake& take, const SolveTar
     const float* const from = row + i * width;
     if (!std::all_of(from, from + width, [](float v) { return std::isfinite(v); })) continue;
     SolvedMark mark;
+    mark.point = static_cast<uint32_t>(i);
     for (int k = 0; k < 3; ++k) {
       mark.solved += load3(positions, target.points[i].positions[k]) * target.points[i].weights[k];
     }
@@ -185,7 +190,7 @@ std::vector<SolvedMark> compare_landmarks(const SolvedTake& take, const SolveTar
     if (images) {
       if (!compare_image(camera_of(take, target, f), from, mark)) continue;
     } else {
-      mark.target = turn(frame.rotation, load3(from, 0) - load3(frame.translation, 0), true);
+      mark.target = place_target(frame, load3(from, 0));
       mark.distance = length(mark.target - mark.solved);
     }
     mark.solved = mark.solved - offset;

@@ -11,6 +11,7 @@ namespace mien::cli {
 
 /// A landmark of a frame, in the space of the rig.
 struct SolvedMark {
+  uint32_t point = 0;  // of the target
   math::Vec3
       target;  // of landmarks in images, the place on their ray that is as far from the camera as `solved`
   math::Vec3 solved;
@@ -18,7 +19,13 @@ struct SolvedMark {
   bool hidden = false;  // the skin there faces away from the viewer
 };
 
-/// The landmarks of frame `f` that are not missing. `row` is what target.read() gives, `positions` are those of their
+/// Of the size of the rig: where a surface is farther, it has no place for the skin.
+constexpr float kFarShare = 0.05f;
+
+/// A place of the target in the space of the rig.
+math::Vec3 place_target(const SolvedFrame& frame, math::Vec3 place);
+
+/// The points of frame `f` that are not missing. `row` is what target.read() gives, `positions` are those of their
 /// mesh in the solved pose.
 std::vector<SolvedMark> compare_landmarks(const SolvedTake& take, const SolveTarget& target,
                                           size_t f, const float* row, const float* positions);

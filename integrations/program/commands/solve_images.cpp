@@ -26,9 +26,6 @@ constexpr render::Size kSolveTile = {320, 360};
 constexpr render::Backdrop kSolveBackdrop = {{228, 230, 232}, {228, 230, 232}};
 constexpr render::Color kSolveInk = {40, 42, 46}, kDot = {40, 150, 235};
 constexpr render::Color kNoTarget = {96, 104, 122};
-// Of the size of the rig: where a surface is farther, it has no place for the skin.
-constexpr float kFarShare = 0.05f;
-
 /// Positions of each mesh of the scene; empty where the target has none.
 using Shapes = std::vector<std::vector<float>>;
 
@@ -96,32 +93,18 @@ struct SolveDrawing {
     return render_image(surfaces, camera, options);
   }
 
-  Frame frame_of(size_t f) const {
-    Frame frame;
-    for (uint32_t c = 0; c < take.controls.size(); ++c) frame.raw.push_back({c, take.row(f)[c]});
-    return frame;
-  }
-
-  /// A point of the target in the space of the rig.
-  Vec3 placed(size_t f, const float* p) const {
-    const SolvedFrame& frame = take.frames[f];
-    float out[3] = {};
-    for (size_t r = 0; r < 3; ++r) {
-      for (size_t c = 0; c < 3; ++c) {
-        out[c] += frame.rotation[3 * r + c] * (p[r] - frame.translation[r]);
-      }
-    }
-    return {out[0], out[1], out[2]};
-  }
-
   Shapes shapes_of_joints(size_t f) {
     const char* what = "cannot draw";
     MienInstance* const at = instance.get();
     check(mien_instance_reset(at), nullptr, what, solved.shown);
-    apply_frame(frame_of(f), solved.rig, at);
+    apply_frame(take.pose(f), solved.rig, at);
     check(mien_rig_evaluate(solved.rig, at, 0), nullptr, what, solved.shown);
-    MienFloatView channels{};
+    MienFloatView channels{}, joints{};
     check(mien_instance_blend_shapes(at, &channels), nullptr, what, solved.shown);
+    check(mien_instance_joints(at, &joints), nullptr, what, solved.shown);
+    for (size_t i = 0; i < row.size(); ++i) {
+      if (!std::isfinite(row[i])) row[i] = joints.data[i];
+    }
     check(mien_deformer_instance_update_from_values(pose.get(), row.data(), row.size(),
                                                     channels.data, channels.count),
           nullptr, what, solved.shown);
@@ -166,7 +149,8 @@ struct SolveDrawing {
     if (target.kind == TargetKind::kSurface) {
       out.surface = target.read_surface(f);
       for (size_t i = 0; i < out.surface.positions.size(); i += 3) {
-        const Vec3 p = placed(f, out.surface.positions.data() + i);
+        const Vec3 p =
+            place_target(take.frames[f], math::load3(out.surface.positions.data(), i / 3));
         for (int k = 0; k < 3; ++k) out.surface.positions[i + static_cast<size_t>(k)] = p[k];
       }
       const float reach = kFarShare * options.scale;
@@ -187,10 +171,15 @@ struct SolveDrawing {
     if (target.points.empty()) {
       out.shapes = shapes_of_joints(f);
     } else {
-      for (size_t i = 0; i < row.size(); i += 3) {
-        const Vec3 p = placed(f, row.data() + i);
-        out.shapes[target_mesh].insert(out.shapes[target_mesh].end(), {p.x, p.y, p.z});
+      // Vertices without a target are drawn where they were solved.
+      const float* const own = scene.positions(scene.meshes[target_mesh]);
+      out.shapes[target_mesh].assign(own, own + row.size());
+      for (const SolvedMark& mark : compare_landmarks(take, target, f, row.data(), own)) {
+        const Vec3 p = mark.target;
+        std::copy_n(&p.x, 3, out.shapes[target_mesh].data() + size_t{3} * mark.point);
+        out.distances[target_mesh][mark.point] = mark.distance;
       }
+      return out;
     }
     for (size_t m = 0; m < scene.meshes.size(); ++m) {
       const float* const own = scene.positions(scene.meshes[m]);
@@ -289,7 +278,7 @@ std::string draw_solve(const SolvedTake& take, const SolveTarget& target, const 
   const bool pixels = target.kind == TargetKind::kLandmarks2;
   float most = pixels ? 0.5f : 0.001f * drawing.options.scale;
   for (const size_t f : frames) {
-    pose_scene(scene, drawing.frame_of(f));
+    pose_scene(scene, take.pose(f));
     most = std::max(most, drawing.compare(f).largest());
   }
   render::Sheet sheet({3 * shown, 3, kSolveTile, true}, kSolveBackdrop);
@@ -297,7 +286,7 @@ std::string draw_solve(const SolvedTake& take, const SolveTarget& target, const 
   for (size_t i = 0; i < shown; ++i) {
     progress.at(i);
     const size_t f = frames[i];
-    pose_scene(scene, drawing.frame_of(f));
+    pose_scene(scene, take.pose(f));
     const Comparison compared = drawing.compare(f);
     const bool surfaces = target.kind == TargetKind::kSurface;
     Image wanted =

@@ -16,7 +16,7 @@ namespace {
 
 using math::Vec3d;
 
-constexpr size_t kSolvedJointWidth = 9;
+constexpr size_t kJointWidth = 9;
 constexpr double kRadian = 0.017453292519943295;
 
 // A rotation matrix for column vectors, by rows.
@@ -126,18 +126,20 @@ SolveTarget read_glb_joints(const TargetOptions& options, const SolvedRig& rig,
       read_glb_motion(read_any_bytes(options.path, "cannot read target"), options.path));
   const MienRigInfo info = rig_info(rig.rig);
   const uint32_t count = rig_count(rig.rig, MIEN_KIND_JOINT);
-  if (info.joint_value_count != count * kSolvedJointWidth) {
+  if (info.joint_value_count != count * kJointWidth) {
     fail(kInvalid, "cannot solve", rig.shown, "its joints have quaternions",
          "bake it with Euler angles, or give the DNA file");
   }
   std::map<std::string, uint32_t> nodes;
   for (uint32_t n = 0; n < motion->names.size(); ++n) nodes.emplace(motion->names[n], n);
   auto node_of = std::make_shared<std::vector<int64_t>>(count, -1);
+  std::vector<float> weights;
   uint32_t missing = 0;
   for (uint32_t j = 0; j < count; ++j) {
     const auto found = nodes.find(rig_name(rig.rig, MIEN_KIND_JOINT, j));
     if (found != nodes.end()) (*node_of)[j] = found->second;
     missing += found == nodes.end();
+    weights.insert(weights.end(), kJointWidth, found == nodes.end() ? 0.0f : 1.0f);
   }
   if (missing == count) {
     fail(kInvalid, "cannot solve", shown, "no node has the name of a joint of the rig",
@@ -152,18 +154,19 @@ SolveTarget read_glb_joints(const TargetOptions& options, const SolvedRig& rig,
   const auto neutral = std::make_shared<std::vector<float>>(view.data, view.data + view.count);
   SolveTarget target;
   target.frame_count = motion->times.size();
-  target.width = count * kSolvedJointWidth;
+  target.width = count * kJointWidth;
+  if (missing != 0) target.weights = weights;
   if (target.frame_count > 1) target.rate = find_rate({motion->times, 1e-5});
   target.read = [=, space = NodeSpace(info), angles = JointAngles(info)](size_t frame, float* row) {
     const std::vector<NodeTransform> pose = sample_motion(*motion, motion->times[frame]);
     for (size_t j = 0; j < node_of->size(); ++j) {
-      float* const out = row + j * kSolvedJointWidth;
+      float* const out = row + j * kJointWidth;
       const int64_t node = (*node_of)[j];
       if (node < 0) {
-        std::fill_n(out, kSolvedJointWidth, NAN);
+        std::fill_n(out, kJointWidth, NAN);
       } else {
-        find_joint_values(pose[static_cast<size_t>(node)], neutral->data() + j * kSolvedJointWidth,
-                          space, angles, out);
+        find_joint_values(pose[static_cast<size_t>(node)], neutral->data() + j * kJointWidth, space,
+                          angles, out);
       }
     }
   };

@@ -22,7 +22,6 @@ constexpr const char* kWhatMask = "cannot use mask";
 constexpr const char* kMaskExample =
     "give {\"names\": {\"*Lip*\": 1, \"*Jaw*\": 0.5}, \"positions\": [12, [100, 200]], "
     "\"otherwise\": 0}";
-constexpr size_t kValuesOfJoint = 9;
 
 [[noreturn]] void fail_mask(const std::string& where, const std::string& why,
                             const std::string& what_to_do = kMaskExample) {
@@ -142,7 +141,7 @@ std::vector<float> read_json_mask(const std::string& path, const SolvedRig& rig,
 std::vector<float> read_mask(const std::string& path, const SolvedRig& rig,
                              const SolveTarget& target) {
   const bool joints = target.points.empty();
-  const size_t count = joints ? target.width / kValuesOfJoint : target.points.size();
+  const size_t count = joints ? rig_count(rig.rig, MIEN_KIND_JOINT) : target.points.size();
   std::vector<float> weights;
   if (is_array_file(path)) {
     const std::string shown = shown_name(path);
@@ -162,7 +161,7 @@ std::vector<float> read_mask(const std::string& path, const SolvedRig& rig,
   }
   if (!joints) return weights;
   std::vector<float> values;
-  for (const float weight : weights) values.insert(values.end(), kValuesOfJoint, weight);
+  for (const float weight : weights) values.insert(values.end(), joint_width(rig), weight);
   return values;
 }
 

@@ -23,7 +23,19 @@ void write_number(JsonWriter& json, const char* key, double number) {
   json.shortest(number);
 }
 
+/// What SolvedTake::data are.
+const char* data_key(const SolveTarget& target) {
+  if (target.points.empty()) return "by_joint";
+  return target.point_names.empty() ? "by_region" : "by_landmark";
+}
+
 }  // namespace
+
+Frame SolvedTake::pose(size_t frame) const {
+  Frame out;
+  for (uint32_t c = 0; c < controls.size(); ++c) out.raw.push_back({c, row(frame)[c]});
+  return out;
+}
 
 void reduce_keys(SolvedTake& take, float tolerance) {
   const size_t frames = take.frames.size(), controls = take.controls.size();
@@ -114,10 +126,11 @@ void write_solved_clip(const SolvedTake& take, Output& output) {
 void write_solve_report(const SolvedTake& take, const SolveTarget& target, Output& output) {
   using Layout = JsonWriter::Layout;
   double squares = 0, worst = 0;
-  uint64_t iterations = 0, keys = 0;
+  uint64_t iterations = 0, keys = 0, missing = 0;
   size_t with_data = 0;
   for (const SolvedFrame& frame : take.frames) {
     iterations += frame.iterations;
+    missing += frame.missing;
     if (frame.status == MIEN_FIT_NO_DATA) continue;
     ++with_data;
     squares += frame.rms * frame.rms;
@@ -135,12 +148,30 @@ void write_solve_report(const SolvedTake& take, const SolveTarget& target, Outpu
   json.begin_array();
   for (const std::string& name : take.unobservable) json.value(name);
   json.end_array();
+  json.member("missing", missing);
+  json.key("jumped");
+  json.begin_array();
+  for (size_t f = 0; f < take.frames.size(); ++f) {
+    if (take.frames[f].jumped) json.value(uint64_t{f});
+  }
+  json.end_array();
   json.member("iterations", iterations);
   write_number(json, "seconds", take.seconds);
   if (!take.keys.empty()) {
     for (const std::vector<uint32_t>& own : take.keys) keys += own.size();
     json.member("keys", keys);
   }
+  json.key(data_key(target));
+  json.begin_array(Layout::kLines);
+  for (const SolvedDatum& datum : take.data) {
+    json.begin_object();
+    json.member("name", datum.name);
+    write_number(json, "rms", datum.rms);
+    write_number(json, "worst", datum.worst);
+    json.member("worst_frame", uint64_t{datum.worst_frame});
+    json.end_object();
+  }
+  json.end_array();
   json.key("by_frame");
   json.begin_array(Layout::kLines);
   for (size_t f = 0; f < take.frames.size(); ++f) {
@@ -151,6 +182,8 @@ void write_solve_report(const SolvedTake& take, const SolveTarget& target, Outpu
     write_number(json, "rms", frame.rms);
     write_number(json, "worst", frame.worst);
     json.member("iterations", frame.iterations);
+    json.member("missing", frame.missing);
+    json.member("jumped", frame.jumped);
     if (take.rigid) {
       json.key("rotation");
       json.floats(frame.rotation, 9);

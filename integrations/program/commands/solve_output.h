@@ -3,16 +3,26 @@
 #pragma once
 
 #include "integrations/program/commands/solve_target.h"
+#include "integrations/program/io/frames.h"
 
 namespace mien::cli {
 
 struct SolvedFrame {
   double rms = 0, worst = 0;  // of joint values or distances
   uint32_t iterations = 0;
-  uint32_t status = 0;  // MIEN_FIT_...
+  uint32_t status = 0;   // MIEN_FIT_...
+  uint32_t missing = 0;  // points or joint values without a target
+  bool jumped = false;   // it moved farther than the target asks for
   // Points of the target = rotation (rows) * model + translation.
   float rotation[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, translation[3] = {};
   float focal[2] = {};  // of a camera that was found
+};
+
+/// What is left of a landmark, a joint, or a region of vertices, over all frames.
+struct SolvedDatum {
+  std::string name;
+  double rms, worst;
+  size_t worst_frame;
 };
 
 /// Controls of a take.
@@ -21,6 +31,7 @@ struct SolvedTake {
   std::vector<std::string> controls;  // names of all raw controls
   std::vector<float> values;          // [frame][control]
   std::vector<SolvedFrame> frames;
+  std::vector<SolvedDatum> data;            // the worst first; empty without a report
   std::vector<std::string> unobservable;    // names of controls that the data does not determine
   std::vector<std::vector<uint32_t>> keys;  // of each control, frame numbers; empty: every frame
   Rate rate;
@@ -29,6 +40,7 @@ struct SolvedTake {
   double seconds = 0;  // that solving took
 
   const float* row(size_t frame) const { return values.data() + frame * controls.size(); }
+  Frame pose(size_t frame) const;
 };
 
 /// Chooses keys, between which the curves become straight lines within `tolerance` of what they were.

@@ -22,8 +22,6 @@ namespace mien::cli {
 
 namespace {
 
-constexpr size_t kJointWidth = 9;
-
 std::string shape_text(const std::vector<uint64_t>& shape) {
   std::string text;
   for (const uint64_t n : shape) text += (text.empty() ? "" : " x ") + std::to_string(n);
@@ -35,7 +33,7 @@ SolveTarget read_array(const TargetOptions& options, size_t rows, size_t columns
                        const std::string& wanted) {
   const std::string shown = shown_name(options.path);
   auto array = std::make_shared<NpyArray>(
-      read_npy_or_npz(read_any_bytes(options.path, "cannot read target"), shown));
+      read_npy_or_npz(read_any_bytes(options.path, "cannot read target"), shown, true));
   std::vector<uint64_t> shape = array->shape;
   if (shape.size() == 2) shape.insert(shape.begin(), 1);
   if (shape.size() != 3 || shape[1] != rows || shape[2] != columns) {
@@ -64,7 +62,7 @@ SolveTarget read_joints(const TargetOptions& options, const SolvedRig& rig,
                "give frames x joints x 9 numbers as `mien eval` writes joints, as .npy, or an "
                "animated .glb");
   }
-  return read_array(options, rig_count(rig.rig, MIEN_KIND_JOINT), kJointWidth,
+  return read_array(options, rig_count(rig.rig, MIEN_KIND_JOINT), joint_width(rig),
                     "the joint values that `mien eval` writes, for all joints in their order");
 }
 
@@ -115,6 +113,11 @@ MienMesh mesh_of(const SolvedRig& rig, uint32_t mesh) {
   auto found = sized<MienMesh>();
   check(mien_deformer_mesh(rig.deformer, mesh, &found), nullptr, "cannot read mesh", rig.shown);
   return found;
+}
+
+uint32_t joint_width(const SolvedRig& rig) {
+  const uint32_t joints = rig_count(rig.rig, MIEN_KIND_JOINT);
+  return joints != 0 ? rig_info(rig.rig).joint_value_count / joints : 0;
 }
 
 uint32_t find_mesh(const SolvedRig& rig, const std::string& name) {
@@ -188,7 +191,10 @@ SolveTarget open_target(const TargetOptions& options, TargetKind kind, const Sol
     for (uint32_t p = 0; p < count; ++p) target.points.push_back({mesh, {p, p, p}, {1, 0, 0}});
   }
   target.kind = kind;
-  if (!options.mask.empty()) target.weights = read_mask(options.mask, rig, target);
+  if (options.mask.empty()) return target;
+  std::vector<float> weights = read_mask(options.mask, rig, target);
+  for (size_t i = 0; i < target.weights.size(); ++i) weights[i] *= target.weights[i];
+  target.weights = weights;
   return target;
 }
 

@@ -39,6 +39,9 @@ using FitSurface =
 
 using Fit = std::unique_ptr<MienFit, Destroy<MienFit, mien_fit_destroy>>;
 
+/// Joint values of a joint: 9, or 10 with quaternions.
+uint32_t joint_width(const SolvedRig& rig);
+
 /// Of what mien_fit_observability() gives; rounding is below.
 constexpr float kUnobservable = 1e-5f;
 
@@ -73,10 +76,11 @@ struct SolveTarget {
   std::vector<std::string> frame_names;  // where frames are shapes; else empty
   std::vector<MienSolvePoint> points;    // empty: joints
   std::vector<std::string> point_names;  // of landmarks; else empty
-  std::vector<float> weights;            // of each point or joint value, as --mask says; empty: 1
-  std::vector<float> point_offsets;      // MienFitFrame.point_offsets of another person; else empty
-  std::optional<MienFitCamera> camera;   // of images
-  Rate rate;                             // unknown if the file has none
+  // Of each point or joint value: 0 for what has a target in no frame, or as --mask says. Empty: 1.
+  std::vector<float> weights;
+  std::vector<float> point_offsets;     // MienFitFrame.point_offsets of another person; else empty
+  std::optional<MienFitCamera> camera;  // of images
+  Rate rate;                            // unknown if the file has none
   /// Writes the numbers of a frame. Missing ones are NaN.
   std::function<void(size_t frame, float* row)> read;
   std::function<SurfaceMesh(size_t frame)> read_surface;  // of kSurface

@@ -62,12 +62,12 @@ void append(const char* bytes, size_t count, std::vector<float>& numbers) {
 
 }  // namespace
 
-NpyArray read_npy_or_npz(const std::string& bytes, const std::string& path) {
-  return bytes.compare(0, 4, "PK\3\4") == 0 ? read_npy(read_npz_member(bytes, path), path)
-                                            : read_npy(bytes, path);
+NpyArray read_npy_or_npz(const std::string& bytes, const std::string& path, bool nan) {
+  return bytes.compare(0, 4, "PK\3\4") == 0 ? read_npy(read_npz_member(bytes, path), path, nan)
+                                            : read_npy(bytes, path, nan);
 }
 
-NpyArray read_npy(const std::string& bytes, const std::string& path) {
+NpyArray read_npy(const std::string& bytes, const std::string& path, bool nan) {
   if (bytes.compare(0, kNpyMagicSize, kNpyMagic) != 0 || bytes.size() < 12) {
     fail_npy(path, "it does not begin as one", "save it with numpy.save()");
   }
@@ -120,8 +120,9 @@ NpyArray read_npy(const std::string& bytes, const std::string& path) {
   else
     fail_npy(path, "numbers of type \"" + type + "\" are not read", "save a.astype('float32')");
   for (size_t i = 0; i < array.numbers.size(); ++i) {
-    if (!std::isfinite(array.numbers[i])) {
-      fail_npy(path, "number " + std::to_string(i) + " is not finite", "give finite numbers");
+    if (!std::isfinite(array.numbers[i]) && !(nan && std::isnan(array.numbers[i]))) {
+      fail_npy(path, "number " + std::to_string(i) + " is not finite",
+               nan ? "give finite numbers, or NaN where one is missing" : "give finite numbers");
     }
   }
   return array;

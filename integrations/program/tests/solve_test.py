@@ -155,6 +155,19 @@ class Kinds(SolveTest):
         self.assertEqual(len(rows), 3)
         for row, pose in zip(rows, poses):
             self.compare(row, pose, 0.01, report["unobservable"])
+        # Joints without a node count nothing, and are no reason to tell of a jump.
+        moved = [datum["name"] for datum in report["by_joint"]]
+        lost = [name for name in moved if "Lip" in name]
+        self.assertGreater(len(lost), 10)
+        data = read("animated.glb")
+        for name in lost:
+            self.assertEqual(data.count(f'"{name}"'.encode()), 1)
+            data = data.replace(f'"{name}"'.encode(), f'"{name[::-1]}"'.encode())
+        rows, report = self.solved(write("lost.glb", data), "--kind", "joints")
+        for row, pose in zip(rows, poses):
+            self.compare(row, pose, 0.01, report["unobservable"])
+        self.assertEqual((report["missing"], report["jumped"]), (0, []))
+        self.assertEqual(len(report["by_joint"]), len(moved) - len(lost))
         self.fails(INVALID, "solve", path(TINY), path("animated.glb"), "--kind", "joints", "-o", path("no.json"),
                    says="no node has the name")
         self.fails(INVALID, "solve", path(TINY), write("wrong.glb", b"glTF" + bytes(40)), "--kind", "joints", "-o",
@@ -225,6 +238,8 @@ class Kinds(SolveTest):
             self.assertAlmostEqual(rows[0][name], value, delta=0.02, msg=name)
         self.assertLess(report["residual"]["rms"], 0.01)  # cm
         self.assertAlmostEqual(report["by_frame"][0]["translation"][0], 0.3, delta=0.02)
+        self.assertLess(report["by_region"][0]["worst"], 0.5)  # cm
+        self.assertGreater(len(report["by_region"]), 5)
 
     def test_a_posed_glb(self):
         mesh, _ = self.obj({})
@@ -476,6 +491,113 @@ class Masks(SolveTest):
         refuse(npy((len(points),), [-1] * len(points)), "negative", "wrong.mask.npy")
 
 
+class Reports(SolveTest):
+    """What the report and the notes say of data that are missing, of jumps, and of what is left of each datum."""
+
+    def notes(self, *arguments, rig=HEAD):
+        done = self.ok("solve", path(rig), *arguments, "-o", path("out.json"), "--force")
+        return [line for line in done.stderr.splitlines() if "note:" in line]
+
+    def worst_first(self, data, report):
+        self.assertEqual([d["worst"] for d in data], sorted((d["worst"] for d in data), reverse=True))
+        self.assertAlmostEqual(data[0]["worst"], report["residual"]["worst"],
+                               delta=1e-3 * report["residual"]["worst"] + 1e-5)
+        for datum in data:
+            self.assertLessEqual(datum["rms"], datum["worst"])
+
+    def test_missing_vertices(self):
+        mesh, points = self.obj(POSE)
+        flat = [x for point in points for x in point]
+        gaps = [math.nan if i % 3 == 0 and i // 3 % 4 == 1 else x for i, x in enumerate(flat)]
+        count = sum(map(math.isnan, gaps))
+        write("gaps.npy", npy((3, len(points), 3), flat + gaps + [math.nan] * len(flat)))
+        arguments = path("gaps.npy"), "--mesh", mesh
+        rows, report = self.solved(*arguments, "--pictures", path("drawn"))
+        self.addCleanup(shutil.rmtree, path("drawn"))
+        for row in rows:
+            self.compare(row, POSE, 0.01, report["unobservable"])
+        self.assertEqual([frame["missing"] for frame in report["by_frame"]], [0, count, len(points)])
+        self.assertEqual([frame["status"] for frame in report["by_frame"]], ["converged", "converged", "no data"])
+        self.assertEqual(report["missing"], count + len(points))
+        self.assertEqual(report["jumped"], [])
+        notes = self.notes(*arguments)
+        self.assertEqual(len(notes), 2, notes)
+        self.assertTrue(notes[0].endswith("1 of 3 frames have no data and hold the frame before: 2"), notes)
+        self.assertIn("2 of 3 frames lack some targets, at most", notes[1])
+        self.assertTrue(notes[1].endswith("points: 1, 2"), notes)
+
+    def test_missing_joint_values(self):
+        names = [name.rpartition(".")[2] for name in self.names(SMALL, "raw")]
+        pose = {names[2]: 0.6, names[5]: 0.3}
+        array = read(os.path.basename(self.joints(SMALL, [pose])))
+        count = 9 * len(self.names(SMALL, "joints"))
+        values = list(struct.unpack("<%df" % count, array[-4 * count:]))
+        for i in range(0, count, 5):
+            values[i] = math.nan
+        target = write("gaps.npy", npy((1, count // 9, 9), values))
+        rows, report = self.solved(target, "--kind", "joints", rig=SMALL)
+        self.compare(rows[0], pose, 0.01, report["unobservable"])
+        self.assertEqual(report["missing"], len(range(0, count, 5)))
+        self.assertIn("joint values: 0", self.notes(target, "--kind", "joints", rig=SMALL)[0])
+        # Quaternions are 10 values of a joint.
+        self.ok("bake", path(SMALL), "-o", path("turns.mien"), "--rotation", "quaternion", "--force")
+        self.fails(INVALID, "solve", path("turns.mien"), target, "--kind", "joints", "-o", path("no.json"),
+                   says=f"{count // 9} x 10")
+        write("poses.json", frames_of([pose]))
+        self.ok("eval", path("turns.mien"), "--input", path("poses.json"), "-o", path("turns.npy"))
+        again, _ = self.solved(path("turns.npy"), "--kind", "joints", rig="turns.mien")
+        self.compare(again[0], pose, 0.01, report["unobservable"])
+        # One joint that no control brings where it should be.
+        values[3 * 9 + 1] += 0.5
+        rows, report = self.solved(write("off.npy", npy((1, count // 9, 9), values)), "--kind", "joints", rig=SMALL)
+        self.worst_first(report["by_joint"], report)
+        self.assertEqual(report["by_joint"][0]["name"], self.names(SMALL, "joints")[3])
+        self.assertLessEqual(len(report["by_joint"]), count // 9)
+
+    def test_jumps(self):
+        """A frame that has only the brows, while --sparse draws the jaw, which has no target there, to rest."""
+        mesh, points = self.obj(POSE)
+        flat = [x for point in points for x in point]
+        above = sorted(p[1] for p in points)[len(points) * 9 // 10]
+        brows = [x if points[i // 3][1] > above else math.nan for i, x in enumerate(flat)]
+        write("brows.npy", npy((3, len(points), 3), flat + flat + brows))
+        arguments = path("brows.npy"), "--mesh", mesh
+        rows, report = self.solved(*arguments)
+        self.assertEqual(report["jumped"], [])
+        self.assertAlmostEqual(rows[2]["jawOpen"], POSE["jawOpen"], delta=0.01)
+        rows, report = self.solved(*arguments, "--sparse", "1e-3")
+        self.assertLess(rows[2]["jawOpen"], 0.2)
+        self.assertEqual(report["jumped"], [2])
+        self.assertEqual([frame["jumped"] for frame in report["by_frame"]], [False, False, True])
+        notes = self.notes(*arguments, "--sparse", "1e-3")
+        self.assertTrue(notes[0].endswith("1 of 3 frames moved farther than their targets ask for: 2"), notes)
+
+    def test_what_is_left_of_regions_and_landmarks(self):
+        mesh, points = self.obj({})
+        rest = [x for point in points for x in point]
+        wrong = rest[:]
+        wrong[3 * 100 + 2] += 2.0  # cm: the only vertex that is off
+        write("wrong.npy", npy((2, len(points), 3), rest + wrong))
+        for options in ((), ("--rigid",)):
+            _, report = self.solved(path("wrong.npy"), "--mesh", mesh, *options)
+            regions = report["by_region"]
+            self.worst_first(regions, report)
+            self.assertGreater(regions[0]["worst"], 10 * regions[1]["worst"])
+            self.assertEqual(regions[0]["worst_frame"], 1)
+            self.assertIn(regions[0]["name"], self.names(HEAD, "joints"))
+        mask = write("mask.json", json.dumps({"positions": [[101, len(points) - 1]]}))
+        _, report = self.solved(path("wrong.npy"), "--mesh", mesh, "--mask", mask)
+        self.assertLess(report["by_region"][0]["worst"], 0.01)
+        numbers = list(range(0, len(points), 40))
+        write("marks.csv", "time," + ",".join(f"p{i}.{k}" for i in numbers for k in "xyz") + "\n0," +
+              ",".join("%.6f" % (x + (3 if i == numbers[7] else 0)) for i in numbers for x in points[i]) + "\n")
+        places = write("points.json", json.dumps({"mesh": mesh, "points": {f"p{i}": i for i in numbers}}))
+        _, report = self.solved(path("marks.csv"), "--landmarks", places, "--robust", "0.1")
+        self.assertEqual(len(report["by_landmark"]), len(numbers))
+        self.worst_first(report["by_landmark"], report)
+        self.assertEqual(report["by_landmark"][0]["name"], f"p{numbers[7]}")
+
+
 class Options(SolveTest):
     def test_keys_are_within_their_tolerance(self):
         poses = motion(24)
@@ -600,9 +722,11 @@ class Refusals(SolveTest):
                             ((2, count, 10), "x 10"), ((9,), "its shape is 9"), ((), "one number")):
             numbers = [0.0] * math.prod(shape)
             self.refuse(write("wrong.npy", npy(shape, numbers)), says, "--kind", "joints")
-        for value in (math.nan, math.inf):
-            self.refuse(write("wrong.npy", npy((1, count, 9), [value] * 9 * count)), "not finite", "--kind",
-                        "joints")
+        for value in (math.inf, -math.inf):
+            self.refuse(write("wrong.npy", npy((1, count, 9), [value] + [math.nan] * (9 * count - 1))),
+                        ("number 0 is not finite", "NaN where one is missing"), "--kind", "joints")
+        self.refuse(write("good.npy", npy((1, count, 9), [0.0] * 9 * count)), "not finite", "--kind", "joints",
+                    "--mask", write("mask.npy", npy((count,), [math.nan] * count)))
         good = npy((1, count, 9), [0.0] * 9 * count)
         for end in (0, 5, 11, 60, len(good) - 1):
             self.refuse(write("wrong.npy", good[:end]), "NPY", "--kind", "joints")

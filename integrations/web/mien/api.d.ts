@@ -2390,7 +2390,7 @@ export interface FitResult {
   /** largest residual of a constraint that counts */
   readonly constraintWorst: number;
   /**
-   * joint values or points moved farther from where they are at `start` than their targets ask for, as roots of mean squares; points without a target count as such that ask for nothing
+   * joint values or points moved farther from where they are at `start` than their targets ask for, as roots of mean squares; those without a target count as such that ask for nothing
    */
   readonly jumped: boolean;
   readonly reserved2: number;

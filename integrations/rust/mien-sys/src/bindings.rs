@@ -3706,7 +3706,7 @@ pub struct MienFitResult {
     /// Largest residual of a constraint that counts.
     pub constraint_worst: f64,
     /// Joint values or points moved farther from where they are at `start` than their targets ask
-    /// for, as roots of mean squares; points without a target count as such that ask for nothing.
+    /// for, as roots of mean squares; those without a target count as such that ask for nothing.
     pub jumped: u32,
     pub reserved_2: u32,
     /// Weighted root mean square of the distances in the image.
