@@ -167,11 +167,12 @@ uint32_t Solve::run_stage(uint32_t limit, double enough_decrease) {
   MienFit& fit = f.fit;
   double damping = kFirstDamping, before = 0;
   uint32_t slow = 0;  // steps in a row that gained little less than the one before
+  bool fresh = true;  // no step was taken since effects on points were measured
   std::fill(fit.measured.begin(), fit.measured.end(), uint8_t{0});
   // Effects of controls on points change with the pose: where steps gain little, they are measured at it.
-  const auto measure_again = [&] {
-    if (!f.has_points() || (f.exact && slow == 0)) return false;
-    f.exact = true;
+  const auto measure_again = [&](bool damped = false) {
+    if (!f.has_points() || (f.exact && slow == 0 && !damped)) return false;
+    f.exact = fresh = true;
     slow = 0;
     before = 0;
     damping = kFirstDamping;
@@ -217,6 +218,9 @@ uint32_t Solve::run_stage(uint32_t limit, double enough_decrease) {
         const bool as_modeled = by_model && decrease > kAsModeled * (cost.total - step.predicted);
         slow = decrease > kSlow * before && before > 0 ? slow + 1 : 0;
         before = decrease;
+        // A step that is short because effects are those of an earlier pose is not the last one.
+        const bool damped = damping > kFirstDamping && !fresh;
+        fresh = false;
         cost = next;
         keep();
         const bool as_predicted = step.solved && damping <= kFirstDamping &&
@@ -227,7 +231,7 @@ uint32_t Solve::run_stage(uint32_t limit, double enough_decrease) {
           return MIEN_FIT_CONVERGED;
         }
         const bool ended = decrease <= enough || step.farthest < kEnoughStep;
-        if (ended && (slow == 0 || !measure_again())) {
+        if (ended && ((slow == 0 && !damped) || !measure_again(damped))) {
           ++iterations;
           return MIEN_FIT_CONVERGED;
         }
@@ -241,7 +245,7 @@ uint32_t Solve::run_stage(uint32_t limit, double enough_decrease) {
           !by_model && damping <= kFirstDamping && reached - cost.total <= enough_of(cost.total);
       if (at_minimum || step.farthest < kEnoughStep || damping > 1e8) {
         cost = find_all();  // of the best controls
-        if (!f.exact && damping > kFirstDamping && measure_again()) break;
+        if ((!f.exact || !fresh) && damping > kFirstDamping && measure_again(!fresh)) break;
         return MIEN_FIT_CONVERGED;
       }
       if (f.is_late()) {
