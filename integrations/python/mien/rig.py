@@ -3,18 +3,24 @@
 from __future__ import annotations
 
 import ctypes
-from typing import Any, Optional, Tuple
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any, Iterator, List, Optional, Tuple
+from weakref import WeakKeyDictionary
 
 from . import _api, _baked
-from ._api import (Arithmetic, BakedCheck, FileAccess, Isa, MienError, MlMasks, Reuse, RotationOutput,
-                   Storage)
+from ._api import (Arithmetic, BakedCheck, FileAccess, Isa, MienError, MlMasks, Point, Reuse,
+                   RotationOutput, Storage)
 from ._library import lib
-from ._memory import Closable, RigHandle, uint32
+from ._memory import Closable, Floats, RigHandle, uint32
 from .batch import Batch
 from .dna import Dna
 from .errors import fail, raises
 from .instance import Instance
 from .rig_view import RigView
+
+if TYPE_CHECKING:
+    from .deformer import Deformer
+    from .derivatives import Derivatives
 
 _byref = ctypes.byref
 
@@ -34,7 +40,9 @@ class Rig(RigView):
     storage:  `Storage.BIT_16` halves the memory of the large arrays, at three decimal digits
     """
 
-    __slots__ = ()
+    # What jvp() and vjp() keep, by deformer; without one, by the rig itself.
+    __slots__ = ("_idle",)
+    _idle: WeakKeyDictionary[Closable, List[Tuple[Instance, Derivatives]]]
 
     @raises("mien_rig_create")
     def __init__(self, dna: Dna, isa: int = Isa.BEST, rotation: int = RotationOutput.EULER,
@@ -81,6 +89,10 @@ class Rig(RigView):
         rig._take(handle)
         return rig
 
+    def _take(self, handle: RigHandle) -> None:
+        self._idle = WeakKeyDictionary()
+        super()._take(handle)
+
     @raises("mien_bake_file")
     def bake(self, path: Any, deformer: Optional[Closable] = None) -> None:
         """Writes a baked file, with a `Deformer` of this rig if there is one; a failure leaves
@@ -102,6 +114,55 @@ class Rig(RigView):
 
     def __deepcopy__(self, memo: Any) -> Rig:
         return self
+
+    # ---- derivatives ---------------------------------------------------------------------------
+
+    def jvp(self, raw: Any, directions: Any, deformer: Optional[Deformer] = None, to: int = Point.JOINTS,
+            mesh: int = 0, lod: int = 0) -> Floats:
+        """How the numbers at `to` change along directions of raw controls, at the pose of the raw controls `raw`
+        (docs/derivatives.md). Needs NumPy.
+
+        raw:        (raw controls,)
+        directions: (raw controls,), or rows of them: (count, raw controls)
+        deformer:   of this rig; needed for points from `Point.LOCALS` to `Point.POSITIONS`
+        result:     float32 (n,) or (count, n); n is the size of the point, such as 9 times the joints for
+                    `Point.JOINTS`, or 3 times the positions of `mesh` for `Point.POSITIONS`
+
+        `Derivatives` differentiates an instance at its last evaluation, by other numbers too.
+        """
+        with self._linearized(raw, deformer, lod) as derivatives:
+            return derivatives.jvp(directions, to=to, mesh=mesh)
+
+    def vjp(self, raw: Any, gradients: Any, deformer: Optional[Deformer] = None, to: int = Point.JOINTS,
+            mesh: int = 0, lod: int = 0) -> Floats:
+        """The gradients by raw controls that follow from gradients by the numbers at `to`, at the pose of the raw
+        controls `raw`: (n,) or rows of them, (count, n), become float32 (raw controls,) or (count, raw controls).
+        All else is as for `jvp()`."""
+        with self._linearized(raw, deformer, lod) as derivatives:
+            return derivatives.vjp(gradients, to=to, mesh=mesh)
+
+    @contextmanager
+    def _linearized(self, raw: Any, deformer: Optional[Deformer], lod: int) -> Iterator[Derivatives]:
+        """Derivatives at a pose. They are kept for the next call, those of several threads each."""
+        from .derivatives import Derivatives
+        self._open()
+        if deformer is not None:
+            deformer._open()
+        idle = self._idle.setdefault(self if deformer is None else deformer, [])
+        try:
+            face, derivatives = idle.pop()
+        except IndexError:
+            face, derivatives = self.instance(), Derivatives(self, deformer)
+        face.raw_controls = raw
+        face.evaluate(lod)
+        derivatives.linearize(face)
+        yield derivatives
+        idle.append((face, derivatives))
+
+    def close(self) -> None:
+        """Gives up the memory as soon as nothing made of the rig is in use any more. May be called twice."""
+        self._idle.clear()
+        super().close()
 
     # ---- characters ----------------------------------------------------------------------------
 

@@ -4,6 +4,7 @@ wrong arguments raise."""
 import gc
 import threading
 import unittest
+import weakref
 
 import mien
 from support import dna_of, needs_numpy, numpy, pattern, rig_of, run
@@ -51,6 +52,57 @@ class Products(unittest.TestCase):
             numpy.testing.assert_array_less(
                 abs((forward * v).sum(1) - (u * reverse).sum(1)), 1e-4 * norms + 1e-6)
             numpy.testing.assert_array_equal(self.derivatives.jvp(u[1], to=to), forward[1])
+
+    def test_a_rig_multiplies_at_a_pose(self):
+        rig, raw = rig_of(), self.face.raw_controls.copy()
+        u = self.random.normal(size=(3, len(raw))).astype("f")
+        numpy.testing.assert_array_equal(rig.jvp(raw, u), self.derivatives.jvp(u))
+        numpy.testing.assert_array_equal(rig.jvp(raw, u[1]), self.derivatives.jvp(u[1]))
+        for to in (JOINTS, POSITIONS):
+            v = self.random.normal(size=(2, self.derivatives.size(to))).astype("f")
+            numpy.testing.assert_array_equal(rig.vjp(raw, v, self.deformer, to), self.derivatives.vjp(v, to=to))
+            self.assertEqual(rig.vjp(raw, v[0], self.deformer, to).shape, raw.shape)
+        # Another pose, and the first one again.
+        other = posed(3)
+        self.derivatives.linearize(other)
+        numpy.testing.assert_array_equal(rig.jvp(other.raw_controls, u), self.derivatives.jvp(u))
+        self.derivatives.linearize(self.face)
+        expected = self.derivatives.jvp(u)
+        results = [None] * 4
+
+        def multiply(i):
+            results[i] = [rig.jvp(raw, u) for _ in range(5)]
+        threads = [threading.Thread(target=multiply, args=(i,)) for i in range(len(results))]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        for result in results:
+            for found in result:
+                numpy.testing.assert_array_equal(found, expected)
+
+    def test_a_rig_refuses_wrong_products(self):
+        raw = self.face.raw_controls.copy()
+        rig = mien.Rig(dna_of())
+        rig.jvp(raw, raw)
+        with self.assertRaises(mien.Error):
+            rig.jvp(raw, raw, self.deformer, POSITIONS)  # of another rig
+        for wrong in (lambda: rig.jvp(raw[:-1], raw), lambda: rig.jvp(raw, raw[:-1]),
+                      lambda: rig.vjp(raw, raw), lambda: rig.jvp(raw, raw, to=RAW)):
+            with self.assertRaises((mien.ArgumentError, ValueError)):
+                wrong()
+        with self.assertRaises(mien.OutOfRangeError):
+            rig.jvp(raw, raw, to=POSITIONS)  # without a deformer
+        self.assertEqual(rig.jvp(raw, raw).shape, (self.derivatives.size(JOINTS),))
+        rig.close()
+        with self.assertRaises(mien.ClosedError):
+            rig.jvp(raw, raw)
+        collected = mien.Rig(dna_of())
+        collected.jvp(raw, raw)
+        alive = weakref.ref(collected)
+        del collected
+        gc.collect()
+        self.assertIsNone(alive())
 
     def test_the_matrix(self):
         whole = mien.Jacobian(self.derivatives)
