@@ -5,7 +5,7 @@
 Usage: examples_agree.py --python INTERPRETER --cargo CARGO_OR_NOTHING --luajit LUAJIT_OR_NOTHING
                          --mcs MCS_OR_NOTHING --mono MONO_OR_NOTHING --go GO_OR_NOTHING
                          --programs DIRECTORY [--web PACKAGE_OR_NOTHING]
-The programs in C and C++ are DIRECTORY/example_c, _cpp, _mix_c and _mix_cpp.
+The programs in C and C++ are DIRECTORY/example_c, _cpp, _mix_c, _mix_cpp and _solve_cpp.
 The library is found by the environment: MIEN_LIBRARY (Python, Lua), MIEN_LIB_DIR (Rust),
 LD_LIBRARY_PATH (C#, Go), CGO_CFLAGS and CGO_LDFLAGS (Go). PACKAGE is the npm package that `./dev web build` makes.
 """
@@ -41,6 +41,16 @@ def mixes_differ(programs):
     if not (of[60]["jaw"] < 0.02 and of[50]["jaw"] > 0.5 and of[60]["smile"] == 0.72
             and of[90]["lids"] == 0 and of[100]["lids"] == 1 and of[150]["squint"] == 0):
         sys.exit("the mix does not do what its comments say")
+    return len(set(printed.values())) != 1
+
+
+def solves_differ(programs):
+    """Whether they find other controls than those that the head was posed with."""
+    printed = {name: run(command, [])[1] for name, command in programs.items()}
+    print(printed["C++"], end="")
+    found = dict(line.split() for line in printed["C++"].splitlines()[1:])
+    if found != {"jawOpen": "0.40", "mouthSmileLeft": "0.70", "browInnerUp": "0.50"}:
+        sys.exit("the solve does not find the controls of the pose")
     return len(set(printed.values())) != 1
 
 
@@ -82,7 +92,8 @@ def main():
 
     programs = {"C": ["example_c"], "C++": ["example_cpp"]}
     mixing = {"C": ["example_mix_c"], "C++": ["example_mix_cpp"]}
-    for commands in (programs, mixing):
+    solving = {"C++": ["example_solve_cpp"]}
+    for commands in (programs, mixing, solving):
         commands.update({name: [args.programs / command[0]] for name, command in commands.items()})
     if subprocess.run([args.python, "-c", "import numpy"], stderr=subprocess.DEVNULL).returncode:
         print(f"NOT TESTED: the example in Python; {args.python} has no NumPy")
@@ -96,6 +107,7 @@ def main():
         cargo = [args.cargo, "run", "--quiet", "--offline", "--manifest-path", manifest, "--example"]
         programs["Rust"] = cargo + ["evaluate", "--"]
         mixing["Rust"] = cargo + ["mix"]
+        solving["Rust"] = cargo + ["solve"]
     if not args.luajit:
         print("NOT TESTED: the example in Lua; there is no luajit")
     else:
@@ -128,7 +140,7 @@ def main():
     readme = (HERE.parent / "README.md").read_text(encoding="utf-8")
     if readme.split("```c\n")[1].split("```")[0] not in (HERE / "evaluate.c").read_text(encoding="utf-8"):
         sys.exit("the example of README.md is not from evaluate.c")
-    failures = mixes_differ(mixing)
+    failures = mixes_differ(mixing) + solves_differ(solving)
     with tempfile.TemporaryDirectory() as directory:
         broken = Path(directory) / "broken.dna"
         broken.write_bytes(b"DNA, but not for long")

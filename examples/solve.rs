@@ -1,0 +1,1 @@
+../integrations/rust/mien/examples/solve.rs
