@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <numeric>
 
 #include "integrations/program/commands/landmark_sets.h"
+#include "integrations/program/commands/solve_mix.h"
 #include "integrations/program/commands/solve_neutral.h"
 #include "integrations/program/commands/solve_output.h"
 #include "integrations/program/commands/solve_residuals.h"
@@ -29,9 +29,68 @@ namespace {
 constexpr uint32_t kFirstIterations = 200, kMostIterations = 50;
 constexpr uint32_t kMostSolvedFrames = 10000000;
 
-void check_command(const SolveCommand& command, TargetKind kind) {
-  const bool landmarks = kind == TargetKind::kLandmarks3 || kind == TargetKind::kLandmarks2;
-  if ((kind == TargetKind::kWeights) != !command.target.from.empty()) {
+/// Vertices, landmarks in space, or what another rig does.
+bool is_of_places(TargetKind kind) {
+  return kind == TargetKind::kVertices || kind == TargetKind::kLandmarks3 ||
+         kind == TargetKind::kWeights;
+}
+
+/// The targets of one run go together.
+void check_mix(const SolveCommand& command, const std::vector<TargetKind>& kinds) {
+  if (kinds.size() == 1) {
+    if (!command.weights.empty()) {
+      fail_usage("--weights", "there is one target", "leave it out, or name another TARGET");
+    }
+    return;
+  }
+  for (const TargetKind kind :
+       {TargetKind::kJoints, TargetKind::kLandmarks2, TargetKind::kSurface}) {
+    if (std::count(kinds.begin(), kinds.end(), kind) > 1) {
+      fail_usage("TARGET", std::string("two of them are ") + kind_word(kind),
+                 "give one of this kind");
+    }
+  }
+  if (!command.neutral.empty()) {
+    fail_usage("--neutral", "it is measured with one target", "leave it out, or the other TARGET");
+  }
+  const bool images = std::count(kinds.begin(), kinds.end(), TargetKind::kLandmarks2) != 0;
+  if (images && command.rigid && kinds[0] != TargetKind::kLandmarks2) {
+    fail_usage("--rigid", "it finds the camera of landmarks2, which is not the first TARGET",
+               "name landmarks2 first");
+  }
+  const bool joints = std::count(kinds.begin(), kinds.end(), TargetKind::kJoints) != 0;
+  const bool lengths = std::any_of(kinds.begin(), kinds.end(), [](TargetKind kind) {
+    return is_of_places(kind) || kind == TargetKind::kSurface;
+  });
+  if (images + joints + lengths > 1 && command.weights.empty()) {
+    fail_usage("TARGET", "joint values, lengths and pixels are given together",
+               "say what each counts: --weights 1,0.001");
+  }
+}
+
+/// What each target counts.
+std::vector<float> parse_target_weights(const std::string& list, size_t count) {
+  std::vector<float> weights;
+  if (list.empty()) return weights;
+  for (const std::string& word : split_at_commas(list)) {
+    weights.push_back(parse_weight("--weights", word));
+    if (!(weights.back() > 0)) {
+      fail_usage("--weights " + one_line(list), "a target would not count",
+                 "give numbers above 0, or leave out that TARGET");
+    }
+  }
+  if (weights.size() == count) return weights;
+  fail_usage("--weights " + one_line(list), "there are " + std::to_string(count) + " targets",
+             "give a number for each, in their order");
+}
+
+void check_command(const SolveCommand& command, const std::vector<TargetKind>& kinds) {
+  const auto has = [&](TargetKind kind) {
+    return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
+  };
+  const bool joints_alone = kinds.size() == 1 && has(TargetKind::kJoints);
+  const bool landmarks = has(TargetKind::kLandmarks3) || has(TargetKind::kLandmarks2);
+  if (has(TargetKind::kWeights) != !command.target.from.empty()) {
     fail_usage(command.target.from.empty() ? "--kind weights" : "--from",
                command.target.from.empty() ? "there is no rig that the controls are of"
                                            : "only controls are those of another rig",
@@ -40,13 +99,13 @@ void check_command(const SolveCommand& command, TargetKind kind) {
   if (!command.target.landmarks.empty() && !landmarks) {
     fail_usage("--landmarks", "the target has no landmarks", "leave it out");
   }
-  if (kind == TargetKind::kJoints && !command.target.mesh.empty()) {
+  if (joints_alone && !command.target.mesh.empty()) {
     fail_usage("--mesh", "joints have no mesh", "leave it out");
   }
-  if (command.rigid && kind == TargetKind::kJoints) {
+  if (command.rigid && joints_alone) {
     fail_usage("--rigid", "joints cannot be moved as a whole", "leave it out");
   }
-  if (command.focal && (kind != TargetKind::kLandmarks2 || !command.rigid)) {
+  if (command.focal && (!has(TargetKind::kLandmarks2) || !command.rigid)) {
     fail_usage("--focal", "it is found together with a camera that moves",
                "give landmarks2 and --rigid, or leave it out");
   }
@@ -54,23 +113,26 @@ void check_command(const SolveCommand& command, TargetKind kind) {
     fail_usage("--neutral", "it is of landmarks, and of a head that is anywhere",
                landmarks ? "add --rigid" : "leave it out");
   }
-  if (!command.reach.empty() && kind != TargetKind::kSurface) {
+  if (!command.reach.empty() && !has(TargetKind::kSurface)) {
     fail_usage("--reach", "the target is no surface", "leave it out, or add --kind surface");
   }
-  if (!command.robust.empty() && kind == TargetKind::kJoints) {
+  if (!command.robust.empty() && joints_alone) {
     fail_usage("--robust", "only distances of points are compared with it", "leave it out");
   }
   if (!command.target.unit.empty()) {
-    if (kind != TargetKind::kVertices && kind != TargetKind::kSurface) {
+    if (!has(TargetKind::kVertices) && !has(TargetKind::kSurface)) {
       fail_usage("--unit", "only that of vertices and surfaces is converted", "leave it out");
     }
     parse_unit(command.target.unit);
   }
+  check_mix(command, kinds);
   const std::string& path = command.output.path;
   if (path != "-" && !ends_with(path, ".clip") && !ends_with(path, ".json")) {
     fail_usage("-o " + path, "the ending of the name selects the format", "use .clip or .json");
   }
-  if (command.rig == "-" && command.target.path == "-") {
+  std::vector<std::string> read = {command.rig, command.target.path};
+  read.insert(read.end(), command.others.begin(), command.others.end());
+  if (std::count(read.begin(), read.end(), "-") > 1) {
     fail_usage("RIG - TARGET -", "both would be read from standard input", "put one in a file");
   }
   if (command.rig == "-" && !command.images.empty()) {
@@ -92,10 +154,15 @@ void check_placing(const SolveCommand& command) {
         {"--controls", command.controls},
         {"--first", command.first},
         {"--keys", command.keys},
+        {"--weights", command.weights},
         {"--report", command.report},
         {"--neutral", command.neutral},
         {"--pictures", command.images}}) {
     if (!word.empty()) fail_usage(option, "nothing is solved", "leave it out");
+  }
+  if (!command.others.empty()) {
+    fail_usage("TARGET " + one_line(command.others[0]), "there is one face with landmarks",
+               "leave it out");
   }
   refuse_missing_folder(command.output.path);
   refuse_replacing(command.output, {command.rig, command.target.path});
@@ -125,31 +192,11 @@ std::vector<uint32_t> find_moving(const std::string& list, const MienRig* rig,
   return moving;
 }
 
-/// The points that --mask leaves. Steps look at samples of the points of a fit, so it has no others.
-std::vector<uint32_t> list_used_points(const SolveTarget& target) {
-  std::vector<uint32_t> used;
-  for (uint32_t i = 0; i < target.points.size(); ++i) {
-    if (target.weights.empty() || target.weights[i] > 0) used.push_back(i);
-  }
-  return used;
-}
-
-/// Moves the numbers of the points of a fit to the front.
-void keep_used(const std::vector<uint32_t>& used, size_t per_point, float* row) {
-  for (size_t i = 0; i < used.size(); ++i) {
-    std::copy_n(row + per_point * used[i], per_point, row + per_point * i);
-  }
-}
-
-Fit create_fit(const SolvedRig& rig, const SolveTarget& target,
+Fit create_fit(const SolvedRig& rig, const FitTargets& targets,
                const std::vector<uint32_t>& moving) {
   auto desc = sized<MienFitDesc>();
-  desc.deformer = target.points.empty() ? nullptr : rig.deformer;
-  std::vector<MienSolvePoint> points;
-  for (const uint32_t i : list_used_points(target)) points.push_back(target.points[i]);
-  desc.points = points.data();
-  desc.point_count = points.size();
-  if (target.points.empty() && !target.weights.empty()) desc.joint_weights = target.weights.data();
+  targets.describe(desc);
+  desc.deformer = desc.point_count == 0 ? nullptr : rig.deformer;
   if (!moving.empty()) {
     desc.controls = moving.data();
     desc.control_count = moving.size();
@@ -240,8 +287,31 @@ uint32_t count_missing(const SolveTarget& target, const std::vector<float>& row)
   return count;
 }
 
-SolvedTake solve_take(const SolveCommand& command, const SolvedRig& rig, const SolveTarget& target,
-                      const Fit& fit, const Session& session) {
+/// Adds the residuals of a frame to those of its kinds. Vertices, landmarks in space and weights are one kind.
+void add_kinds(const MienFitResult& result, std::vector<SolvedKind>& kinds,
+               const std::vector<SolveTarget>& targets) {
+  if (targets.size() == 1 || result.status == MIEN_FIT_NO_DATA) return;
+  for (const TargetKind kind : {TargetKind::kJoints, TargetKind::kVertices, TargetKind::kLandmarks2,
+                                TargetKind::kSurface}) {
+    const auto is = [&](const SolveTarget& target) {
+      return kind == TargetKind::kVertices ? is_of_places(target.kind) : target.kind == kind;
+    };
+    if (std::none_of(targets.begin(), targets.end(), is)) continue;
+    const char* const name = kind == TargetKind::kVertices ? "points" : kind_word(kind);
+    auto found = std::find_if(kinds.begin(), kinds.end(),
+                              [&](const SolvedKind& other) { return other.name == name; });
+    if (found == kinds.end()) found = kinds.insert(kinds.end(), {name, 0, 0, 0});
+    const KindResidual residual = residual_of(result, kind);
+    found->squares += residual.rms * residual.rms;
+    found->worst = std::max(found->worst, residual.worst);
+    ++found->frame_count;
+  }
+}
+
+SolvedTake solve_take(const SolveCommand& command, const SolvedRig& rig,
+                      const std::vector<SolveTarget>& targets, FitTargets& data, const Fit& fit,
+                      const Session& session) {
+  const SolveTarget& target = targets[0];
   SolvedTake take;
   const uint32_t count = rig_count(rig.rig, MIEN_KIND_RAW_CONTROL);
   for (uint32_t i = 0; i < count; ++i) {
@@ -249,34 +319,19 @@ SolvedTake solve_take(const SolveCommand& command, const SolvedRig& rig, const S
   }
   take.values.resize(target.frame_count * count);
   take.rigid = command.rigid;
-  // Weights are relative to the mean over the data, whatever its amount.
-  const bool joints = target.points.empty();
-  const bool masked = !target.weights.empty();
-  const float amount = masked ? std::accumulate(target.weights.begin(), target.weights.end(), 0.0f)
-                              : static_cast<float>(joints ? target.width : target.points.size());
-  std::vector<float> row(target.width), given(target.width), weights;
-  const std::vector<uint32_t> used = list_used_points(target);
-  for (size_t i = 0; masked && i < used.size(); ++i) weights.push_back(target.weights[used[i]]);
-  const size_t per_point = joints ? 0 : target.width / target.points.size();
   auto frame = sized<MienFitFrame>();
-  frame.joints = joints ? given.data() : nullptr;
-  frame.images = target.kind == TargetKind::kLandmarks2 ? given.data() : nullptr;
-  const bool surfaces = target.kind == TargetKind::kSurface;
-  frame.points = joints || frame.images || surfaces ? nullptr : given.data();
-  MienFitCamera camera = target.camera ? *target.camera : MienFitCamera{};
+  data.begin(frame);
+  MienFitCamera camera = data.camera() ? *data.camera() : MienFitCamera{};
   if (!command.rigid && !knows_rotation(camera)) {
     for (const int k : {0, 4, 8}) camera.rotation[k] = 1;
   }
   frame.camera = frame.images ? &camera : nullptr;
   frame.focal = command.focal ? 1 : 0;
-  frame.point_weights = joints || !masked ? nullptr : weights.data();
-  std::vector<float> offsets = target.point_offsets;
-  if (!offsets.empty()) keep_used(used, 3, offsets.data());
-  frame.point_offsets = offsets.empty() ? nullptr : offsets.data();
   frame.robust_scale = parse_weight("--robust", command.robust);
   frame.surface_reach = take.reach = parse_weight("--reach", command.reach);
   frame.rigid = command.rigid ? 1 : 0;
-  frame.sparse_weight = parse_weight("--sparse", command.sparse) * amount;
+  // Weights are relative to the mean over the data, whatever its amount.
+  frame.sparse_weight = parse_weight("--sparse", command.sparse) * data.amount();
   frame.max_iterations = kFirstIterations;
   std::vector<uint32_t> stages(command.first.empty() ? 0 : count, 1);
   if (!command.first.empty()) {
@@ -288,22 +343,18 @@ SolvedTake solve_take(const SolveCommand& command, const SolvedRig& rig, const S
   Progress progress(session, "frame", target.frame_count);
   for (size_t f = 0; f < target.frame_count; ++f) {
     progress.at(f);
-    target.read(f, row.data());
-    std::copy(row.begin(), row.end(), given.begin());
-    keep_used(used, per_point, given.data());
-    const SurfaceMesh mesh = surfaces ? target.read_surface(f) : SurfaceMesh{};
-    const FitSurface surface = surfaces ? create_surface(mesh) : nullptr;
-    frame.surface = surface.get();
+    data.read(f, frame);
     auto result = sized<MienFitResult>();
     float* const out = take.values.data() + f * count;
     const auto begin = std::chrono::steady_clock::now();
     check(mien_fit_solve(fit.get(), &frame, out, &result), nullptr, "cannot solve", rig.shown);
     take.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    take.frames.push_back({joints ? result.joint_residual : result.point_residual,
-                           joints ? result.joint_worst : result.point_worst, result.iterations,
-                           result.status});
+    const KindResidual left = residual_of(result, target.kind);
+    take.frames.push_back({left.rms, left.worst, result.iterations, result.status});
     take.frames.back().jumped = f != 0 && result.jumped != 0;  // the first one begins at rest
-    take.frames.back().missing = joints ? count_missing(target, row) : result.missing_points;
+    take.frames.back().missing =
+        target.points.empty() ? count_missing(target, data.row()) : result.missing_points;
+    add_kinds(result, take.kinds, targets);
     if (command.rigid) {
       std::copy_n(result.rotation, 9, take.frames.back().rotation);
       std::copy_n(result.translation, 3, take.frames.back().translation);
@@ -315,10 +366,10 @@ SolvedTake solve_take(const SolveCommand& command, const SolvedRig& rig, const S
         std::copy_n(result.focal, 2, take.frames.back().focal);
       }
     }
-    if (residuals) residuals->add(take, row.data(), mesh);
+    if (residuals) residuals->add(take, data.row().data(), data.surface());
     frame.start = out;
     frame.stages = nullptr;
-    frame.smooth_weight = parse_weight("--smooth", command.smooth) * amount;
+    frame.smooth_weight = parse_weight("--smooth", command.smooth) * data.amount();
     frame.max_iterations = kMostIterations;
   }
   if (residuals) take.data = residuals->list();
@@ -349,8 +400,20 @@ void solve_file(const SolveCommand& command, const Session& session) {
   if (command.target.path.empty()) {
     fail_usage("TARGET", "there is nothing to solve", "name a file or a folder");
   }
-  const TargetKind kind = find_kind(command.target);
-  check_command(command, kind);
+  std::vector<TargetOptions> options = {command.target};
+  for (const std::string& other : command.others) {
+    options.push_back(command.target);
+    options.back().path = other;
+    options.back().kind.clear();
+    options.back().mask.clear();
+  }
+  std::vector<TargetKind> kinds;
+  for (TargetOptions& one : options) {
+    split_kind(one);
+    kinds.push_back(find_kind(one));
+  }
+  check_command(command, kinds);
+  const std::vector<float> weights = parse_target_weights(command.weights, kinds.size());
   const Rate rate = command.rate.empty() ? Rate{} : parse_rate(command.rate);
   if (!command.rate.empty() && !rate.known()) {
     fail_usage("--rate \"" + command.rate + "\"", "not a number of frames per second",
@@ -362,7 +425,8 @@ void solve_file(const SolveCommand& command, const Session& session) {
   parse_weight("--sparse", command.sparse);
   parse_weight("--robust", command.robust);
   parse_weight("--reach", command.reach);
-  std::vector<std::string> inputs = {command.rig, command.target.path};
+  std::vector<std::string> inputs = {command.rig};
+  for (const TargetOptions& one : options) inputs.push_back(one.path);
   for (const std::string& other :
        {command.target.from, command.target.landmarks, command.target.mask, neutral.file}) {
     if (!other.empty()) inputs.push_back(other);
@@ -381,22 +445,40 @@ void solve_file(const SolveCommand& command, const Session& session) {
     }
   }
 
-  const bool geometry = kind != TargetKind::kJoints || !command.images.empty();
+  const bool joints_alone = kinds.size() == 1 && kinds[0] == TargetKind::kJoints;
+  const bool geometry = !joints_alone || !command.images.empty();
   const SolvedRig rig = open_solved_rig(command.rig, geometry, session);
   const std::vector<uint32_t> moving = command.controls.empty()
                                            ? std::vector<uint32_t>{}
                                            : find_moving(command.controls, rig.rig, rig.shown);
-  SolveTarget target = open_target(command.target, kind, rig, session);
-  if (target.frame_count > kMostSolvedFrames) {
-    fail(kInvalid, "cannot solve", shown_name(command.target.path),
-         "it has more than 10,000,000 frames", "solve it in parts");
+  std::vector<SolveTarget> targets;
+  Rate own_rate;
+  for (size_t t = 0; t < options.size(); ++t) {
+    targets.push_back(open_target(options[t], kinds[t], rig, session));
+    const size_t count = targets[t].frame_count;
+    if (count > kMostSolvedFrames) {
+      fail(kInvalid, "cannot solve", shown_name(options[t].path),
+           "it has more than 10,000,000 frames", "solve it in parts");
+    }
+    if (count != targets[0].frame_count) {
+      fail(kInvalid, "cannot solve", shown_name(options[t].path),
+           "it has " + grouped(count) + " frames, the first target has " +
+               grouped(targets[0].frame_count),
+           "give the same frames of each");
+    }
+    watch_space(options[t], command.rigid, rig, targets[t]);
+    if (!own_rate.known()) own_rate = targets[t].rate;
   }
-  watch_space(command, rig, target);
-  const Fit fit = create_fit(rig, target, moving);
-  if (neutral.given()) adapt_to_neutral(neutral, command, rig, fit, target, session);
-  SolvedTake take = solve_take(command, rig, target, fit, session);
+  SolveTarget& target = targets[0];
+  FitTargets data(targets, weights);
+  const Fit fit = create_fit(rig, data, moving);
+  if (neutral.given()) {
+    adapt_to_neutral(neutral, command, rig, fit, target, session);
+    data = FitTargets(targets, weights);
+  }
+  SolvedTake take = solve_take(command, rig, targets, data, fit, session);
   take.rig = rig.file ? read_string(*rig.file, "desc.name") : rig.shown;
-  take.rate = rate.known() ? rate : target.rate.known() ? target.rate : Rate{60, 1};
+  take.rate = rate.known() ? rate : own_rate.known() ? own_rate : Rate{60, 1};
   take.unobservable = list_unobservable(fit, moving, take.controls);
   note_results(take, target, session);
   std::string image;
@@ -429,12 +511,14 @@ void solve_file(const SolveCommand& command, const Session& session) {
 
 Command add_solve_command(CLI::App& app, const Session& session) {
   auto options = std::make_shared<SolveCommand>();
+  auto targets = std::make_shared<std::vector<std::string>>();
   CLI::App* solve = app.add_subcommand(
       "solve", "Find the controls for meshes, joints, landmarks, or another rig's controls");
   solve->add_option("RIG", options->rig, "DNA file or baked rig")->type_name("")->required();
   solve
-      ->add_option("TARGET", options->target.path,
-                   "What to match: .npy, .npz, .glb, .obj, a folder of OBJ, .csv, .json, .clip")
+      ->add_option("TARGET", *targets,
+                   "What to match: .npy, .npz, .glb, .obj, a folder of OBJ, .csv, .json, .clip.\n"
+                   "Several are matched together; KIND:FILE says the kind of each")
       ->type_name("");
   add_output_options(*solve, options->output,
                      "Controls to write, as .clip or .json; - writes JSON to standard output")
@@ -445,6 +529,11 @@ Command add_solve_command(CLI::App& app, const Session& session) {
           "What TARGET holds: vertices, surface, joints, landmarks3, landmarks2\nor weights "
           "(default: told by its name and by --from)")
       ->type_name("KIND");
+  solve
+      ->add_option("--weights", options->weights,
+                   "What the mean squared distance of each of several targets counts, such\nas "
+                   "1,0.001: needed where joints, lengths or pixels are mixed (default: 1)")
+      ->type_name("LIST");
   solve
       ->add_option("--from", options->target.from,
                    "Rig that the controls in TARGET are of; its mesh has the topology\nof that of "
@@ -563,9 +652,17 @@ Command add_solve_command(CLI::App& app, const Session& session) {
       "  mien solve head.dna animation.glb --kind joints -o take.clip\n"
       "  mien solve head.dna face.csv --landmarks points.json -o take.clip --smooth 0.01\n"
       "  mien solve head.dna face.csv --landmarks points.json --rigid --neutral 60 -o take.clip\n"
+      "  mien solve head.dna surface:scan.obj face.csv --landmarks points.json --rigid -o "
+      "take.json\n"
       "  mien solve other.dna scene.json --from head.dna -o other.clip\n"
       "  mien solve head.dna --place-landmarks 68 -o points.json");
-  return {solve, [options, &session] { solve_file(*options, session); }};
+  return {solve, [options, targets, &session] {
+            if (!targets->empty()) {
+              options->target.path = targets->front();
+              options->others.assign(targets->begin() + 1, targets->end());
+            }
+            solve_file(*options, session);
+          }};
 }
 
 }  // namespace mien::cli

@@ -10,7 +10,9 @@ namespace mien::cli {
 
 /// As it was typed.
 struct SolveCommand {
-  TargetOptions target;
+  TargetOptions target;             // the first TARGET
+  std::vector<std::string> others;  // and those after it
+  std::string weights;
   std::string rig, controls, first, rate, keys, smooth, sparse, robust, reach, report, images;
   std::string place, neutral;
   bool rigid = false, focal = false;

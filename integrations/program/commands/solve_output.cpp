@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "integrations/program/commands/solve_output.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "integrations/program/io/controls.h"
@@ -144,6 +145,19 @@ void write_solve_report(const SolvedTake& take, const SolveTarget& target, Outpu
   write_number(json, "rms", with_data ? std::sqrt(squares / static_cast<double>(with_data)) : 0.0);
   write_number(json, "worst", worst);
   json.end_object();
+  if (!take.kinds.empty()) {
+    json.key("by_kind");
+    json.begin_object(Layout::kLines);
+    for (const SolvedKind& kind : take.kinds) {
+      json.key(kind.name);
+      json.begin_object();
+      const auto count = static_cast<double>(std::max<size_t>(kind.frame_count, 1));
+      write_number(json, "rms", std::sqrt(kind.squares / count));
+      write_number(json, "worst", kind.worst);
+      json.end_object();
+    }
+    json.end_object();
+  }
   json.key("unobservable");
   json.begin_array();
   for (const std::string& name : take.unobservable) json.value(name);

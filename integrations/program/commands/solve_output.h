@@ -25,6 +25,13 @@ struct SolvedDatum {
   size_t worst_frame;
 };
 
+/// What is left of all targets of a kind, over the frames that have data.
+struct SolvedKind {
+  std::string name;
+  double squares = 0, worst = 0;
+  size_t frame_count = 0;
+};
+
 /// Controls of a take.
 struct SolvedTake {
   std::string rig;                    // its name
@@ -32,6 +39,7 @@ struct SolvedTake {
   std::vector<float> values;          // [frame][control]
   std::vector<SolvedFrame> frames;
   std::vector<SolvedDatum> data;            // the worst first; empty without a report
+  std::vector<SolvedKind> kinds;            // of several targets; else empty
   std::vector<std::string> unobservable;    // names of controls that the data does not determine
   std::vector<std::vector<uint32_t>> keys;  // of each control, frame numbers; empty: every frame
   Rate rate;

@@ -175,16 +175,17 @@ struct Watch {
 
 }  // namespace
 
-void watch_space(const SolveCommand& command, const SolvedRig& rig, SolveTarget& target) {
+void watch_space(const TargetOptions& options, bool rigid, const SolvedRig& rig,
+                 SolveTarget& target) {
   if (target.kind != TargetKind::kVertices && target.kind != TargetKind::kSurface) return;
   const uint32_t mesh = target.points[0].mesh;
   auto watch = std::make_shared<Watch>();
   watch->rig = &rig;
-  watch->shown = shown_name(command.target.path);
+  watch->shown = shown_name(options.path);
   watch->mesh_name = one_line(rig_name(rig.rig, MIEN_KIND_MESH, mesh));
-  watch->unit = command.target.unit;
+  watch->unit = options.unit;
   watch->frame_count = target.frame_count;
-  watch->turns = command.rigid;
+  watch->turns = rigid;
   watch->rest = MovingMesh(rig, mesh).rest();
   for (uint32_t i = 0; i < target.points.size(); ++i) {
     if (target.weights.empty() || target.weights[i] > 0) watch->used.push_back(i);

@@ -9,6 +9,7 @@ namespace mien::cli {
 /// Each frame of vertices or of a surface is checked as it is read: kInvalid if it is more than 5 times as large or
 /// small as the mesh, unless --unit says its unit; or if vertices are the mesh with other axes, unless they may turn.
 /// What --mask leaves out, and targets of other kinds, are not looked at.
-void watch_space(const SolveCommand& command, const SolvedRig& rig, SolveTarget& target);
+void watch_space(const TargetOptions& options, bool rigid, const SolvedRig& rig,
+                 SolveTarget& target);
 
 }  // namespace mien::cli

@@ -140,6 +140,33 @@ bool is_array_file(const std::string& path) {
   return ends_with(path, ".npy") || ends_with(path, ".npz");
 }
 
+const char* kind_word(TargetKind kind) {
+  switch (kind) {
+    case TargetKind::kVertices: return "vertices";
+    case TargetKind::kJoints: return "joints";
+    case TargetKind::kLandmarks3: return "landmarks3";
+    case TargetKind::kLandmarks2: return "landmarks2";
+    case TargetKind::kWeights: return "weights";
+    default: return "surface";
+  }
+}
+
+void split_kind(TargetOptions& options) {
+  const std::string all = options.path;
+  for (const TargetKind kind :
+       {TargetKind::kVertices, TargetKind::kJoints, TargetKind::kLandmarks3,
+        TargetKind::kLandmarks2, TargetKind::kWeights, TargetKind::kSurface}) {
+    const std::string prefix = std::string(kind_word(kind)) + ":";
+    if (all.compare(0, prefix.size(), prefix) != 0) continue;
+    if (!options.kind.empty() && options.kind != kind_word(kind)) {
+      fail_usage("TARGET " + one_line(all), "--kind says " + options.kind, "leave one of them out");
+    }
+    options.kind = kind_word(kind);
+    options.path = all.substr(prefix.size());
+    return;
+  }
+}
+
 TargetKind find_kind(const TargetOptions& options) {
   if (!options.kind.empty()) {
     return static_cast<TargetKind>(parse_word("solve --kind", options.kind));

@@ -58,6 +58,12 @@ struct TargetOptions {
 /// .npy or .npz.
 bool is_array_file(const std::string& path);
 
+/// A word of --kind.
+const char* kind_word(TargetKind kind);
+
+/// KIND:FILE becomes what --kind and the file say.
+void split_kind(TargetOptions& options);
+
 /// The kind that is named, or that the file tells.
 TargetKind find_kind(const TargetOptions& options);
 

@@ -598,6 +598,114 @@ class Reports(SolveTest):
         self.assertEqual(report["by_landmark"][0]["name"], f"p{numbers[7]}")
 
 
+class Mixes(SolveTest):
+    """Several targets in one run."""
+
+    def setUp(self):
+        self.poses = motion(4)
+        self.mesh, self.rest = self.obj({})
+        self.frames = [self.obj(pose)[1] for pose in self.poses]
+
+    def landmarks(self, chosen, name="marks.csv", off=0.0, missing=()):
+        """A CSV of vertices, named by their numbers."""
+        lines = ["time," + ",".join(f"{p}.{axis}" for p in chosen for axis in "xyz")]
+        for f, points in enumerate(self.frames):
+            cells = ["" if f in missing else "%.6f" % (v + off) for p in chosen for v in points[p]]
+            lines.append("%.6f,%s" % (f / 30, ",".join(cells)))
+        write(name, "\n".join(lines) + "\n")
+        return path(name)
+
+    def solve(self, *targets, rig=HEAD):
+        self.ok("solve", path(rig), *targets, "-o", path("mix.json"), "--report", path("mix-report.json"))
+        with open(path("mix.json"), encoding="utf-8") as file:
+            take = json.load(file)
+        with open(path("mix-report.json"), encoding="utf-8") as file:
+            report = json.load(file)
+        return take, report
+
+    def value(self, take, frame, control):
+        return take["frames"][frame]["raw"][take["controls"].index(control)]
+
+    def test_joints_and_landmarks(self):
+        joints = self.joints(HEAD, self.poses)
+        marks = self.landmarks(range(0, len(self.rest), 97))
+        take, report = self.solve("joints:" + joints, "landmarks3:" + marks, "--weights", "1,0.1")
+        self.assertEqual(list(report["by_kind"]), ["joints", "points"])
+        for kind in report["by_kind"].values():
+            self.assertLess(kind["rms"], 1e-2)
+            self.assertLessEqual(kind["rms"], kind["worst"])
+        self.assertEqual(report["residual"]["rms"], report["by_kind"]["joints"]["rms"])
+        self.assertTrue(report["by_joint"])
+        for f, pose in enumerate(self.poses):
+            for control, value in pose.items():
+                self.assertAlmostEqual(self.value(take, f, control), value, delta=0.02)
+        # Landmarks that are elsewhere draw as much as they count.
+        apart = self.landmarks(range(0, len(self.rest), 97), "apart.csv", off=0.3)
+        left = []
+        for weight in ("1000", "1", "0.0001"):
+            kinds = self.solve("joints:" + joints, apart, "--weights", "1," + weight)[1]["by_kind"]
+            left.append((kinds["points"]["rms"], -kinds["joints"]["rms"]))
+        self.assertEqual(left, sorted(left))
+        self.assertLess(left[0], left[2])
+
+    def test_vertices_and_missing_landmarks(self):
+        numbers = [v for points in self.frames for p in points for v in p]
+        write("half.npy", npy((4, len(self.rest), 3), numbers))
+        marks = self.landmarks((10, 500, 4000), missing=(1, 2))
+        take, report = self.solve(path("half.npy"), marks)
+        self.assertEqual(list(report["by_kind"]), ["points"])
+        self.assertLess(report["by_kind"]["points"]["worst"], 0.01)
+        self.assertTrue(report["by_region"])
+        self.assertAlmostEqual(self.value(take, 3, "jawOpen"), self.poses[3]["jawOpen"], delta=0.02)
+
+    def test_a_surface_that_landmarks_bring_near(self):
+        turned = []
+        for points in self.frames[3:]:
+            turned.append([[-x + 30, y - 12, -z] for x, y, z in points])  # half a turn
+        self.frames = turned
+        self.ok("export", path(HEAD), "-o", path("scan.obj"), "--lod", "0",
+                *(word for control, value in self.poses[3].items() for word in ("--set", f"{control}={value}")))
+        scan = []
+        with open(path("scan.obj"), encoding="utf-8") as file:
+            lines = file.read().splitlines()
+        begun = count = 0
+        for line in lines[1:]:  # without what says meters
+            begun += line.startswith("o ")
+            if begun != 1:
+                continue
+            if line.startswith("v "):
+                line = "v %.6f %.6f %.6f" % tuple(turned[0][count])
+                count += 1
+            scan.append(line)
+        write("turned.obj", "\n".join(scan) + "\n")
+        marks = self.landmarks(range(100, len(self.rest), 700))
+        take, report = self.solve("surface:" + path("turned.obj"), marks, "--rigid", "--sparse", "0.0001")
+        self.assertEqual(list(report["by_kind"]), ["points", "surface"])
+        self.assertLess(report["by_kind"]["points"]["rms"], 0.05)
+        self.assertLess(report["by_kind"]["surface"]["rms"], 0.05)
+        self.assertAlmostEqual(report["by_frame"][0]["rotation"][0], -1, delta=0.01)
+        self.assertAlmostEqual(self.value(take, 0, "jawOpen"), self.poses[3]["jawOpen"], delta=0.1)
+
+    def test_wrong_mixes(self):
+        joints = self.joints(HEAD, self.poses)
+        marks = self.landmarks((1, 2, 3))
+        write("images.csv", "time,1.x,1.y\n0,1,2\n")
+        out = ("-o", path("mix.json"))
+        for words, why in (
+                (("joints:" + joints, marks), "joint values, lengths and pixels"),
+                (("joints:" + joints, "joints:" + joints), "two of them are joints"),
+                (("joints:" + joints, marks, "--weights", "1"), "there are 2 targets"),
+                (("joints:" + joints, marks, "--weights", "1,0"), "would not count"),
+                (("joints:" + joints, marks, "--weights", "1,x"), "not a number"),
+                ((marks, "--weights", "1"), "there is one target"),
+                ((marks, marks, "--neutral", "1", "--rigid"), "measured with one target"),
+                ((marks, "landmarks2:" + path("images.csv"), "--weights", "1,1", "--rigid"), "first TARGET"),
+                (("landmarks3:" + marks, "--kind", "vertices"), "--kind says vertices")):
+            self.fails(USAGE, "solve", path(HEAD), *words, *out, says=why)
+        write("short.csv", "time,1.x,1.y,1.z\n0,1,2,3\n")
+        self.fails(INVALID, "solve", path(HEAD), marks, path("short.csv"), *out, says="it has 1 frames")
+
+
 class Options(SolveTest):
     def test_keys_are_within_their_tolerance(self):
         poses = motion(24)
