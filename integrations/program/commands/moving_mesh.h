@@ -64,10 +64,15 @@ class MovingMesh {
     apply_frame(frame, rig_.rig, instance);
     check(mien_rig_evaluate(rig_.rig, instance, 0), nullptr, what, rig_.shown);
     check(mien_deformer_instance_update(pose_.get(), instance), nullptr, what, rig_.shown);
-    check(mien_deformer_instance_deform(pose_.get(), mesh_, MIEN_NORMALS_NONE, nullptr), nullptr,
+    return positions_of(mesh_);
+  }
+  /// Another mesh, in the same pose.
+  const float* positions_of(uint32_t mesh) {
+    const char* what = "cannot deform";
+    check(mien_deformer_instance_deform(pose_.get(), mesh, MIEN_NORMALS_NONE, nullptr), nullptr,
           what, rig_.shown);
     MienFloatView view{};
-    check(mien_deformer_instance_positions(pose_.get(), mesh_, &view), nullptr, what, rig_.shown);
+    check(mien_deformer_instance_positions(pose_.get(), mesh, &view), nullptr, what, rig_.shown);
     return view.data;
   }
   std::vector<float> rest() {

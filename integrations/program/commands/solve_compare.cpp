@@ -170,16 +170,20 @@ Vec3 place_target(const SolvedFrame& frame, Vec3 place) {
 }
 
 std::vector<SolvedMark> compare_landmarks(const SolvedTake& take, const SolveTarget& target,
-                                          size_t f, const float* row, const float* positions) {
+                                          size_t f, const float* row, const PosedMesh& posed) {
   const bool images = target.kind == TargetKind::kLandmarks2;
   const size_t width = images ? 2 : 3;
   const SolvedFrame& frame = take.frames[f];
   std::vector<SolvedMark> marks;
+  std::map<uint32_t, const float*> meshes;
+  for (const MienSolvePoint& point : target.points) meshes[point.mesh] = nullptr;
+  for (auto& [mesh, positions] : meshes) positions = posed(mesh);
   for (size_t i = 0; i < target.points.size(); ++i) {
     const float* const from = row + i * width;
     if (!std::all_of(from, from + width, [](float v) { return std::isfinite(v); })) continue;
     SolvedMark mark;
     mark.point = static_cast<uint32_t>(i);
+    const float* const positions = meshes[target.points[i].mesh];
     for (int k = 0; k < 3; ++k) {
       mark.solved += load3(positions, target.points[i].positions[k]) * target.points[i].weights[k];
     }

@@ -2,6 +2,7 @@
 // How far what was solved is from its target: landmarks, and meshes from surfaces of another topology.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "integrations/program/commands/solve_output.h"
@@ -25,10 +26,12 @@ constexpr float kFarShare = 0.05f;
 /// A place of the target in the space of the rig.
 math::Vec3 place_target(const SolvedFrame& frame, math::Vec3 place);
 
-/// The points of frame `f` that are not missing. `row` is what target.read() gives, `positions` are those of their
-/// mesh in the solved pose.
+/// Positions of a mesh in the solved pose.
+using PosedMesh = std::function<const float*(uint32_t mesh)>;
+
+/// The points of frame `f` that are not missing. `row` is what target.read() gives.
 std::vector<SolvedMark> compare_landmarks(const SolvedTake& take, const SolveTarget& target,
-                                          size_t f, const float* row, const float* positions);
+                                          size_t f, const float* row, const PosedMesh& posed);
 
 /// Of each position, the weighted mean distance of the landmarks around it; NaN where there are none.
 std::vector<float> spread_distances(const std::vector<SolvedMark>& marks, const float* positions,

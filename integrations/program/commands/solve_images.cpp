@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstdio>
 
+#include "integrations/program/commands/moving_mesh.h"
 #include "integrations/program/commands/solve_compare.h"
 #include "integrations/program/commands/solve_output.h"
 #include "integrations/program/render/marks.h"
@@ -162,10 +163,20 @@ struct SolveDrawing {
     target.read(f, row.data());
     if (is_landmarks()) {
       const SurfaceMesh mesh = solved_mesh();
-      out.marks = compare_landmarks(take, target, f, row.data(), mesh.positions.data());
+      const uint32_t skin = main_mesh(target);
+      MovingMesh posed(solved, skin);
+      static_cast<void>(posed.positions(take.pose(f)));
+      out.marks = compare_landmarks(take, target, f, row.data(),
+                                    [&](uint32_t other) { return posed.positions_of(other); });
       hide_marks(mesh, out.marks);
+      // Of the skin, by the landmarks on it.
+      std::vector<SolvedMark> own = out.marks;
+      own.erase(std::remove_if(
+                    own.begin(), own.end(),
+                    [&](const SolvedMark& mark) { return target.points[mark.point].mesh != skin; }),
+                own.end());
       out.distances[target_mesh] =
-          spread_distances(out.marks, mesh.positions.data(), mesh.positions.size() / 3);
+          spread_distances(own, mesh.positions.data(), mesh.positions.size() / 3);
       return out;
     }
     if (target.points.empty()) {
@@ -174,7 +185,8 @@ struct SolveDrawing {
       // Vertices without a target are drawn where they were solved.
       const float* const own = scene.positions(scene.meshes[target_mesh]);
       out.shapes[target_mesh].assign(own, own + row.size());
-      for (const SolvedMark& mark : compare_landmarks(take, target, f, row.data(), own)) {
+      for (const SolvedMark& mark :
+           compare_landmarks(take, target, f, row.data(), [&](uint32_t) { return own; })) {
         const Vec3 p = mark.target;
         std::copy_n(&p.x, 3, out.shapes[target_mesh].data() + size_t{3} * mark.point);
         out.distances[target_mesh][mark.point] = mark.distance;
@@ -265,7 +277,7 @@ std::string draw_solve(const SolvedTake& take, const SolveTarget& target, const 
   PosedSceneOptions how;
   how.rig = rig;
   if (!target.points.empty()) {
-    how.meshes = rig_name(solved.rig, MIEN_KIND_MESH, target.points[0].mesh);
+    how.meshes = rig_name(solved.rig, MIEN_KIND_MESH, main_mesh(target));
   }
   PosedScene scene = open_scene(how, session);
   SolveDrawing drawing = open_drawing(take, target, solved, scene);

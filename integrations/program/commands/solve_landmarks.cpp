@@ -39,30 +39,37 @@ void read_numbers(const LandmarkJson& values, size_t count, float* to, const std
   }
 }
 
-uint32_t read_position(const LandmarkJson& value, const PlacedLandmarks& landmarks,
-                       const std::string& where) {
+uint32_t read_position(const LandmarkJson& value, uint32_t count, const std::string& where) {
   if (!value.is_number_unsigned()) fail_landmarks(where, "a position is not a whole number");
-  if (value.get<uint64_t>() < landmarks.position_count) return value.get<uint32_t>();
-  fail_landmarks(where,
-                 "there is no position " + value.dump() + ": the mesh has " +
-                     grouped(landmarks.position_count),
+  if (value.get<uint64_t>() < count) return value.get<uint32_t>();
+  fail_landmarks(where, "there is no position " + value.dump() + ": the mesh has " + grouped(count),
                  "count from 0");
 }
 
+/// On the mesh that it names, or that of the others.
 MienSolvePoint read_point(const LandmarkJson& value, const PlacedLandmarks& landmarks,
-                          const std::string& where) {
+                          const SolvedRig& rig, const std::string& where) {
   MienSolvePoint point = {landmarks.mesh, {}, {1, 0, 0}};
   if (!value.is_object()) {
-    const uint32_t position = read_position(value, landmarks, where);
+    const uint32_t position = read_position(value, landmarks.position_count, where);
     for (uint32_t& p : point.positions) p = position;
     return point;
+  }
+  uint32_t count = landmarks.position_count;
+  if (value.contains("mesh")) {
+    const LandmarkJson& name = value["mesh"];
+    if (!name.is_string() || name.get<std::string>().empty()) {
+      fail_landmarks(where, "\"mesh\" is no name");
+    }
+    point.mesh = find_mesh(rig, name.get<std::string>());
+    count = mesh_of(rig, point.mesh).position_count;
   }
   const LandmarkJson positions = value.value("positions", LandmarkJson());
   if (!positions.is_array() || positions.size() != 3) {
     fail_landmarks(where, "\"positions\" is not a list of three numbers");
   }
   for (size_t i = 0; i < 3; ++i) {
-    point.positions[i] = read_position(positions[i], landmarks, where);
+    point.positions[i] = read_position(positions[i], count, where);
   }
   read_numbers(value.value("weights", LandmarkJson()), 3, point.weights, where + ".weights");
   return point;
@@ -90,14 +97,14 @@ MienFitCamera read_camera(const LandmarkJson& value, const std::string& where) {
 }
 
 /// A name of the file, or the number of a position.
-MienSolvePoint find_point(const PlacedLandmarks& landmarks, const std::string& name,
-                          const std::string& where) {
+MienSolvePoint find_point(const PlacedLandmarks& landmarks, const SolvedRig& rig,
+                          const std::string& name, const std::string& where) {
   const auto found = landmarks.points.find(name);
   if (found != landmarks.points.end()) return found->second;
   uint32_t number = 0;
   const auto [stop, error] = std::from_chars(name.data(), name.data() + name.size(), number);
   if (error == std::errc() && stop == name.data() + name.size()) {
-    return read_point(number, landmarks, where);
+    return read_point(number, landmarks, rig, where);
   }
   std::vector<std::string> known;
   for (const auto& [other, point] : landmarks.points) known.push_back(other);
@@ -135,7 +142,7 @@ PlacedLandmarks read_places(const TargetOptions& options, const SolvedRig& rig) 
   const LandmarkJson points = document.value("points", LandmarkJson::object());
   if (!points.is_object()) fail_landmarks(out.shown + ", points", "it is not an object");
   for (const auto& [name, value] : points.items()) {
-    out.points[name] = read_point(value, out, out.shown + ", points." + one_line(name));
+    out.points[name] = read_point(value, out, rig, out.shown + ", points." + one_line(name));
   }
   if (document.contains("camera")) {
     out.camera = read_camera(document["camera"], out.shown + ", camera");
@@ -174,7 +181,7 @@ SolveTarget read_landmarks(const TargetOptions& options, bool images, const Solv
       std::make_shared<const LandmarkTable>(read_landmark_table(options.path, images));
   SolveTarget target;
   for (const std::string& name : table->names) {
-    target.points.push_back(find_point(landmarks, name, table->take.shown));
+    target.points.push_back(find_point(landmarks, rig, name, table->take.shown));
   }
   target.point_names = table->names;
   if (images && !landmarks.camera) {

@@ -9,7 +9,7 @@
 
 namespace mien::cli {
 
-/// What --landmarks says: places of names on one mesh, and a camera.
+/// What --landmarks says: places of names on meshes, and a camera. `mesh` is that of names that do not say theirs.
 struct PlacedLandmarks {
   std::string shown;
   uint32_t mesh = 0, position_count = 0;

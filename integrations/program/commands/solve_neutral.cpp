@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <map>
 
 #include "integrations/program/commands/moving_mesh.h"
 #include "integrations/program/io/text.h"
@@ -110,8 +111,10 @@ std::string NeutralFace::text() const {
 NeutralFinder::NeutralFinder(MienFit* fit, const SolvedRig& rig,
                              const std::vector<MienSolvePoint>& points, bool images)
     : fit_(fit), width_(images ? 2 : 3), raw_(rig_count(rig.rig, MIEN_KIND_RAW_CONTROL)) {
-  const std::vector<float> positions = MovingMesh(rig, points[0].mesh).rest();
+  std::map<uint32_t, std::vector<float>> meshes;
   for (const MienSolvePoint& point : points) {
+    std::vector<float>& positions = meshes[point.mesh];
+    if (positions.empty()) positions = MovingMesh(rig, point.mesh).rest();
     for (size_t k = 0; k < 3; ++k) {
       float sum = 0;
       for (size_t n = 0; n < 3; ++n) {

@@ -24,7 +24,7 @@ ResidualTable::ResidualTable(const SolvedRig& rig, const SolveTarget& target)
     instance_.reset(instance);
     name_joints();
   } else {
-    mesh_.emplace(rig, target.points[0].mesh);
+    mesh_.emplace(rig, main_mesh(target));
     names_ = target.point_names;
     for (uint32_t i = 0; i < names_.size(); ++i) datum_.push_back(i);
     if (names_.empty()) name_regions();
@@ -112,7 +112,8 @@ void ResidualTable::add(const SolvedTake& take, const float* row, const SurfaceM
     solved_.positions.assign(positions, positions + 3 * target_.points.size());
     return add_surface(take, surface);
   }
-  for (const SolvedMark& mark : compare_landmarks(take, target_, f, row, positions)) {
+  for (const SolvedMark& mark : compare_landmarks(
+           take, target_, f, row, [&](uint32_t mesh) { return mesh_->positions_of(mesh); })) {
     add_one(mark.point, double{mark.distance}, f);
   }
 }

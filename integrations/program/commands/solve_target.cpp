@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <map>
 
 #include "integrations/program/commands/baked_rig.h"
 #include "integrations/program/commands/moving_mesh.h"
@@ -138,6 +139,14 @@ uint32_t find_mesh(const SolvedRig& rig, const std::string& name) {
 
 bool is_array_file(const std::string& path) {
   return ends_with(path, ".npy") || ends_with(path, ".npz");
+}
+
+uint32_t main_mesh(const SolveTarget& target) {
+  std::map<uint32_t, size_t> counts;
+  for (const MienSolvePoint& point : target.points) ++counts[point.mesh];
+  return std::max_element(counts.begin(), counts.end(),
+                          [](const auto& a, const auto& b) { return a.second < b.second; })
+      ->first;
 }
 
 const char* kind_word(TargetKind kind) {

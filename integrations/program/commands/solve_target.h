@@ -94,6 +94,9 @@ struct SolveTarget {
 
 FitSurface create_surface(const SurfaceMesh& mesh);
 
+/// The mesh that most points are on.
+uint32_t main_mesh(const SolveTarget& target);
+
 /// Fails with kInvalid if the file does not fit the rig.
 SolveTarget open_target(const TargetOptions& options, TargetKind kind, const SolvedRig& rig,
                         const Session& session);

@@ -686,6 +686,42 @@ class Mixes(SolveTest):
         self.assertAlmostEqual(report["by_frame"][0]["rotation"][0], -1, delta=0.01)
         self.assertAlmostEqual(self.value(take, 0, "jawOpen"), self.poses[3]["jawOpen"], delta=0.1)
 
+    def test_landmarks_on_several_meshes(self):
+        eye = "eyeLeft_lod0_mesh"
+        pose = {"jawOpen": 0.4, "eyeLookOutLeft": 0.6}
+        self.ok("export", path(HEAD), "-o", path("eyes.obj"), "--lod", "0",
+                *(word for control, value in pose.items() for word in ("--set", f"{control}={value}")))
+        meshes, name = {}, None
+        with open(path("eyes.obj"), encoding="utf-8") as file:
+            for line in file:
+                if line.startswith("o "):
+                    name = line[2:].strip()
+                    meshes[name] = []
+                elif line.startswith("v "):
+                    meshes[name].append([100 * float(v) for v in line.split()[1:4]])
+        points = {f"skin{p}": p for p in range(0, len(self.rest), 331)}
+        iris = range(0, len(meshes[eye]), len(meshes[eye]) // 8)
+        points.update({f"eye{p}": {"mesh": eye, "positions": [p, p, p], "weights": [1, 0, 0]} for p in iris})
+        places = write("eyes.points.json", json.dumps({"mesh": self.mesh, "points": points}))
+        names = sorted(points)  # those on the eye come first
+        cells = [v for n in names for v in meshes[eye if n.startswith("eye") else self.mesh][
+            int(n.replace("eye", "").replace("skin", ""))]]
+        marks = write("eyes.csv", "time," + ",".join(f"{n}.{axis}" for n in names for axis in "xyz") + "\n0," +
+                      ",".join("%.6f" % v for v in cells) + "\n")
+        take, report = self.solve(marks, "--landmarks", places, "--pictures", path("eyes"))
+        for control, value in pose.items():
+            self.assertAlmostEqual(self.value(take, 0, control), value, delta=0.03)
+        self.assertLess(report["residual"]["worst"], 0.01)
+        self.assertEqual({datum["name"] for datum in report["by_landmark"]}, set(names))
+        self.assertLess(max(datum["worst"] for datum in report["by_landmark"]), 0.01)
+        for wrong, says in (('{"mesh": 1, "positions": [0, 0, 0], "weights": [1, 0, 0]}', "no name"),
+                            ('{"mesh": "nobody", "positions": [0, 0, 0], "weights": [1, 0, 0]}', "nobody"),
+                            ('{"mesh": "%s", "positions": [0, 0, 19000], "weights": [1, 0, 0]}' % eye, "19000")):
+            write("wrong.points.json", '{"points": {"a": %s}}' % wrong)
+            write("a.csv", "time,a.x,a.y,a.z\n0,1,2,3\n")
+            self.fails(INVALID, "solve", path(HEAD), path("a.csv"), "--landmarks", path("wrong.points.json"),
+                       "-o", path("no.json"), says=says)
+
     def test_wrong_mixes(self):
         joints = self.joints(HEAD, self.poses)
         marks = self.landmarks((1, 2, 3))
