@@ -278,12 +278,19 @@ void count_blocks(Derivatives& d) {
 
 template <uint32_t L>
 void push_joint_rows(Derivatives& d) {
-  for (size_t value = 0; value < d.value_rows.count; ++value) {
-    if (d.value_rows[value] == kNoRow) clear<L>(d.joints.data + value * L);
-  }
+  const size_t values = d.value_rows.count;
   if constexpr (L == 1) {
+    std::fill(d.joints.data, d.joints.data + values, 0.0f);
     push_one(d, 0, 1);
-  } else if (find_moved_columns(d)) {
+    return;
+  }
+  for (size_t value = 0; value < values; ++value) {
+    size_t end = value;
+    while (end < values && d.value_rows[end] == kNoRow) ++end;
+    std::fill(d.joints.data + value * L, d.joints.data + end * L, 0.0f);
+    value = end;
+  }
+  if (find_moved_columns(d)) {
     push_together(d);
   } else {
     for (uint32_t k = 0; k < d.lane_count; ++k) push_one(d, k, L);

@@ -157,6 +157,51 @@ TEST(Derivatives, InReverseAreTheTransposedOnes) {
   }
 }
 
+// Results of a batch are in its instances, so these are linearized like others.
+TEST(Derivatives, OfInstancesOfABatchAreThoseOfInstancesAlone) {
+  constexpr uint32_t kInstances = 9;
+  Random random = Random::from_seed(71, 6);
+  for (int round = 0; round < 24; ++round) {
+    SCOPED_TRACE(round);
+    const LayerRig layers = random_layer_rig(random, false, round % 5 == 4);
+    const LayerFile file(layers);
+    MienRigDesc desc = sized<MienRigDesc>();
+    desc.isa = present_isas()[static_cast<size_t>(round) % present_isas().size()];
+    desc.rotation_output = round % 2 ? MIEN_ROTATION_OUTPUT_QUATERNION : MIEN_ROTATION_OUTPUT_EULER;
+    const RigHandle rig = create_rig(file.dna.get(), desc);
+    const BatchHandle batch = create_batch(rig, kInstances);
+    const uint32_t lod = random.below(layers.base.lod_count);
+    std::vector<Character> together, alone;
+    std::vector<MienInstance*> handles;
+    for (uint32_t i = 0; i < kInstances; ++i) {
+      together.emplace_back(rig);
+      alone.emplace_back(rig);
+      handles.push_back(together.back().instance.get());
+      const std::vector<float> raw = random_raw(layers, {4, 8}, random);
+      for (Character* c : {&together.back(), &alone.back()}) {
+        std::copy(raw.begin(), raw.end(), c->raw.begin());
+      }
+      alone.back().evaluate(lod);
+    }
+    const std::vector<uint32_t> lods(kInstances, lod);
+    ASSERT_EQ(mien_rig_evaluate_batch(rig.get(), batch.get(), handles.data(), lods.data(),
+                                      kInstances, MIEN_STAGE_ALL, nullptr),
+              MIEN_OK);
+    const DerivativesHandle of_batch = create_derivatives(rig.get());
+    const DerivativesHandle of_one = create_derivatives(rig.get());
+    for (uint32_t i = 0; i < kInstances; ++i) {
+      linearize(of_batch, together[i]);
+      linearize(of_one, alone[i]);
+      for (const uint32_t to : {MIEN_POINT_JOINTS, MIEN_POINT_CHANNELS, MIEN_POINT_MAPS}) {
+        const std::vector<float> u = random_row(random, size_of(of_one, MIEN_POINT_RAW));
+        const std::vector<float> v = random_row(random, size_of(of_one, to));
+        EXPECT_EQ(forward(of_batch, MIEN_POINT_RAW, to, u), forward(of_one, MIEN_POINT_RAW, to, u));
+        EXPECT_EQ(reverse(of_batch, MIEN_POINT_RAW, to, v), reverse(of_one, MIEN_POINT_RAW, to, v));
+      }
+    }
+  }
+}
+
 TEST(Derivatives, OfMatricesAndPositionsInReverseAreTheTransposedOnes) {
   Random random = Random::from_seed(71, 3);
   for (uint32_t round = 0; round < 12; ++round) {

@@ -70,7 +70,7 @@ MIEN_CHECKED MienStatus mien_derivatives_size(const MienDerivatives* derivatives
                                               uint32_t mesh, size_t* out_size);
 
 /* Computes the derivatives at the values of `instance`, which must belong to the rig and have been
- * evaluated, at the LOD of that evaluation. `stages` selects the stages to differentiate, MIEN_STAGE_ALL or
+ * evaluated, alone or in a batch, at the LOD of that evaluation. `stages` selects the stages to differentiate, MIEN_STAGE_ALL or
  * some of them: the results of the others count as constants. Does not allocate or lock.
  * Where a function has no derivative, a one-sided one is used, so that solvers do not get stuck:
  *   - controls at 0 or 1, for correctives, GUI controls and maps: into the interval
