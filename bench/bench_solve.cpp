@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Solves of generated motion at 60 frames per second, each frame from the one before: time per frame, iterations,
-// and how well joints or vertices are met; and what central differences would cost in place of one gradient.
+// and how well joints or vertices are met; and the same with a matrix of numeric differences (numeric_solve.h).
 //
 // With a head from a file, in centimeters, also landmarks with noise: how far its surface is from the true one.
 //
@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "author/base/random.h"
+#include "bench/numeric_solve.h"
 #include "capi/include/mien_author.h"
 #include "capi/include/mien_solve.h"
 
@@ -97,8 +98,85 @@ struct Rig {
   }
 };
 
+/// How far the matrix of differences is from the derivatives, as a share of these: root mean square.
+double matrix_error(const Rig& rig, uint32_t mesh_step, const mien::NumericSolve& numeric) {
+  MienDerivativesDesc desc = mien_derivatives_desc_default();
+  desc.deformer = mesh_step ? rig.deformer : nullptr;
+  MienDerivatives* derivatives = nullptr;
+  if (mien_derivatives_create(rig.rig, &desc, &derivatives, nullptr) != MIEN_OK) std::exit(1);
+  static_cast<void>(mien_derivatives_linearize(derivatives, rig.instance, MIEN_STAGE_ALL));
+  const uint32_t to = mesh_step ? MIEN_POINT_POSITIONS : MIEN_POINT_JOINTS;
+  size_t size = 0;
+  static_cast<void>(mien_derivatives_size(derivatives, to, 0, &size));
+  std::vector<float> direction(rig.raw.count), exact(size);
+  double apart = 0, all = 0;
+  for (size_t c = 0; c < rig.raw.count; ++c) {
+    direction[c] = 1;
+    static_cast<void>(mien_derivatives_forward(derivatives, MIEN_POINT_RAW, to, 0, 1,
+                                               direction.data(), exact.data()));
+    direction[c] = 0;
+    for (size_t i = 0; i < numeric.value_count; ++i) {
+      const double value = double{exact[mesh_step ? i / 3 * 3 * mesh_step + i % 3 : i]};
+      apart += std::pow(double{numeric.columns[c * numeric.value_count + i]} - value, 2);
+      all += value * value;
+    }
+  }
+  mien_derivatives_destroy(derivatives);
+  return std::sqrt(apart / all);
+}
+
+/// The motion of run() by numeric differences.
+void run_numeric(Rig& rig, uint32_t every, int frames) {
+  std::vector<float> values;
+  const auto evaluate = [&](const std::vector<float>& raw) {
+    if (every == 0) {
+      rig.pose(raw);
+      return rig.joints.data;
+    }
+    rig.deform(raw);
+    values.clear();
+    for (size_t p = 0; p < rig.positions.count / 3; p += every) {
+      values.insert(values.end(), rig.positions.data + 3 * p, rig.positions.data + 3 * p + 3);
+    }
+    return static_cast<const float*>(values.data());
+  };
+  mien::NumericSolve numeric;
+  numeric.evaluate = evaluate;
+  evaluate(rig.initial);
+  numeric.value_count = every ? values.size() : rig.joints.count;
+  numeric.control_count = rig.raw.count;
+  numeric.prior = every ? 1e-6 : 0;
+  std::vector<float> found = rig.initial;
+  double total = 0, worst = 0, differences = 0;
+  int iterations = 0;
+  for (int f = 0; f < frames; ++f) {
+    const float* const posed = evaluate(motion(rig.initial, f / 60.0));
+    const std::vector<float> targets(posed, posed + numeric.value_count);
+    const std::clock_t start = std::clock();
+    const double residual = numeric.solve(found, targets, f == 0 ? 200 : 50);
+    if (f == 0) numeric.difference_seconds = 0;
+    if (f == 0) continue;
+    total += seconds_since(start);
+    iterations += numeric.iterations;
+    worst = std::max(worst, residual * (every ? std::sqrt(3.0) : 1));
+    differences = numeric.difference_seconds;
+  }
+  std::printf(
+      "    by numeric differences, %d frames: %.0f ms a frame, %.0f of it evaluations, %.1f "
+      "iterations  residual %.1e  matrix off by",
+      frames, total / (frames - 1) * 1e3, differences / (frames - 1) * 1e3,
+      static_cast<double>(iterations) / (frames - 1), worst);
+  for (const float h : {1e-2f, 1e-3f, 1e-4f}) {
+    const std::vector<float> at = motion(rig.initial, 1);
+    numeric.differentiate(at, h);
+    evaluate(at);
+    std::printf(" %.1e (step %g)", matrix_error(rig, every, numeric), double{h});
+  }
+  std::printf("\n");
+}
+
 /// `every`: of how many vertices one is a target; 0: joints are.
-void run(const char* name, Rig&& rig, uint32_t every, int frames) {
+void run(const char* name, Rig&& rig, uint32_t every, int frames, bool numeric) {
   std::vector<MienSolvePoint> points;
   MienFitDesc desc = mien_fit_desc_default();
   if (every != 0) {
@@ -115,7 +193,7 @@ void run(const char* name, Rig&& rig, uint32_t every, int frames) {
   if (mien_fit_create(rig.rig, &desc, &fit, nullptr) != MIEN_OK) std::exit(1);
   const double create = seconds_since(start);
   std::vector<float> found(rig.raw.count), before, joints, targets;
-  double total = 0, worst_joint = 0, range = 0, worst_point = 0, gradient = 0;
+  double total = 0, worst_joint = 0, range = 0, worst_residual = 0;
   uint32_t iterations = 0;
   for (int f = 0; f < frames; ++f) {
     const std::vector<float> raw = motion(rig.initial, f / 60.0);
@@ -142,7 +220,7 @@ void run(const char* name, Rig&& rig, uint32_t every, int frames) {
     if (f != 0) {
       total += seconds_since(start);
       iterations += result.iterations;
-      worst_point = std::max(worst_point, result.point_residual);
+      worst_residual = std::max(worst_residual, result.point_residual + result.joint_residual);
     }
     before = found;
     if (every == 0) {
@@ -153,23 +231,13 @@ void run(const char* name, Rig&& rig, uint32_t every, int frames) {
       }
     }
   }
-  // One central difference takes two evaluations, and a gradient one for each control.
-  start = std::clock();
-  for (size_t i = 0; i < 2 * rig.raw.count; ++i) {
-    found[i / 2] += 1e-3f;
-    every == 0 ? rig.pose(found) : rig.deform(found);
-  }
-  gradient = seconds_since(start);
   std::printf("%-34s %5zu targets  made in %5.2f s  %7.3f ms a frame, %4.1f iterations  ", name,
               every ? points.size() : joints.size(), create, total / (frames - 1) * 1e3,
               static_cast<double>(iterations) / (frames - 1));
-  if (every == 0) {
-    std::printf("joints within %.1e of their range", worst_joint / range);
-  } else {
-    std::printf("residual %.1e", worst_point);
-  }
-  std::printf("  (evaluations of numeric differences alone: %.1f ms an iteration)\n",
-              gradient * 1e3);
+  std::printf("residual %.1e", worst_residual);
+  if (every == 0) std::printf("  joints within %.1e of their range", worst_joint / range);
+  std::printf("\n");
+  if (numeric) run_numeric(rig, every, std::min(frames, 10));
   mien_fit_destroy(fit);
 }
 
@@ -380,16 +448,16 @@ MienDna* open_head(const char* path) {
 int main(int argc, char** argv) {
   const int frames = argc > 1 ? std::max(std::atoi(argv[1]), 2) : 300;
   const auto generated = [](uint32_t preset) { return Rig(Rig::generate(preset)); };
-  run("joints, large head", generated(MIEN_PRESET_LARGE), 0, frames);
+  run("joints, large head", generated(MIEN_PRESET_LARGE), 0, frames, true);
   run_frames("the same in one call", generated(MIEN_PRESET_LARGE), static_cast<size_t>(frames));
   run_ranges("ranges of 500 on two threads", generated(MIEN_PRESET_LARGE),
              static_cast<size_t>(frames));
-  run("joints, body", generated(MIEN_PRESET_BODY), 0, frames);
-  run("all vertices, head", generated(MIEN_PRESET_HEAD), 1, frames / 4 + 2);
-  run("every 12th vertex, head", generated(MIEN_PRESET_HEAD), 12, frames / 4 + 2);
+  run("joints, body", generated(MIEN_PRESET_BODY), 0, frames, false);
+  run("all vertices, head", generated(MIEN_PRESET_HEAD), 1, frames / 4 + 2, true);
+  run("every 12th vertex, head", generated(MIEN_PRESET_HEAD), 12, frames / 4 + 2, true);
   if (argc < 3) return 0;
-  run("all vertices, file", Rig(open_head(argv[2])), 1, frames / 4 + 2);
-  run("every 40th vertex, file", Rig(open_head(argv[2])), 40, frames / 4 + 2);
+  run("all vertices, file", Rig(open_head(argv[2])), 1, frames / 4 + 2, true);
+  run("every 40th vertex, file", Rig(open_head(argv[2])), 40, frames / 4 + 2, true);
   run_landmarks("478 landmarks, 0.5 mm of noise", open_head(argv[2]), 478, See::kSpace, frames);
   run_landmarks("68 landmarks in images, 1 pixel", open_head(argv[2]), 68, See::kCamera, frames);
   run_landmarks("the same, camera unknown", open_head(argv[2]), 68, See::kUnknownCamera, frames);
