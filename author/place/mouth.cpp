@@ -238,21 +238,31 @@ bool find_mouth(const AuthorMesh& mesh, const MouthSearch& search, Arena& scratc
   out.upper = {search.plane, lips.upper_y, lips.upper_z};
   out.lower = {search.plane, lips.lower_y, lips.lower_z};
   out.chin = {search.plane, lips.chin_y, lips.chin_z};
-  // Corners: to each side as far as there are two lips.
-  constexpr int kSteps = 40;
+  // Corners: to each side as far as there are two lips, by steps, the last of which is halved until the corner does not
+  // depend on where steps lie.
+  constexpr int kSteps = 40, kHalvings = 10;
   for (const int side : {1, -1}) {
     Vec3& corner = side > 0 ? out.left : out.right;
     corner = (out.upper + out.lower) * 0.5;
     Lips last = lips;
-    for (int k = 1; k <= kSteps; ++k) {
-      const double x = search.plane + side * (beside + search.half_width * k / kSteps);
+    double step = search.half_width / kSteps, reached = 0;
+    for (int steps = 0, halvings = 0; steps < kSteps && halvings <= kHalvings;) {
+      const double x = search.plane + side * (beside + reached + step);
       const double top = last.upper_y + 0.25 * (search.nose_y - out.upper.y);
       const double low = std::max(search.floor, last.lower_y - 0.6 * (out.lower.y - out.chin.y));
       Lips here;
       if (!find_lips(mesh, x, top, low, 0.5 * kLeastDetour * span, scratch, here)) return false;
-      if (!here.found) break;
-      corner = {x, (here.upper_y + here.lower_y) / 2, (here.upper_z + here.lower_z) / 2};
-      last = here;
+      if (here.found) {
+        corner = {x, (here.upper_y + here.lower_y) / 2, (here.upper_z + here.lower_z) / 2};
+        last = here;
+        reached += step;
+      }
+      if (!here.found || halvings > 0) {
+        step *= 0.5;
+        ++halvings;
+      } else {
+        ++steps;
+      }
     }
   }
   return true;
