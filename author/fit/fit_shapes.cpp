@@ -226,21 +226,40 @@ void descend(const Fitter& fitter, FitLane& lane, Span<const uint8_t> active,
   }
 }
 
-/// The rotation about a point with the smallest remaining displacement of these vertices.
-Affine turn_about(const Fitter& fitter, Span<const Influenced> entries, Vec3 center,
-                  double max_half_sine, const FitLane& lane) {
-  Vec3 map[3];
-  for (const Influenced& e : entries) {
-    const double weight = double{e.weight};
-    const Vec3 arm = fitter.positions[e.vertex] - center;
-    const Vec3 to = arm * (weight * weight) + lane.rest[e.vertex] * weight;
+/// The rotation about `joint`, or the rigid motion if there is none, that takes these vertices nearest to where they
+/// go, each as if it was entirely on the bone: weights and angle could otherwise make up for each other.
+Affine carry_whole(const Fitter& fitter, Span<const Influenced> entries, const Vec3* joint,
+                   double max_half_sine, const FitLane& lane) {
+  double masses = 0;
+  Vec3 center, shift, map[3];
+  const auto visit = [&](const auto& add) {
+    for (const Influenced& e : entries) {
+      const double scale = fitter.scales.empty() ? 1 : fitter.scales[e.vertex];
+      add(fitter.positions[e.vertex], lane.rest[e.vertex] * (1 / scale),
+          double{e.weight} * double{e.weight});
+    }
+  };
+  if (!joint) {
+    visit([&](Vec3 from, Vec3 way, double mass) {
+      masses += mass;
+      center = center + from * mass;
+      shift = shift + way * mass;
+    });
+    if (!(masses > 0)) return Affine::identity();
+    center = center * (1 / masses);
+    shift = shift * (1 / masses);
+  } else {
+    center = *joint;
+  }
+  visit([&](Vec3 from, Vec3 way, double mass) {
+    const Vec3 arm = from - center, to = (arm + way) * mass;
     map[0] = map[0] + arm * to.x;
     map[1] = map[1] + arm * to.y;
     map[2] = map[2] + arm * to.z;
-  }
+  });
   Affine out;
   closest_rotation(map, max_half_sine, out.rows);
-  out.shift = center - out.turn(center);
+  out.shift = center + shift - out.turn(center);
   return out;
 }
 
@@ -268,9 +287,9 @@ bool open_jaw(const Fitter& fitter, FitLane& lane, Span<Affine> motions) {
     return opens;
   };
   // About its joint, if that is enough: on the skin, rotation and translation are hard to tell apart.
-  Affine next = turn_about(fitter, all, f.jaw_position, half, lane);
+  Affine next = carry_whole(fitter, all, &f.jaw_position, half, lane);
   if (!opens_by(next)) {
-    next = fit_rigid(fitter, all, f.carried_moments, still, still, half, 0, lane);
+    next = carry_whole(fitter, all, nullptr, half, lane);
     if (!opens_by(next)) return false;
   }
   if (half > 0) next = fit_teeth(fitter, next, lane);

@@ -85,15 +85,22 @@ void fit_motions(const Fitter& fitter, FitLane& lane, Span<const uint8_t> active
 void fit_all(Fitter& fitter, const AuthorMesh& mesh, const SkinWeights& weights, bool given,
              const ParallelFor& parallel, const Motions& out);
 
+/// Bones whose weights are not fitted as those of others.
+struct BoneRoles {
+  Span<uint8_t> held;       // by bone: chest and neck, which keep their weights; empty: none
+  uint32_t jaw = kNone;     // the first one
+  uint32_t opens = kNone;   // the shape that turns it most
+  Span<uint8_t> below_jaw;  // by bone: the jaw and what hangs below it
+};
+
 /// The weights of each vertex that fit its displacements best, over all shapes. They are not
 /// negative and sum to one. `pull` pulls them to their previous values, `smoothness` to those of
 /// their neighbors. The candidates are the influences in `from` and the `shared` bones, of which
 /// the first is the head; `out` gets as many as it has room for. Vertices without a facial bone, a
-/// jaw or an eye do not change, nor do weights of `held` bones (one number for each bone; empty:
-/// none). `out` may be `from`. False if memory ran out.
+/// jaw or an eye do not change. `out` may be `from`. False if memory ran out.
 constexpr uint32_t kMaxSharedBones = 4;
 bool refit_weights(const AuthorMesh& mesh, const SurfaceGraph& graph, const Motions& motions,
-                   Span<const uint16_t> shared, Span<const uint8_t> held, double smoothness,
+                   Span<const uint16_t> shared, const BoneRoles& roles, double smoothness,
                    double pull, const ParallelFor& parallel, Arena& scratch,
                    const SkinWeights& from, SkinWeights& out);
 

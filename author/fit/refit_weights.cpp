@@ -19,6 +19,8 @@ constexpr uint32_t kSmoothRounds = 4;
 // Vertices that hardly move are smoothed as if they moved by this multiple of the mean, because
 // shapes say little about their weights.
 constexpr double kTypical = 4;
+// How much it counts, beside each shape, that the jaw takes the chin all the way.
+constexpr double kCarried = 1;
 
 /// Least squares over few unknowns that may not become negative: x^T matrix x / 2 - right^T x.
 struct SmallSystem {
@@ -137,7 +139,7 @@ struct RefitTask {
   const SurfaceGraph& graph;
   const Motions& motions;
   Span<const uint16_t> shared;
-  Span<const uint8_t> held;  // by bone
+  const BoneRoles& roles;
   const SkinWeights& from;
   SkinWeights before;  // of the last round; empty in the first
   double smoothness = 0;
@@ -192,6 +194,19 @@ void sum_shapes(const RefitTask& task, uint32_t v, VertexWeights& w) {
     for (uint32_t i = 0; i < s.size; ++i) {
       s.right[i] += dot(moved[i], d);
       for (uint32_t k = 0; k <= i; ++k) s.matrix[i][k] += dot(moved[i], moved[k]);
+    }
+    // Where skin goes with the jaw, the jaw alone should take it all the way: bones below it could make up for less.
+    if (shape != task.roles.opens) continue;
+    const Vec3 carried = task.motions.of(shape)[task.roles.jaw](p) - p;
+    const double all = dot(carried, carried), along = dot(carried, d);
+    if (!(all > 0)) continue;
+    const double counts = kCarried * smooth_step(0.8 * all, all, along);
+    for (uint32_t i = 0; i < s.size; ++i) {
+      if (!task.roles.below_jaw[w.joints[i]]) continue;
+      s.right[i] += counts * along;
+      for (uint32_t k = 0; k <= i; ++k) {
+        if (task.roles.below_jaw[w.joints[k]]) s.matrix[i][k] += counts * all;
+      }
     }
   }
 }
@@ -251,7 +266,7 @@ void refit_vertex(const RefitTask& task, uint32_t v) {
   const VertexWeights given = weights_of(task.from, v);
   VertexWeights w, held;
   for (uint32_t i = 0; i < given.system.size; ++i) {
-    const bool is_held = !task.held.empty() && task.held[given.joints[i]];
+    const bool is_held = !task.roles.held.empty() && task.roles.held[given.joints[i]];
     (is_held ? held : w).add(given.joints[i], given.x[i]);
     if (is_held) w.sum -= given.x[i];
   }
@@ -288,7 +303,7 @@ void refit_vertex(const RefitTask& task, uint32_t v) {
 }  // namespace
 
 bool refit_weights(const AuthorMesh& mesh, const SurfaceGraph& graph, const Motions& motions,
-                   Span<const uint16_t> shared, Span<const uint8_t> held, double smoothness,
+                   Span<const uint16_t> shared, const BoneRoles& roles, double smoothness,
                    double pull, const ParallelFor& parallel, Arena& scratch,
                    const SkinWeights& from, SkinWeights& out) {
   SkinWeights given = from, before;
@@ -301,7 +316,8 @@ bool refit_weights(const AuthorMesh& mesh, const SurfaceGraph& graph, const Moti
   }
   std::copy(from.joints.begin(), from.joints.end(), given.joints.begin());
   std::copy(from.weights.begin(), from.weights.end(), given.weights.begin());
-  RefitTask task = {mesh, graph, motions, shared, held, given, {}, smoothness, pull, 0, out, {}, 0};
+  RefitTask task = {mesh,       graph, motions, shared, roles, given, {},
+                    smoothness, pull,  0,       out,    {},    0};
   if (smoothness > 0) {
     const size_t unknowns = from.m + shared.count;
     task.sums_each = static_cast<uint32_t>(unknowns * (unknowns + 3) / 2);
@@ -337,12 +353,26 @@ bool refit_weights(const AuthorMesh& mesh, const SurfaceGraph& graph, const Moti
 
 namespace {
 
-/// Chest and neck.
-bool find_held(const Placement& placement, Arena& scratch, Span<uint8_t>& out) {
-  if (!make(scratch, placement.bones.count, out)) return false;
-  for (size_t b = 0; b < out.count; ++b) {
-    const BoneKind kind = placement.bones[b].kind;
-    out[b] = kind == BoneKind::kChest || kind == BoneKind::kNeck;
+bool find_roles(const Placement& placement, const Motions& motions, Arena& scratch,
+                BoneRoles& out) {
+  const Span<const Bone> bones = placement.bones;
+  if (!make(scratch, bones.count, out.held) || !make(scratch, bones.count, out.below_jaw)) {
+    return false;
+  }
+  for (uint32_t b = 0; b < bones.count; ++b) {
+    const BoneKind kind = bones[b].kind;
+    out.held[b] = kind == BoneKind::kChest || kind == BoneKind::kNeck;
+    if (kind == BoneKind::kJaw && out.jaw == kNone) out.jaw = b;
+    out.below_jaw[b] = b == out.jaw || (bones[b].parent < b && out.below_jaw[bones[b].parent]);
+  }
+  double least = 3 - 1e-6;  // of the rotation's trace
+  const size_t shapes = bones.empty() ? 0 : motions.items.count / bones.count;
+  for (uint32_t shape = 0; shape < shapes && out.jaw != kNone; ++shape) {
+    const Affine& jaw = motions.of(shape)[out.jaw];
+    const double trace = jaw.rows[0].x + jaw.rows[1].y + jaw.rows[2].z;
+    if (!(trace < least)) continue;
+    least = trace;
+    out.opens = shape;
   }
   return true;
 }
@@ -365,16 +395,17 @@ bool refit_finest(const AuthorMesh& mesh, const Placement& placement, const Moti
                   const ParallelFor& parallel, const Allocator& allocator, SkinWeights& weights) {
   Arena scratch(allocator);
   SurfaceGraph graph;
-  Span<uint8_t> held;
+  BoneRoles roles;
   double spacing = 0;
-  if (!find_held(placement, scratch, held) || !make_surface_graph(mesh, scratch, scratch, graph) ||
+  if (!find_roles(placement, motions, scratch, roles) ||
+      !make_surface_graph(mesh, scratch, scratch, graph) ||
       !find_median_spacing(placement, placement.facial_count, mesh.diagonal, scratch, spacing)) {
     return false;
   }
   // With more edges between two bones, weights may change less along each.
   const double edges = spacing / mean_length(placement, graph, mesh.diagonal);
-  return refit_weights(mesh, graph, motions, shared, held, options.smoothness * edges, options.pull,
-                       parallel, scratch, weights, weights) &&
+  return refit_weights(mesh, graph, motions, shared, roles, options.smoothness * edges,
+                       options.pull, parallel, scratch, weights, weights) &&
          connect_supports(mesh, graph, placement, bone_of_kind(placement, BoneKind::kHead, 0),
                           scratch, weights);
 }
@@ -384,10 +415,11 @@ bool refit_lod(const AuthorMesh& mesh, const Placement& placement, const Motions
                const Allocator& allocator, const SkinWeights& from, SkinWeights& out) {
   Arena scratch(allocator);
   SurfaceGraph graph;
-  Span<uint8_t> held;
-  return find_held(placement, scratch, held) && make_surface_graph(mesh, scratch, scratch, graph) &&
-         refit_weights(mesh, graph, motions, shared, held, options.lod_smoothness, options.lod_pull,
-                       parallel, scratch, from, out);
+  BoneRoles roles;
+  return find_roles(placement, motions, scratch, roles) &&
+         make_surface_graph(mesh, scratch, scratch, graph) &&
+         refit_weights(mesh, graph, motions, shared, roles, options.lod_smoothness,
+                       options.lod_pull, parallel, scratch, from, out);
 }
 
 }  // namespace mien::author

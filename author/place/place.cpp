@@ -147,11 +147,10 @@ Status rank_units(Placing& placing, const KMeansRun& chosen, Facial& facial) {
   const KMeansProblem& problem = facial.problem;
   const uint32_t k = static_cast<uint32_t>(chosen.means.count);
   Span<uint32_t> joints, order, counts;
-  Span<double> objectives, lod_objectives;
+  Span<double> lod_objectives;
   Span<Unit> units;
   if (!make(placing.scratch, k, joints) || !make(placing.scratch, k, order) ||
-      !make(placing.scratch, k, objectives) || !make(placing.scratch, k, units) ||
-      !make(placing.arena, placing.options.lods, counts) ||
+      !make(placing.scratch, k, units) || !make(placing.arena, placing.options.lods, counts) ||
       !make(placing.arena, placing.options.lods, lod_objectives)) {
     return no_memory(placing);
   }
@@ -161,8 +160,9 @@ Status rank_units(Placing& placing, const KMeansRun& chosen, Facial& facial) {
     joints[c] = in_pairs && c < problem.free_means ? 2 : 1;
     total += joints[c];
   }
-  if (!rank_by_deletion(problem.points, problem.weights, chosen.means, joints, placing.scratch,
-                        order, objectives)) {
+  joint_ladder(total, placing.options.lod_joints, counts);
+  if (!rank_means(problem.points, problem.weights, chosen.means, joints, placing.scratch, order,
+                  counts, lod_objectives)) {
     return no_memory(placing);
   }
   for (uint32_t rank = 0; rank < k; ++rank) {
@@ -171,15 +171,6 @@ Status rank_units(Placing& placing, const KMeansRun& chosen, Facial& facial) {
     units[rank] = {p, joints[order[rank]] == 2, {2 * placing.plane - p.x, p.y, p.z}};
   }
   if (placing.paired && !free_units(placing, problem.weights, units)) return no_memory(placing);
-  joint_ladder(total, placing.options.lod_joints, counts);
-  for (uint32_t lod = 0; lod < counts.count; ++lod) {
-    uint32_t kept = 0, rank = 0;
-    while (rank < k && (rank == 0 || kept + joints[order[rank]] <= counts[lod])) {
-      kept += joints[order[rank++]];
-    }
-    counts[lod] = kept;
-    lod_objectives[lod] = rank > 0 ? objectives[rank - 1] : objectives[0];
-  }
   report.lod_objectives = lod_objectives;
   facial.units = units;
   facial.lod_counts = counts;

@@ -5,60 +5,135 @@
 #include <limits>
 
 #include "author/base/dna_making.h"
-#include "author/place/kmeans.h"
 
 namespace mien::author {
 
-bool rank_by_deletion(Span<const Vec3> points, Span<const double> weights, Span<const Vec3> means,
-                      Span<const uint32_t> joints, Arena& scratch, Span<uint32_t> order,
-                      Span<double> objectives) {
-  const uint32_t n = static_cast<uint32_t>(points.count), k = static_cast<uint32_t>(means.count);
-  Span<uint32_t> near, next, left;
-  Span<double> loss;
-  if (!make(scratch, n, near) || !make(scratch, n, next) || !make(scratch, k, left) ||
-      !make(scratch, k, loss)) {
-    return false;
+namespace {
+
+struct Ranking {
+  Span<const Vec3> points;
+  Span<const double> weights;
+  Span<const Vec3> means;
+  Span<const uint32_t> joints;
+  Span<uint32_t> near, next;      // per point, of the means that are left
+  Span<double> to_near, to_next;  // squared distances
+  Span<double> loss;              // per mean
+
+  double distance(uint32_t point, uint32_t mean) const {
+    return squared_distance(points[point], means[mean]);
   }
-  nearest_means(points, means, near, next);
-  double objective = 0;
-  for (uint32_t i = 0; i < n; ++i) {
-    objective += weights[i] * squared_distance(points[i], means[near[i]]);
-  }
-  uint32_t left_count = k;
-  for (uint32_t c = 0; c < k; ++c) left[c] = c;
-  while (left_count > 0) {
-    objectives[left_count - 1] = objective;
-    if (left_count == 1) {
-      order[0] = left[0];
-      return true;
-    }
-    for (double& value : loss) value = 0;
-    for (uint32_t i = 0; i < n; ++i) {
-      loss[near[i]] += weights[i] * (squared_distance(points[i], means[next[i]]) -
-                                     squared_distance(points[i], means[near[i]]));
-    }
-    uint32_t slot = 0;
-    for (uint32_t s = 1; s < left_count; ++s) {
-      if (loss[left[s]] / joints[left[s]] < loss[left[slot]] / joints[left[slot]]) slot = s;
-    }
-    const uint32_t removed = left[slot];
-    objective += loss[removed];
-    order[--left_count] = removed;
-    for (uint32_t s = slot; s < left_count; ++s) left[s] = left[s + 1];  // stays ascending
-    for (uint32_t i = 0; i < n; ++i) {
-      if (near[i] != removed && next[i] != removed) continue;
-      if (near[i] == removed) near[i] = next[i];
-      double best = std::numeric_limits<double>::infinity();
-      next[i] = near[i];
-      for (uint32_t s = 0; s < left_count; ++s) {
-        if (left[s] == near[i]) continue;
-        const double d = squared_distance(points[i], means[left[s]]);
-        if (!(d < best)) continue;
-        best = d;
-        next[i] = left[s];
+
+  /// The two nearest ones of `left` to the point.
+  void find_nearest(uint32_t i, Span<const uint32_t> left) {
+    near[i] = next[i] = left[0];
+    to_near[i] = to_next[i] = std::numeric_limits<double>::infinity();
+    for (const uint32_t mean : left) {
+      const double d = distance(i, mean);
+      if (d < to_near[i]) {
+        next[i] = near[i];
+        to_next[i] = to_near[i];
+        near[i] = mean;
+        to_near[i] = d;
+      } else if (d < to_next[i]) {
+        next[i] = mean;
+        to_next[i] = d;
       }
     }
+    if (left.count == 1) to_next[i] = to_near[i];
   }
+
+  double find_all_nearest(Span<const uint32_t> left) {
+    double objective = 0;
+    for (uint32_t i = 0; i < points.count; ++i) {
+      find_nearest(i, left);
+      objective += weights[i] * to_near[i];
+    }
+    return objective;
+  }
+
+  /// Removes means until as many joints are left; those that are removed first get the last places of `left`. Returns
+  /// how many means remain.
+  size_t remove(Span<uint32_t> left, uint32_t most_joints, double& objective) {
+    std::sort(left.begin(), left.end());
+    objective = find_all_nearest(left);
+    uint32_t joint_count = 0;
+    for (const uint32_t mean : left) joint_count += joints[mean];
+    while (left.count > 1 && joint_count > most_joints) {
+      for (const uint32_t mean : left) loss[mean] = 0;
+      for (uint32_t i = 0; i < points.count; ++i) {
+        loss[near[i]] += weights[i] * (to_next[i] - to_near[i]);
+      }
+      size_t slot = 0;
+      for (size_t s = 1; s < left.count; ++s) {
+        if (loss[left[s]] / joints[left[s]] < loss[left[slot]] / joints[left[slot]]) slot = s;
+      }
+      const uint32_t removed = left[slot];
+      objective += loss[removed];
+      joint_count -= joints[removed];
+      std::rotate(left.begin() + slot, left.begin() + slot + 1, left.end());  // stays ascending
+      --left.count;
+      for (uint32_t i = 0; i < points.count; ++i) {
+        if (near[i] == removed || next[i] == removed) find_nearest(i, left);
+      }
+    }
+    return left.count;
+  }
+
+  /// Exchanges means of `left` for `dropped` ones of as many joints, one pair at a time.
+  double exchange(Span<uint32_t> left, Span<uint32_t> dropped, double objective) {
+    constexpr uint32_t kPasses = 10;
+    bool changed = true;
+    for (uint32_t pass = 0; pass < kPasses && changed; ++pass) {
+      changed = false;
+      for (uint32_t& candidate : dropped) {
+        // What the sum gains with the candidate; and, for each mean, what it then loses without that mean.
+        double gain = 0;
+        for (const uint32_t mean : left) loss[mean] = 0;
+        for (uint32_t i = 0; i < points.count; ++i) {
+          const double d = distance(i, candidate), here = std::min(d, to_near[i]);
+          gain += weights[i] * (to_near[i] - here);
+          loss[near[i]] += weights[i] * (std::min(d, to_next[i]) - here);
+        }
+        uint32_t* least = nullptr;
+        for (uint32_t& mean : left) {
+          if (joints[mean] == joints[candidate] && (!least || loss[mean] < loss[*least])) {
+            least = &mean;
+          }
+        }
+        if (!least || !(gain - loss[*least] > 1e-9 * objective)) continue;
+        std::swap(*least, candidate);
+        objective = find_all_nearest(left);
+        changed = true;
+      }
+    }
+    return objective;
+  }
+};
+
+}  // namespace
+
+bool rank_means(Span<const Vec3> points, Span<const double> weights, Span<const Vec3> means,
+                Span<const uint32_t> joints, Arena& scratch, Span<uint32_t> order,
+                Span<uint32_t> counts, Span<double> objectives) {
+  const size_t n = points.count, k = means.count;
+  Ranking ranking = {points, weights, means, joints, {}, {}, {}, {}, {}};
+  if (!make(scratch, n, ranking.near) || !make(scratch, n, ranking.next) ||
+      !make(scratch, n, ranking.to_near) || !make(scratch, n, ranking.to_next) ||
+      !make(scratch, k, ranking.loss)) {
+    return false;
+  }
+  for (uint32_t c = 0; c < k; ++c) order[c] = c;
+  size_t left = k;
+  for (size_t lod = 0; lod < counts.count; ++lod) {
+    const size_t before = left;
+    left = ranking.remove(order.first(left), counts[lod], objectives[lod]);
+    const Span<uint32_t> dropped = order.slice(left, before - left);
+    objectives[lod] = ranking.exchange(order.first(left), dropped, objectives[lod]);
+    counts[lod] = 0;
+    for (size_t rank = 0; rank < left; ++rank) counts[lod] += joints[order[rank]];
+  }
+  double last = 0;
+  ranking.remove(order.first(left), 0, last);
   return true;
 }
 

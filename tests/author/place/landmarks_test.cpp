@@ -303,8 +303,8 @@ TEST(JawByLandmarks, OpensTheMouthOfMeshesWithoutShapes) {
 TEST(JawByShapes, OpensAMouthThatIsOpenAtRest) {
   const TestMesh gap = open_head(0.05, true), wide = open_head(0.6, true);
   const MarkedHead closed(gap), open(wide);
-  expect_a_jaw(closed, "with shapes", 0.55);
-  expect_a_jaw(open, "with shapes, open at rest", 0.7);
+  expect_a_jaw(closed, "with shapes", 0.75);
+  expect_a_jaw(open, "with shapes, open at rest", 0.75);
   EXPECT_LT(length(open.bone("jaw") - closed.bone("jaw")), 1.6);
   EXPECT_LT(open[Kind::kThroat].at.y, open[Kind::kChin].at.y);
   const struct {
