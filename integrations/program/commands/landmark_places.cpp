@@ -133,7 +133,9 @@ struct FirstGuess {
     to_eyes = (to.left_lid + to.right_lid) * 0.5;
     const double x = to.eye_distance() / from.eye_distance();
     const double y = (to_eyes.y - to.chin.y) / (from_eyes.y - from.chin.y);
-    scale = {x, y, (x + y) / 2};
+    // Faces of the same breadth differ in how far their eyes are apart.
+    const double across = y + 0.25 * (x - y);
+    scale = {across, y, across};
     radius = to.eye_distance();
     const Vec3d sources[] = {from.left_lid, from.right_lid, from.mouth, from.nose, from.chin};
     const Vec3d targets[] = {to.left_lid, to.right_lid, to.mouth, to.nose, to.chin};
