@@ -18,7 +18,7 @@ namespace {
 
 /// A place beyond the edge of a lid: `s` -1 at the inner corner, 1 at the outer one; turned up by `lift`.
 Vertex beside_lid(const Form& form, Side side, double s, double radius, double lift) {
-  const double x = kEye.x + s * kEyeHalfWidth, dx = x - kEye.x;
+  const double x = kEye.x + s * form.eye_half_width(), dx = x - kEye.x;
   const FacePoint edge = form.face(form.angle_of(x, kEye.y), kEye.y, side);
   const double line_y = form.lid_line(x) - kEye.y;
   const double z = std::sqrt(std::max(0.05, kLidRadius * kLidRadius - dx * dx - line_y * line_y));
@@ -89,8 +89,9 @@ void add_brow(const Form& form, uint32_t lod, HalfMesh& out) {
     double x, y, half;
   };
   const auto arch_at = [&person](double t) {
-    const double y =
-        2.36 + person.brow_height + 0.66 * exact_sine(kPi * clamp01(t * 0.66 + 0.12)) - 0.10 * t;
+    const double y = 2.36 + person.brow_height +
+                     (0.66 + person.brow_arch) * exact_sine(kPi * clamp01(t * 0.66 + 0.12)) -
+                     0.4 * person.brow_arch + person.brow_slope * (t - 0.4) - 0.10 * t;
     const double half = 0.34 * person.brow * exact_pow(clamp01((1 - t) * 1.9), 0.75) *
                         mix(0.72, 1, smooth_step(0, 0.3, t));
     return Arch{mix(1.22, 5.25, t), y, half + 0.03};

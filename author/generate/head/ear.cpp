@@ -34,7 +34,7 @@ void SkinMaker::place_ear() {
 
 Place SkinMaker::ear_place(uint32_t k, bool inner) const {
   const auto [s, c] = exact_sine_cosine(kPi + 2 * kPi * k / ring_size_);
-  return ear_root(s, c, inner ? 1 : 1.14);
+  return ear_root(s, c, inner ? 0.97 : 1.22);
 }
 
 namespace {
@@ -92,14 +92,15 @@ void SkinMaker::make_ear() {
     const double low = smooth_step(0.2, -1, s);
     // In front there is no rim: the ear runs on into the cheek.
     const double in_front = smooth_step(-0.1, -0.75, c) * smooth_step(0.75, 0.35, s);
-    const double share = std::min(step[0], mix(step[0], 0.95 - 0.02 * r, in_front));
+    const double share = std::min(step[0], mix(step[0], 0.90 - 0.02 * r, in_front));
     // The bowl is in front of the middle, and low.
     const double inner = 1 - smooth_step(0.25, 0.85, share);
     // The lobe is round.
     const double round = 1 + 0.35 * bump(s, 0, -0.92, 0, 0.25, 1);
     const double p =
         c * (c > 0 ? mix(1.65, 1.05, low) * round : mix(0.95, 0.80, low)) - 0.30 * inner;
-    const double q = s * (s > 0 ? 2.4 : 2.1) - 0.35 * inner;
+    // In front not beyond the root, over the cheek.
+    const double q = s * mix(s > 0 ? 2.4 : 2.1, 1.62, in_front) - 0.35 * inner;
     // The rim fades towards the lobe and where the ear grows out of the head.
     const double rim = mix(1, 0.25, std::max(smooth_step(-0.3, -0.9, s), smooth_step(-0.4, -1, c)));
     double height = step[1] * (step[1] > 0 ? rim : 1);
@@ -109,8 +110,10 @@ void SkinMaker::make_ear() {
                  mix(smooth_step(0.86, 0.83, step[0]), smooth_step(0.99, 0.87, step[0]), in_front));
     const double size = ear_.size;
     const Vertex& from = out_.vertices[root[k]];
+    // In front it rises straight out of the cheek: leaning forwards, it would lie on it.
+    const Vec3 outward = ear_.outward * (1 - in_front) + Vec3{in_front, 0, 0};
     Vec3 at = ear_.origin + ear_.back * (p * share * size) + ear_.up * (q * share * size) +
-              ear_.outward * (height * size);
+              outward * (height * size);
     const double least = step[2] * (step[2] > 0 ? mix(1, 0.1, in_front) : 1);
     at.x = std::max(at.x, from.closed.x + least * size);
     const double left = 1 - (r + 1.0) / (rings + 1);

@@ -130,16 +130,16 @@ double Form::mouth_line(double x) const {
   const double s = std::min(std::abs(x) / kMouthHalfWidth, 1.3);
   // The tubercle of the upper lip hangs in the middle; beside it the line rises.
   return kMouthY - 0.09 * bump(s, 0, 0, 0, 0.26, 1) + 0.05 * bump(s, 0, 0.46, 0, 0.26, 1) +
-         0.03 * s * s * s * s;
+         (0.03 + person_.corners) * s * s * s * s;
 }
 
 double Form::lip_height(double x, int which) const {
   const double s = std::min(std::abs(x) / (1.04 * kMouthHalfWidth), 1.0), end = 1 - s * s;
   const double full = mix(1, person_.lips, 0.5) * (1 - 0.18 * which * person_.lip_share);
   if (which < 0)
-    return full * (0.80 * exact_pow(end, 0.54) - 0.05 * bump(s, 0, 0, 0, 0.30, 1) * end);
+    return full * (0.80 * exact_pow(end, 0.50) - 0.05 * bump(s, 0, 0, 0, 0.30, 1) * end);
   const double bow = 0.57 + 0.11 * bump(s, 0, 0.24, 0, 0.20, 1) - 0.06 * bump(s, 0, 0, 0, 0.11, 1);
-  return bow * full * exact_pow(end, 0.58);
+  return bow * full * exact_pow(end, 0.52);
 }
 
 FrontPlace Form::lip_curve(double out, int which) const {
@@ -151,23 +151,29 @@ FrontPlace Form::lip_curve(double out, int which) const {
 double Form::lid_line(double x) const {
   const double s = along_eye(x), inside = std::max(0.0, 1 - s * s);
   return kEye.y + (0.15 + 1.5 * person_.eye_tilt) * std::min(std::max(s, -1.4), 1.4) -
-         0.36 * inside;
+         0.36 * inside - 0.10 * person_.epicanthus * bump(s, 0, -1, 0, 0.30, 1);
+}
+
+Vec3 Form::spread_eyes(Vec3 p, Vec3 look) const {
+  const double u = (look.x - kEye.x) / 1.70, v = (look.y - 0.8) / 1.9;
+  p.x += person_.eye_gap * smooth_step(3.2, 1.25, u * u + v * v) * smooth_step(2.0, 4.0, look.z);
+  return p;
 }
 
 FrontPlace Form::lid_curve(double along, int which) const {
-  if (which == 0) return {kEye.x + along * kEyeHalfWidth, kEye.y};
+  if (which == 0) return {kEye.x + along * eye_half_width(), kEye.y};
   const double height = (which > 0 ? 1.36 : -0.85) * exact_pow(1 - along * along, 0.6);
-  return {kEye.x + 1.13 * along * kEyeHalfWidth, kEye.y + height};
+  return {kEye.x + 1.13 * along * eye_half_width(), kEye.y + height};
 }
 
 double Form::upper_opening(double x) const {
   const double s = along_eye(x), inside = std::max(0.0, 1 - s * s);
-  return 0.56 * person_.eyes * exact_pow(inside, 0.62) * (1 - 0.08 * s);
+  return 0.56 * person_.eyes * exact_pow(inside, 0.62) * (1 + (0.22 * person_.lid_peak - 0.08) * s);
 }
 
 double Form::lower_opening(double x) const {
   const double s = along_eye(x), inside = std::max(0.0, 1 - s * s);
-  return -0.21 * exact_pow(inside, 0.80) * (1 + 0.16 * s);
+  return -0.21 * person_.lower_lid * exact_pow(inside, 0.80) * (1 + 0.16 * s);
 }
 
 /// The nose above the face around it: a dome in each row, with steep sides where the wings are.
@@ -215,11 +221,11 @@ double Form::relief(double x, double y) const {
   };
   const double wing = p.nose_width;
   const Bump bumps[] = {
-      {-0.42 - p.sockets, 3.1, 0.25, 1.8, 1.25},       // sockets
-      {-0.22, 1.60, 0.35, 0.60, 0.95},                 // inner corners of the eyes
-      {0.26, 3.3, 1.45, 1.30, 0.55},                   // below the brow
-      {0.30 + p.hood, 3.8, 1.80, 1.5, 0.75},           // skin that hangs over the crease
-      {0.20 + p.brow_ridge, 1.9, 2.75, 1.5, 0.75},     // brow ridge, inner half
+      {-0.42 - p.sockets, 3.1, 0.25, 1.8, 1.25},              // sockets
+      {-0.22 + 0.17 * p.epicanthus, 1.60, 0.35, 0.60, 0.95},  // inner corners of the eyes
+      {0.26, 3.3, 1.45, 1.30, 0.55},                          // below the brow
+      {0.30 + p.hood, 3.8, 1.80, 1.5, 0.75},                  // skin that hangs over the crease
+      {0.20 + p.brow_ridge, 1.9, 2.75, 1.5, 0.75},            // brow ridge, inner half
       {0.30 + p.brow_ridge, 4.3, 2.85, 1.3, 0.80},     // and above the outer corner of the eye
       {0.10 + 0.5 * p.brow_ridge, 0, 2.5, 1.1, 0.8},   // glabella
       {-0.20, 1.80 * wing, -3.6, 0.26, 0.55},          // behind the wing of the nose
@@ -229,24 +235,26 @@ double Form::relief(double x, double y) const {
       {-0.02 - 0.22 * p.cheek, 4.5, -5.0, 1.4, 1.5},    // hollow of the cheek
       {0.50 + 0.74 * p.muzzle, 0, -5.7, 2.6, 1.9},      // muzzle
       {-0.06 - 0.24 * p.age, 2.25, -4.35, 0.30, 0.85},  // from nose to mouth
-      {-0.40, 2.50, -6.00, 0.36, 0.24},                 // corners of the mouth
-      {0.08, 3.2, -6.2, 0.7, 0.9},                      // and the muscles that meet beside them
-      {0.45 * p.weight, 4.3, -5.2, 1.6, 1.9},           // fat of the cheeks
-      {0.30 * p.weight, 3.0, -8.6, 1.8, 1.2},           // and of the jaw
-      {p.nose_hump, 0, -0.7, 0.7, 0.8},                 // bridge of the nose: convex or hollow
-      {-0.16, 0, -4.85, 0.24, 0.60},                    // philtrum
-      {0.09, 0.42, -4.95, 0.18, 0.55},                  // its edges
-      {0.10 * p.age, 3.2, -1.35, 1.1, 0.35},            // below the eyes
-      {-0.30 * p.age, 4.6, -4.0, 1.2, 1.2},             // cheeks sink
-      {0.28 * p.age, 3.6, -8.4, 1.5, 1.2},              // jowls
-      {-0.34, 0, -7.70, 1.5, 0.50},                     // fold above the chin
-      {0.26 + 0.62 * p.chin, 0, -9.25, 1.25, 0.95},     // chin
-      {0.10, 0.75, -9.35, 0.6, 0.6},                    // its two tubercles
-      {-p.cleft, 0, -9.25, 0.26, 0.75},                 // and the cleft between them
-      {-0.16, 2.3, -9.0, 0.7, 1.0},                     // beside it, before the jowl
-      {0.22, 1.7, 5.6, 1.7, 1.5},                       // frontal eminences
-      {-0.10, 0, 4.3, 1.6, 0.7},                        // between them and the brow ridge
-      {-0.28, 6.0, 2.2, 0.9, 1.6},                      // temples
+      {-0.30, 2.56, -6.00, 0.42, 0.34},                 // corners of the mouth, behind the cheek
+      {-0.24, 2.46, -6.00, 0.22, 0.20},                 // and the pit at the end of each
+      {0.17, 2.98, -6.12, 0.36, 0.60},                  // the muscles that meet beside them
+      {0.08, 3.3, -6.2, 0.7, 0.9},
+      {0.45 * p.weight, 4.3, -5.2, 1.6, 1.9},        // fat of the cheeks
+      {0.30 * p.weight, 3.0, -8.6, 1.8, 1.2},        // and of the jaw
+      {p.nose_hump, 0, -0.7, 0.7, 0.8},              // bridge of the nose: convex or hollow
+      {-0.16, 0, -4.85, 0.24, 0.60},                 // philtrum
+      {0.09, 0.42, -4.95, 0.18, 0.55},               // its edges
+      {0.10 * p.age, 3.2, -1.35, 1.1, 0.35},         // below the eyes
+      {-0.30 * p.age, 4.6, -4.0, 1.2, 1.2},          // cheeks sink
+      {0.28 * p.age, 3.6, -8.4, 1.5, 1.2},           // jowls
+      {-0.34, 0, -7.70, 1.5, 0.50},                  // fold above the chin
+      {0.26 + 0.62 * p.chin, 0, -9.25, 1.25, 0.95},  // chin
+      {0.10, 0.75, -9.35, 0.6, 0.6},                 // its two tubercles
+      {-p.cleft, 0, -9.25, 0.26, 0.75},              // and the cleft between them
+      {-0.16, 2.3, -9.0, 0.7, 1.0},                  // beside it, before the jowl
+      {0.22, 1.7, 5.6, 1.7, 1.5},                    // frontal eminences
+      {-0.10, 0, 4.3, 1.6, 0.7},                     // between them and the brow ridge
+      {-0.28, 6.0, 2.2, 0.9, 1.6},                   // temples
   };
   for (const Bump& b : bumps) z += b.amount * bump(std::abs(x), y, b.cx, b.cy, b.sx, b.sy);
   return z;
@@ -361,9 +369,9 @@ FacePoint Form::face(double angle, double row, Side side) const {
   if (cosine > 0 && p.y < -14) {
     const double bone = -16.45 + 0.035 * p.x, beside = smooth_step(0.5, 1.3, p.x);
     const double ridge =
-        0.36 * beside * smooth_step(9.5, 6.5, p.x) *
+        0.42 * beside * smooth_step(9.5, 6.5, p.x) *
         (bump(p.y, 0, bone, 0, 0.42, 1) + 0.2 * bump(p.x, p.y, 1.2, bone, 0.6, 0.5));
-    const double hollow = 0.34 * bump(p.x, p.y, 4.0, bone + 0.85, 2.0, 0.50) * beside;
+    const double hollow = 0.32 * bump(p.x, p.y, 4.0, bone + 0.85, 2.0, 0.50) * beside;
     p.z += (ridge - hollow) * smooth_step(0, 0.3, cosine);
     p.y += 0.4 * ridge;
   }
@@ -394,7 +402,8 @@ FacePoint Form::face(double angle, double row, Side side) const {
     p.z = mix(p.z, smooth_max(p.z, ball, 0.8), front_mask);
     // Above the crease skin hangs from the brow.
     const double above = p.y - lid_line(p.x);
-    const double hood = smooth_step(1.12, 0.52, above / (0.42 + 0.46 * std::max(0.0, 1 - s * s)));
+    const double crease = person_.crease * (0.42 + 0.46 * std::max(0.0, 1 - s * s));
+    const double hood = smooth_step(1.12, 0.52, above / crease);
     const double inner = smooth_step(-1.22, -0.90, s);
     p.z = mix(p.z, ball,
               front_mask * hood * inner *
@@ -416,8 +425,8 @@ FacePoint Form::face(double angle, double row, Side side) const {
     // The part below the crease turns as a whole; the rest is folded up there.
     const double up = here - at_edge;
     out.lid = upper_opening(p.x) * (1 - smooth_step(0.10, 1.02, up));
-    const double fold =
-        0.10 * bump(up, 0, 0.62, 0, 0.15, 1) * smooth_step(0.1, 0.4, up) * (1 - s * s);
+    const double fold = 0.10 * bump(up, 0, 0.62 * person_.crease, 0, 0.15, 1) *
+                        smooth_step(0.1, 0.4, up) * (1 - s * s);
     out.closed = kEye + (p - kEye) * (1 - fold / kLidRadius);
   } else {
     out.lid = lower_opening(p.x) * (1 - smooth_step(0, 0.75, at_edge - here));
@@ -444,14 +453,13 @@ Color Form::skin_color(Vec3 p, double row, double lid) const {
     const double d = p.y - mouth_line(p.x);
     const double height = lip_height(x, d > 0 ? 1 : -1);
     // The border is soft, more so below and towards the corners.
-    const double soft = mix(d > 0 ? 0.10 : 0.20, 0.30, smooth_step(0.4, 1.0, x / kMouthHalfWidth));
+    const double soft = mix(d > 0 ? 0.10 : 0.20, 0.16, smooth_step(0.4, 1.0, x / kMouthHalfWidth));
     const double inside = smooth_step(height + 0.05, height - soft, std::abs(d));
-    c = mix(c, person_.lip, inside * smooth_step(1.04, 0.80, x / kMouthHalfWidth));
+    c = mix(c, person_.lip, inside * smooth_step(1.03, 0.93, x / kMouthHalfWidth));
     c = mix(c, mix(person_.lip, {60, 16, 20}, 0.5), 0.7 * inside * bump(0, d, 0, 0, 1, 0.05));
   }
   // Little light comes into the corners of the mouth.
-  c = mix(c, mix(skin, {64, 22, 22}, 0.6),
-          0.42 * bump(x, p.y, kMouthHalfWidth, mouth_line(p.x), 0.22, 0.11));
+  c = mix(c, mix(skin, {64, 22, 22}, 0.6), 0.36 * bump(x, p.y, 2.44, mouth_line(p.x), 0.16, 0.13));
   // Edges of the upper lids are dark with lashes.
   if (lid > 0) {
     const double open = upper_opening(p.x);

@@ -44,14 +44,23 @@ struct Person {
   double chin_drop = 0, forehead = 0, brow_ridge = 0;  // cm: longer, farther in front
   double nose_drop = 0, tip_drop = 0;                  // cm: base and tip of the nose, lower
   double bridge = 1, mouth_width = 1;                  // breadths
-  double tip = 0;        // -1 a fine tip of the nose with small wings ... 1 a round one
-  double lip_share = 0;  // -1 a full upper lip ... 1 a full lower lip
-  double hood = 0;       // cm: skin that hangs over the crease of the upper lid
-  double sockets = 0;    // cm: deeper
-  double angle = 0;      // cm: angles of the jaw, farther out
-  double cleft = 0;      // cm: depth of the cleft in the chin
-  double eye_tilt = 0;   // radians by which the outer corner is higher
-  double age = 1.0 / 6;  // 0 ... 1: 20 ... 80 years
+  double tip = 0;         // -1 a fine tip of the nose with small wings ... 1 a round one
+  double lip_share = 0;   // -1 a full upper lip ... 1 a full lower lip
+  double corners = 0;     // cm: corners of the mouth, higher
+  double hood = 0;        // cm: skin that hangs over the crease of the upper lid
+  double crease = 1;      // its height above the edge of the lid
+  double epicanthus = 0;  // 0 ... 1: a fold of the upper lid over the inner corner of the eye
+  double eye_width = 1,
+         lower_lid = 1;  // length of the slit between the lids; how far the lower one is open
+  double eye_gap = 0;    // cm: eyes farther out
+  double lid_peak = 0;   // -1 the upper lid is highest inside ... 1 outside
+  double iris_size = 1;
+  double brow_arch = 0, brow_slope = 0;  // cm: higher in the middle; higher at the outer end
+  double sockets = 0;                    // cm: deeper
+  double angle = 0;                      // cm: angles of the jaw, farther out
+  double cleft = 0;                      // cm: depth of the cleft in the chin
+  double eye_tilt = 0;                   // radians by which the outer corner is higher
+  double age = 1.0 / 6;                  // 0 ... 1: 20 ... 80 years
   HairStyle style = HairStyle::kParted;
   Color skin, lip, hair, brow_hair, iris, shirt;
 };
@@ -61,8 +70,8 @@ Person make_person(uint64_t seed);
 
 constexpr Vec3 kEye = {3.1, 0.3, 6.8};  // center of the left eyeball
 constexpr double kEyeRadius = 1.60;
-constexpr double kLidRadius = 1.78;          // outside of the lids
-constexpr double kEyeHalfWidth = 1.52;       // of the opening between the lids
+constexpr double kLidRadius = 1.78;     // outside of the lids
+constexpr double kEyeHalfWidth = 1.52;  // of the opening between the lids, of the designed person
 constexpr Vec3 kNostril = {0.80, -3.97, 0};  // of a nose of width 1, seen from the front
 constexpr double kMouthY = -6.0;
 constexpr double kMouthHalfWidth = 2.45;
@@ -101,8 +110,13 @@ class Form {
   /// The angle at which the row `y` has this |x|, in front.
   double angle_of(double x, double y) const;
 
+  double eye_half_width() const { return kEyeHalfWidth * person_.eye_width; }
   /// -1 at the inner corner of the eye, 1 at the outer one.
-  static double along_eye(double x) { return (x - kEye.x) / kEyeHalfWidth; }
+  double along_eye(double x) const { return (x - kEye.x) / eye_half_width(); }
+  /// Where a person has what is designed around kEye: all of an eye moves as far, and the face around it less. `look`:
+  /// where the place is on the designed face.
+  Vec3 spread_eyes(Vec3 p, Vec3 look) const;
+  Vec3 eye() const { return kEye + Vec3{person_.eye_gap, 0, 0}; }
   /// Height of the closed lids' edges, and of the row of the mouth, which is bent as well.
   double lid_line(double x) const;
   double mouth_line(double x) const;

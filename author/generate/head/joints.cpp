@@ -140,19 +140,21 @@ Skeleton::Skeleton(const Form& form) {
     parent = tongue[i] = maker.add(kTongueNames[i], at, parent, Drive::kTongue,
                                    static_cast<uint8_t>(2 * i), kJawGroup, true);
   }
-  eye[0] = maker.add_pair("Eye", kEye, face, Drive::kGaze, 0, kLeftEyeGroup, kRightEyeGroup, false);
-  upper_lid[0] = maker.add_pair("LidUpper", kEye, face, Drive::kUpperLid, 0, kLeftEyeGroup,
+  const Vec3 middle = form.eye();
+  eye[0] =
+      maker.add_pair("Eye", middle, face, Drive::kGaze, 0, kLeftEyeGroup, kRightEyeGroup, false);
+  upper_lid[0] = maker.add_pair("LidUpper", middle, face, Drive::kUpperLid, 0, kLeftEyeGroup,
                                 kRightEyeGroup, false);
-  half_lid[0] = maker.add_pair("LidUpperHalf", kEye, face, Drive::kHalfLid, 0, kLeftEyeGroup,
+  half_lid[0] = maker.add_pair("LidUpperHalf", middle, face, Drive::kHalfLid, 0, kLeftEyeGroup,
                                kRightEyeGroup, false);
-  lower_lid[0] = maker.add_pair("LidLower", kEye, face, Drive::kLowerLid, 0, kLeftEyeGroup,
+  lower_lid[0] = maker.add_pair("LidLower", middle, face, Drive::kLowerLid, 0, kLeftEyeGroup,
                                 kRightEyeGroup, false);
   for (uint16_t* pair : {eye, upper_lid, half_lid, lower_lid}) pair[1] = joints[pair[0]].twin;
 
   for (const SkinJoint& place : kPlaces) {
     const Side side = place.below ? Side::kBelow : Side::kAbove;
     const FacePoint at = form.face(form.angle_of(place.x, place.y), place.y, side);
-    Vec3 position = at.closed;
+    Vec3 position = form.spread_eyes(at.closed, at.look);
     const uint16_t on = place.below ? jaw : face;
     if (place.x == 0) {
       position.x = 0;
@@ -165,7 +167,7 @@ Skeleton::Skeleton(const Form& form) {
 
   // The joint turns by the largest turn of any part of a lid.
   for (int i = -20; i <= 20; ++i) {
-    const double x = kEye.x + kEyeHalfWidth * i / 20.0;
+    const double x = kEye.x + form.eye_half_width() * i / 20.0;
     upper_lid_angle = std::max(upper_lid_angle, form.upper_opening(x));
     lower_lid_angle = std::max(lower_lid_angle, -form.lower_opening(x));
   }

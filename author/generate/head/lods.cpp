@@ -56,10 +56,10 @@ double importance(const Form& form, const Vertex& v) {
     w += 6 * bump(p.x, p.y, 0, -3.4, 1.7, 1.5) + 4 * bump(p.x, p.y, 0, kMouthY, 3.0, 1.3) +
          4 * bump(p.x, p.y, kEye.x, kEye.y, 2.0, 1.3);
   }
-  w += 4 * bump(0, p.y, 0, -14, 1, 2);
-  if (p.x > 5) w += 5 * bump(p.z, p.y, -1.2, -0.7, 1.8, 2.6);
+  w += 6 * bump(0, p.y, 0, -14, 1, 2);
+  if (p.x > 5) w += 6 * bump(p.z, p.y, -1.2, -0.7, 1.8, 2.6);
   const double hidden = scalp(form, (2 * v.u - 1) * author::kPi, p.y);
-  w = (w + 12 * hidden * (1 - hidden)) * (1 - 0.8 * hidden);
+  w = (w + 12 * hidden * (1 - hidden)) * (1 - 0.75 * hidden);
   return w * author::mix(1, 0.7, author::smooth_step(-16, -18, p.y));
 }
 
@@ -325,9 +325,9 @@ class LodMaker {
 /// The flat faces of closed coarse lids would cut into the ball that fits round ones.
 constexpr double kShrunk[kLodCount] = {1, 1, 1, 0.995, 0.99, 0.985, 0.98, 0.98};
 
-void shrink_eye(double by, HalfMesh& eye) {
+void shrink_eye(Vec3 middle, double by, HalfMesh& eye) {
   for (Vertex& v : eye.vertices.span()) {
-    v.position = v.closed = v.look = kEye + (v.position - kEye) * by;
+    v.position = v.closed = v.look = middle + (v.position - middle) * by;
   }
 }
 
@@ -346,7 +346,8 @@ bool make_lods(const Form& form, Part part, const Allocator& allocator, PartLods
     case Part::kEyeLeft:
     case Part::kEyeRight: {
       if (!collapse(kEyePlan)) return false;
-      for (uint32_t lod = 1; lod < kLodCount; ++lod) shrink_eye(kShrunk[lod], out.at[lod]);
+      for (uint32_t lod = 1; lod < kLodCount; ++lod)
+        shrink_eye(form.eye(), kShrunk[lod], out.at[lod]);
       return true;
     }
     case Part::kHair:

@@ -54,6 +54,8 @@ void add_eyeball(const Form& form, HalfMesh& out) {
   constexpr uint32_t rings = 16, around = 48;
   out.mirrored = false;
   const Color iris = form.person().iris;
+  const double light = clamp01((iris.r + iris.g + iris.b) / 300);  // dark ones keep dark
+  const Vec3 middle = form.eye();
   const auto color = [&](double angle, uint32_t k) -> Color {
     const Color pupil = {14, 12, 14}, white = {206, 199, 192};
     if (angle < 0.16) return pupil;
@@ -63,8 +65,8 @@ void add_eyeball(const Form& form, HalfMesh& out) {
       // a ring of another shade around the pupil; streaks.
       const double streak = 0.07 * exact_sine(2.0 * kPi * 13 * k / around) +
                             0.05 * exact_sine(2.0 * kPi * 7 * k / around + 5 * angle);
-      Color c = mix(iris, {206, 186, 140}, clamp01(0.30 * (1 - high) + streak));
-      c = mix(c, {110, 74, 40}, 0.40 * smooth_step(0.27, 0.17, angle));
+      Color c = mix(iris, {206, 186, 140}, light * clamp01(0.30 * (1 - high) + streak));
+      c = mix(c, {110, 74, 40}, 0.40 * light * smooth_step(0.27, 0.17, angle));
       c = mix(c, {14, 14, 18}, 0.62 * high * high);
       return mix(c, {20, 21, 26}, 0.80 * smooth_step(0.32, 0.43, angle));
     }
@@ -83,15 +85,16 @@ void add_eyeball(const Form& form, HalfMesh& out) {
   // The cornea stands out beyond the ball, from the limbus on, as far as the lids leave room.
   const auto bulge = [](double angle) { return 0.06 * smooth_step(0.50, 0.05, angle); };
   const uint32_t front = out.vertices.add(
-      plain(kEye + Vec3{0, 0, kEyeRadius + bulge(0)}, {14, 12, 14}, 0.5, 0.5, Carrier::kEyeball));
+      plain(middle + Vec3{0, 0, kEyeRadius + bulge(0)}, {14, 12, 14}, 0.5, 0.5, Carrier::kEyeball));
   uint32_t before = front;
   for (uint32_t r = 0; r < rings; ++r) {
-    const auto [s, c] = exact_sine_cosine(kAngles[r]);
+    const double angle = kAngles[r] * (kAngles[r] < 0.6 ? form.person().iris_size : 1);
+    const auto [s, c] = exact_sine_cosine(angle);
     const uint32_t here = out.vertices.count();
     for (uint32_t k = 0; k < around; ++k) {
       const auto [sk, ck] = exact_sine_cosine(2 * kPi * k / around);
-      const Vec3 at = kEye + Vec3{ck * s, sk * s, c} * (kEyeRadius + bulge(kAngles[r]));
-      const double wide = 0.5 * kAngles[r] / kPi;
+      const Vec3 at = middle + Vec3{ck * s, sk * s, c} * (kEyeRadius + bulge(angle));
+      const double wide = 0.5 * angle / kPi;
       out.vertices.add(
           plain(at, color(kAngles[r], k), 0.5 + wide * ck, 0.5 + wide * sk, Carrier::kEyeball));
     }
@@ -106,7 +109,7 @@ void add_eyeball(const Form& form, HalfMesh& out) {
     before = here;
   }
   const uint32_t pole = out.vertices.add(
-      plain(kEye + Vec3{0, 0, -kEyeRadius}, {214, 150, 140}, 0.5, 0.99, Carrier::kEyeball));
+      plain(middle + Vec3{0, 0, -kEyeRadius}, {214, 150, 140}, 0.5, 0.99, Carrier::kEyeball));
   for (uint32_t k = 0; k < around; ++k) out.triangle(before + (k + 1) % around, before + k, pole);
 }
 
@@ -135,12 +138,15 @@ namespace {
 
 bool finish(const Form& form, HalfMesh& out) {
   if (out.failed()) return false;
-  set_normals(out);
   for (uint32_t i = 0; i < out.vertices.count(); ++i) {
     Vertex& v = out.vertices[i];
     v.above_mouth = v.look.y - form.mouth_line(v.look.x);
     v.number = i;
+    if (v.carrier != Carrier::kSkin) continue;
+    v.closed = form.spread_eyes(v.closed, v.look);
+    v.position = form.spread_eyes(v.position, v.look);
   }
+  set_normals(out);
   return true;
 }
 

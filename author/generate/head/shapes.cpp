@@ -85,12 +85,15 @@ Vec3 seal(const Vertex& v, bool above) {
 }
 
 /// Where both move the skin in one direction, it goes as far as the root of the sum of their squares, not as far as
-/// their sum.
-Vec3 not_twice(const Vertex& v, Vec3 a, Vec3 b) {
+/// their sum. Two that round the lips go as far as the larger one, or they would swell.
+Vec3 not_twice(const Corrective& pair, const Vertex& v, Vec3 a, Vec3 b) {
   if (v.lid != 0) return {};
   const Vec3 sum = a + b;
   if (dot(a, b) <= 0) return {};
-  return sum * (std::sqrt(dot(a, a) + dot(b, b)) / length(sum) - 1);
+  const double a2 = dot(a, a), b2 = dot(b, b);
+  const bool both_round = kExpressions[pair.first].motion == Motion::kFunnel &&
+                          kExpressions[pair.second].motion == Motion::kPucker;
+  return sum * (std::sqrt(both_round ? std::max(a2, b2) : a2 + b2) / length(sum) - 1);
 }
 
 }  // namespace
@@ -134,12 +137,15 @@ Vec3 Shapes::one_side(Motion motion, Vec3 look, const Vertex& v) const {
     case Motion::kLookOut: break;
     case Motion::kSmile:
       // The line of the lips bends up at its ends; its middle loses the bow.
-      add(corner, {0.74, 0.60 * mix(0.60, 1, out), -0.50});
+      add(corner, {0.78, 0.72 * mix(0.50, 1, out), -0.56});
       add(bump(look.x, line, 0, 0, 0.9, 0.6), {0, 0.04, 0});
       add(w.at(0.9, -5.4, 0.9, 0.5), {0.05, 0.06, -0.06});
-      add(w.at(4.1, -2.9, 1.5, 1.25), {0.14, 0.66, 0.50});
-      add(fold.at(0), {0.02, 0.04, -0.20});
-      add(fold.at(0.62), {0.10, 0.20, 0.30});
+      // Cheeks rise below the eyes, round in front.
+      add(w.at(4.1, -2.9, 1.5, 1.25), {0.14, 0.66, 0.56});
+      add(w.at(3.5, -2.8, 1.0, 0.9), {0.02, 0.04, 0.18});
+      add(w.at(3.9, -4.9, 0.9, 0.9), {0.06, 0.10, 0.16});
+      add(fold.at(0), {0.02, 0.04, -0.22});
+      add(fold.at(0.62), {0.10, 0.20, 0.32});
       add(w.at(1.3, -3.0, 0.5, 0.5), {0.12, 0.06, 0});
       break;
     case Motion::kFrown:
@@ -300,9 +306,14 @@ Vec3 Shapes::both_sides(Motion motion, const Vertex& v) const {
       break;
     case Motion::kPucker:
       add(narrow, {-0.43 * look.x, 0, 0});
-      // Thinner towards the corners, so that the lips are round and not a box.
-      add(bump(look.x, line, 1.9, 0, 0.8, 1.0), {0, -0.38 * line, 0});
+      // The corners come closest: red runs around to them, and no line is left beside it.
+      add(smooth_step(1.1, 2.45, look.x) * smooth_step(4.6, 2.6, look.x) *
+              bump(0, line, 0, 0, 1, 1.3),
+          {-0.30, 0, 0});
+      add(bump(look.x, line, 1.9, 0, 0.8, 1.0), {0, -0.34 * line, 0});
+      add(bump(look.x, line, 2.1, 0, 0.55, 0.45), {0, 0.62 * line, 0.06});
       add(bump(look.x, line, 2.5, 0, 0.9, 0.9), {0, 0, 0.50});
+      add(bump(look.x, line, 2.5, 0, 0.36, 0.30), {0, 0, 0.26});
       add(lips, {0, -0.08 * line, 0.46});
       add(bump(look.x, line, 0, 0, 1.9, 1.1), {0, 0.36 * line * apart, 0.55});
       add(bump(look.x, line, 0, 0, 1.1, 0.8), {0, 0.16 * line, 0.32});
@@ -359,7 +370,7 @@ Vec3 Shapes::skin_displacement(uint32_t index, const Vertex& v) const {
   const Shape s = shape(index);
   if (s.motion == Motion::kNotTwice) {
     const Corrective& pair = list_[index - kExpressionCount];
-    return not_twice(v, skin_displacement(pair.first, v), skin_displacement(pair.second, v));
+    return not_twice(pair, v, skin_displacement(pair.first, v), skin_displacement(pair.second, v));
   }
   Vec3 d;
   // Windows are those of the front view: nothing moves at the back. Inside the mouth the skin follows the
@@ -405,8 +416,8 @@ void Shapes::displacements(const Vertex& v, Vec3 (&out)[kMaxShapes]) const {
   }
   for (uint32_t s = kExpressionCount; s < count(); ++s) {
     const Corrective& pair = list_[s - kExpressionCount];
-    out[s] =
-        is_moderation(s) ? not_twice(v, skin[pair.first], skin[pair.second]) : displacement(s, v);
+    out[s] = is_moderation(s) ? not_twice(pair, v, skin[pair.first], skin[pair.second])
+                              : displacement(s, v);
   }
 }
 

@@ -28,7 +28,8 @@ void SkinMaker::make() {
   layout_.fill(mouth_, kMouthRings.outside, 0.90, Hole::kLips,
                [this](uint32_t k) { return lip_place(k, false); });
   ring_size_ = ear_ring_.count;
-  layout_.fill(ear_ring_, 3, 0.7, Hole::kOther, [this](uint32_t k) { return ear_place(k, false); });
+  layout_.fill(ear_ring_, 3, 0.95, Hole::kOther,
+               [this](uint32_t k) { return ear_place(k, false); });
   nostril_ = layout_.nostril();
   ring_size_ = nostril_.count;
   layout_.fill(nostril_, 4, 0.8, Hole::kOther,
@@ -106,14 +107,14 @@ void SkinMaker::make_eye() {
 uint32_t SkinMaker::lid_edge_vertex(uint32_t from, Color color, bool at_ball) {
   Vertex v = out_.vertices[from];
   const Vec3 out = v.closed - kEye;
-  const double flesh = smooth_step(-0.72, -0.88, Form::along_eye(v.closed.x));
+  const double flesh = smooth_step(-0.76, -0.92, form_.along_eye(v.closed.x));
   const double radius =
       at_ball ? kEyeRadius + mix(0.045, 0.13, flesh) : kEyeRadius + mix(-0.12, 0.04, flesh);
   v.closed = kEye + out * (radius / std::max(length(out), kEyeRadius));
   const double middle = 0.5 * (form_.upper_opening(v.closed.x) + form_.lower_opening(v.closed.x));
   v.lid = mix(v.lid, middle, flesh);
   v.position = turn_lid(v.closed, v.lid);
-  v.color = mix(color, {206, 132, 122}, flesh);
+  v.color = mix(color, mix({206, 132, 122}, form_.person().skin, 0.35), flesh);
   const double deep = at_ball ? 0.002 : 0.004;
   v.v += v.lid < 0 ? deep : -deep;
   return out_.vertices.add(v);
@@ -126,7 +127,7 @@ void SkinMaker::make_lid_edges() {
   uint32_t ball[kMaxRing], deep[kMaxRing];
   for (uint32_t k = 0; k < ring_size_; ++k) {
     const double roots =
-        k > half_ ? smooth_step(-0.9, -0.3, Form::along_eye(out_.vertices[ring_[k]].closed.x)) : 0;
+        k > half_ ? smooth_step(-0.9, -0.3, form_.along_eye(out_.vertices[ring_[k]].closed.x)) : 0;
     ball[k] = lid_edge_vertex(ring_[k], mix(k > half_ ? rim : tears, dark, 0.8 * roots), true);
     deep[k] = lid_edge_vertex(ring_[k], mix(rim, dark, roots), false);
   }

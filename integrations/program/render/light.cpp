@@ -12,7 +12,7 @@ struct Lamp {
 };
 
 const Lamp kKey = {normalized(Vec3{-0.52f, 0.58f, 0.74f}, {}), {1.16f, 1.07f, 0.97f}};
-const Lamp kFill = {normalized(Vec3{0.85f, 0.05f, 0.62f}, {}), {0.13f, 0.155f, 0.19f}};
+const Lamp kFill = {normalized(Vec3{0.85f, 0.05f, 0.62f}, {}), {0.20f, 0.205f, 0.21f}};
 const Lamp kRims[kRimCount] = {
     {normalized(Vec3{0.82f, 0.42f, -0.62f}, {}), {0.82f, 0.93f, 1.08f}},
     {normalized(Vec3{-0.80f, 0.30f, -0.75f}, {}), {0.42f, 0.46f, 0.52f}}};
@@ -89,13 +89,19 @@ Vec3 light(const Fragment& f, float openness, const Arriving& arriving) {
   // A normal that is turned away belongs to a fold whose other side hides what it would mirror.
   const float shown = smooth_step(-0.4f, 0.0f, facing_eye);
 
-  // Red light goes furthest through skin: it reaches around more, and colors the terminator.
-  const float cosine = dot(f.normal, kKey.direction);
+  // Red light goes furthest through skin: it reaches around more, colors the terminator, and sees least of small bumps,
+  // for which each color has a normal of its own (Ma et al. 2007, "Rapid acquisition of specular and diffuse normal
+  // maps from polarized spherical gradient illumination").
+  const float cosine = dot(f.normal, kKey.direction), smooth = dot(f.smooth, kKey.direction);
+  const auto spread = [&](float share) {
+    return cosine + (smooth - cosine) * saturate(share * soft);
+  };
   // Where a surface turns away it shades itself; there the cosine decides, not the map.
   const float seen = std::max(arriving.key, 1 - smooth_step(-soft, 0.2f, cosine));
   const float bleed = 0.5f * soft * seen * (1 - seen);
-  const Vec3 around = {wrap(cosine, soft) * (seen + bleed), wrap(cosine, soft * 0.55f) * seen,
-                       wrap(cosine, soft * 0.42f) * (seen - 0.3f * bleed)};
+  const Vec3 around = {wrap(spread(2.4f), soft) * (seen + bleed),
+                       wrap(spread(1.6f), soft * 0.55f) * seen,
+                       wrap(spread(1.2f), soft * 0.42f) * (seen - 0.3f * bleed)};
   Vec3 diffuse = kKey.color * around * mix(open, {1, 1, 1}, 0.6f);
   diffuse += kFill.color * open * wrap(dot(f.normal, kFill.direction), 0.5f);
   diffuse += mix(kSkyBelow, kSkyAbove, 0.5f + 0.5f * f.normal.y) * open;

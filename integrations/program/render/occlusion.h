@@ -13,7 +13,7 @@ namespace mien::render {
 struct PixelLayer {
   int width = 0, height = 0;
   std::vector<float> distance;  // from the viewer's plane; 0 where nothing is
-  std::vector<math::Vec3> normal, color;
+  std::vector<math::Vec3> normal, smooth, color;
   std::vector<float> roughness;
 
   size_t index(int x, int y) const { return size_t(y) * size_t(width) + size_t(x); }

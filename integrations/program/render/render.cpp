@@ -145,7 +145,8 @@ Fragment layer_fragment(const Scene& scene, const PixelLayer& layer, size_t pixe
           layer.normal[pixel],
           normalized(-place, {0, 0, 1}),
           layer.color[pixel],
-          layer.roughness[pixel]};
+          layer.roughness[pixel],
+          layer.smooth[pixel]};
 }
 
 }  // namespace
@@ -171,9 +172,10 @@ Image render_image(const std::vector<Surface>& surfaces, const Camera& camera,
   const ShadowMap rims[kRimCount] = {{scene, rim_direction(0), kShadowSize},
                                      {scene, rim_direction(1), kShadowSize}};
 
-  PixelLayer layer{options.width, options.height, {}, {}, {}, {}};
+  PixelLayer layer{options.width, options.height, {}, {}, {}, {}, {}};
   layer.distance.resize(size_t(options.width) * size_t(options.height));
   layer.normal.resize(layer.distance.size());
+  layer.smooth.resize(layer.distance.size());
   layer.color.resize(layer.distance.size());
   layer.roughness.resize(layer.distance.size());
   PixelPatches patches(scene, seen, options.wireframe);
@@ -186,6 +188,7 @@ Image render_image(const std::vector<Surface>& surfaces, const Camera& camera,
           scene.fragment(patch.number, ray_at(float(x) + patch.x, float(y) + patch.y));
       layer.distance[pixel] = -f.place.z;
       layer.normal[pixel] = f.normal;
+      layer.smooth[pixel] = f.smooth;
       layer.color[pixel] = f.color;
       layer.roughness[pixel] = f.roughness;
     }

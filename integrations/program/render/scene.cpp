@@ -187,7 +187,7 @@ Fragment Scene::fragment(uint32_t number, Vec3 ray) const {
   // A smooth normal may look away where its triangle does not.
   const float away = dot(normal, f.to_eye);
   if (away < 0.02f) normal = normalized(normal + f.to_eye * (0.02f - away), f.to_eye);
-  f.normal = normal;
+  f.normal = f.smooth = normal;
 
   f.color = on.color;
   f.roughness = s.material.roughness;

@@ -29,6 +29,7 @@ struct Fragment {
   uint32_t triangle;
   math::Vec3 place, normal, to_eye, color;
   float roughness;
+  math::Vec3 smooth;  // the normal without that of a texture
 };
 
 class Scene {

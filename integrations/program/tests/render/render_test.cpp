@@ -175,7 +175,7 @@ TEST(Render, SphereLooksLikeOneThatIsTraced) {
         Fragment f{};
         f.on = &scene.surfaces()[0];
         f.place = ray * (along - std::sqrt(under));
-        f.normal = f.place - center;
+        f.normal = f.smooth = f.place - center;
         f.to_eye = -ray;
         f.color = to_linear(surface.material.color);
         f.roughness = surface.material.roughness;
