@@ -26,8 +26,8 @@ double seconds_since(std::clock_t start) {
   return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
-/// Some controls swing at different rates between 0 and 0.8. `initial`: of the raw controls.
-std::vector<float> motion(const std::vector<float>& initial, double time) {
+/// One of `stride` controls swings between 0 and 0.8, at different rates. `initial`: of the raw controls.
+std::vector<float> motion(const std::vector<float>& initial, double time, size_t stride = 11) {
   std::vector<float> raw = initial;
   const auto swing = [&](size_t i, double phase) {
     return 0.4 - 0.4 * std::cos(time * (1 + 0.07 * static_cast<double>(i % 13)) + phase);
@@ -35,7 +35,7 @@ std::vector<float> motion(const std::vector<float>& initial, double time) {
   const auto is_rotation = [&](size_t first) {  // x y z w: only w is 1 at rest
     return first + 3 < initial.size() && initial[first + 3] == 1;
   };
-  for (size_t i = 0; i < raw.size(); i += 11) {
+  for (size_t i = 0; i < raw.size(); i += stride) {
     raw[i] = static_cast<float>(swing(i, static_cast<double>(i)));
   }
   // Rotations turn by such angles, from rest.
@@ -176,7 +176,8 @@ void run_numeric(Rig& rig, uint32_t every, int frames) {
 }
 
 /// `every`: of how many vertices one is a target; 0: joints are.
-void run(const char* name, Rig&& rig, uint32_t every, int frames, bool numeric) {
+void run(const char* name, Rig&& rig, uint32_t every, int frames, bool numeric,
+         size_t stride = 11) {
   std::vector<MienSolvePoint> points;
   MienFitDesc desc = mien_fit_desc_default();
   if (every != 0) {
@@ -196,7 +197,7 @@ void run(const char* name, Rig&& rig, uint32_t every, int frames, bool numeric) 
   double total = 0, worst_joint = 0, range = 0, worst_residual = 0;
   uint32_t iterations = 0;
   for (int f = 0; f < frames; ++f) {
-    const std::vector<float> raw = motion(rig.initial, f / 60.0);
+    const std::vector<float> raw = motion(rig.initial, f / 60.0, stride);
     MienFitFrame frame = mien_fit_frame_default();
     if (every == 0) {
       rig.pose(raw);
@@ -453,6 +454,8 @@ int main(int argc, char** argv) {
   run_ranges("ranges of 500 on two threads", generated(MIEN_PRESET_LARGE),
              static_cast<size_t>(frames));
   run("joints, body", generated(MIEN_PRESET_BODY), 0, frames, false);
+  run("all vertices, large head", generated(MIEN_PRESET_LARGE), 1, frames / 4 + 2, false);
+  run("the same, a quarter of controls", generated(MIEN_PRESET_LARGE), 1, frames / 4 + 2, false, 4);
   run("all vertices, head", generated(MIEN_PRESET_HEAD), 1, frames / 4 + 2, true);
   run("every 12th vertex, head", generated(MIEN_PRESET_HEAD), 12, frames / 4 + 2, true);
   if (argc < 3) return 0;

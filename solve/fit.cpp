@@ -53,6 +53,10 @@ void place(const MienFitDesc& desc, Placer& placer, MienFit& fit) {
   fit.places = placer.array<uint32_t>(all);
   fit.reduced = placer.array<double>(moving * moving);
   fit.pull = placer.array<double>(all);
+  fit.last_pull = placer.array<double>(all);
+  fit.secant_rows = placer.array<float>(kMostSecants * all);
+  fit.secant_weights = placer.array<double>(kMostSecants);
+  fit.secant_changes = placer.array<double>(kMostSecants);
   fit.change = placer.array<double>(all);
   fit.response = placer.array<double>(all);
   fit.model_controls = placer.array<float>(all);

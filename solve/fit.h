@@ -127,16 +127,20 @@ struct MienFit {
   mien::Span<uint8_t> measured;    // [control that may move] its effects are those of this pose
   mien::Span<double> panel, wide;  // [motion and free][kPanel]; [motion and free] squared
 
-  // The model of a step, and what constraints add to it.
-  mien::Span<double> pull;              // [control] half the gradient of the cost
+  // The model of a step, and what earlier steps and constraints add to it.
+  mien::Span<double> pull,
+      last_pull;  // [control] half the gradient of the cost; of the model before
   mien::Span<double> change, response;  // [control] from where the model was made; G times that
   mien::Span<float> model_controls;     // [control] where the model was made
   mien::Span<uint32_t> changed;         // controls with a change
   mien::Span<double> stiffness;         // [control that may move] what moving it alone costs
   // The same of joint values and of points at the neutral pose, without the weights of a frame.
   mien::Span<double> joint_stiffness, point_stiffness;
-  mien::Span<float> kept;             // [raw control]
-  mien::Span<float> constraint_rows;  // [row][control or raw control]
+  mien::Span<float> kept;                             // [raw control]
+  mien::Span<float> constraint_rows;                  // [row][control or raw control]
+  mien::Span<float> secant_rows;                      // [row][control]
+  mien::Span<double> secant_weights, secant_changes;  // [row]
+  size_t secant_count = 0;
   mien::Span<float> row_models;  // kRowsAtOnce of [joint][16]; of positions: `moved`, mesh by mesh
   mien::Span<float> row_parts;   // kRowsAtOnce of [control or raw control]: of a mesh
   mien::Span<double> row_residuals, row_weights, row_changes;  // [row]
@@ -160,6 +164,7 @@ constexpr uint32_t kDirections = 32;  // at a time through derivatives
 constexpr uint32_t kRowsAtOnce = 30;  // of constraints
 static_assert(kRowsAtOnce <= kDirections, "rows of positions are in MienFit::moved");
 constexpr uint32_t kMostConstraints = 64;
+constexpr uint32_t kMostSecants = 32;  // rows
 constexpr uint32_t kBlockFrames = 16;  // whose joint values are multiplied together
 
 /// Fills the metrics and the observability. `deformers` are those of FitMesh::derivatives. Temporary memory comes from
@@ -185,6 +190,11 @@ void stiffen_lengths(MienFit& fit, size_t free_count);
 void turn_rotations(MienFit& fit, size_t free_count);
 /// Puts those that are all but at their initial values there, and marks them: MienFit::resting. False if there are none.
 bool rest_rotations(MienFit& fit);
+
+/// Whether a point is its first position.
+inline bool is_position(const MienSolvePoint& point) {
+  return point.weights[0] == 1 && point.weights[1] == 0 && point.weights[2] == 0;
+}
 
 /// The entries of MienFit::by_raw, by column.
 inline MienJacobianPattern pattern_of(const MienFit& fit) {

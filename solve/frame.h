@@ -46,6 +46,8 @@ struct Frame {
   bool exact = false;     // steps take the effects of controls on points from the pose at hand
   uint32_t stage = 0;     // controls of later stages are held
   size_t row_count = 0;   // of constraints, at the pose at hand
+  bool modeled = false;   // MienFit::pull is of this frame
+  bool learns = false;    // the metric follows from the steps of the frame
   Span<const uint32_t> samples = {};  // points that stand for all
   bool own_samples = false;           // they are chosen for this frame; else MienFit::samples
   bool few = false;                   // less than half of the points count, of a kind

@@ -14,25 +14,6 @@ struct Column {
   uint32_t first, count;  // into the entries
 };
 
-/// The sparse matrix P, its columns, and one dense column at a time against all others.
-void multiply_columns(Span<Column> columns, const uint32_t* rows, const float* values,
-                      double* dense, double* metric) {
-  const size_t count = columns.count;
-  for (size_t a = 0; a < count; ++a) {
-    const Column& one = columns[a];
-    for (uint32_t i = 0; i < one.count; ++i) dense[rows[one.first + i]] = values[one.first + i];
-    for (size_t b = a; b < count && one.count != 0; ++b) {
-      const Column& other = columns[b];
-      double sum = 0;
-      for (uint32_t i = 0; i < other.count; ++i) {
-        sum += dense[rows[other.first + i]] * values[other.first + i];
-      }
-      metric[a * count + b] = metric[b * count + a] = sum;
-    }
-    for (uint32_t i = 0; i < one.count; ++i) dense[rows[one.first + i]] = 0;
-  }
-}
-
 /// The derivatives of a point of the chain by all controls, by column, without those of 0.
 struct Entries {
   Span<Column> columns;
@@ -74,6 +55,43 @@ bool find_entries(MienFit& fit, MienDerivatives* derivatives, uint32_t to, Arena
   out.columns = out.columns.first(fit.control_count);
   out.rows = out.rows.first(kept);
   out.values = out.values.first(kept);
+  return true;
+}
+
+/// metric = P^T P, one row of P after the other: only controls that have an entry in the same row have a product. False
+/// if memory ran out.
+bool multiply_rows(const Entries& entries, size_t row_count, Arena& arena, double* metric) {
+  const size_t count = entries.columns.count;
+  const Span<uint32_t> first = arena.array<uint32_t>(row_count + 1);
+  const Span<uint32_t> controls = arena.array<uint32_t>(entries.rows.count + 1);
+  const Span<float> values = arena.array<float>(entries.rows.count + 1);
+  if (!first.data || !controls.data || !values.data) return false;
+  for (const uint32_t row : entries.rows) ++first[row];
+  uint32_t end = 0;
+  for (uint32_t& of_row : first) {  // each begins where the one before ends
+    const uint32_t own = of_row;
+    of_row = end;
+    end += own;
+  }
+  for (size_t c = 0; c < count; ++c) {
+    const Column& column = entries.columns[c];
+    for (uint32_t i = column.first; i < column.first + column.count; ++i) {
+      uint32_t& to = first[entries.rows[i]];
+      controls[to] = static_cast<uint32_t>(c);
+      values[to++] = entries.values[i];
+    }
+  }
+  uint32_t begin = 0;  // by now each has moved to its end
+  for (size_t row = 0; row < row_count; begin = first[row++]) {
+    for (uint32_t i = begin; i < first[row]; ++i) {
+      double* const to = metric + size_t{controls[i]} * count;
+      const double value = double{values[i]};
+      for (uint32_t k = begin; k <= i; ++k) to[controls[k]] += value * values[k];
+    }
+  }
+  for (size_t a = 0; a < count; ++a) {
+    for (size_t b = 0; b < a; ++b) metric[b * count + a] = metric[a * count + b];
+  }
   return true;
 }
 
@@ -164,22 +182,19 @@ bool keep_effects(MienFit& fit, const Entries& entries) {
 }
 
 bool measure_joints(MienFit& fit, Arena& arena, Entries& entries) {
-  const Span<double> dense = arena.array<double>(fit.joint_count + 1);
-  if (!dense.data ||
+  const Span<double> sums = arena.array<double>(fit.joint_count + 1);
+  if (!sums.data ||
       !find_entries(fit, fit.control_derivatives, MIEN_POINT_JOINTS, arena, entries)) {
     return false;
   }
-  if (fit.rotations.empty() && are_sums(fit, entries, dense.first(fit.joint_count)) &&
+  if (fit.rotations.empty() && are_sums(fit, entries, sums.first(fit.joint_count)) &&
       !keep_effects(fit, entries)) {
     return false;
   }
-  std::fill(dense.begin(), dense.end(), 0.0);
   for (size_t i = 0; i < entries.rows.count; ++i) {
     entries.values[i] *= std::sqrt(fit.joint_weights[entries.rows[i]]);
   }
-  multiply_columns(entries.columns, entries.rows.data, entries.values.data, dense.data,
-                   fit.joint_metric.data);
-  return true;
+  return multiply_rows(entries, fit.joint_count, arena, fit.joint_metric.data);
 }
 
 /// Pivoted factorization: the share of the effect of a control that the controls chosen before it cannot

@@ -6,14 +6,15 @@
 //     -> effects [control][point of the part][axis] -> sums of products, over few rows of P at a time: only controls
 //     that move one of these points take part
 #include <algorithm>
+#include <cstring>
 
 #include "solve/fit.h"
 
 namespace mien {
 namespace {
 
-constexpr size_t kPartBytes = 8u << 20;  // of effects
-constexpr size_t kLeastPart = 256;       // points
+constexpr size_t kPartBytes = 32u << 20;  // of effects
+constexpr size_t kLeastPart = 256;        // points
 
 /// A part of the points, and memory for it.
 struct Part {
@@ -82,6 +83,11 @@ bool measure_part(MienFit& fit, uint32_t mesh, const MienDeformer* whole, size_t
       for (size_t i = 0; i < count; ++i) {
         const MienSolvePoint& point = fit.points[first + i];
         if (point.mesh != mesh) continue;
+        if (is_position(point)) {
+          const float* const from = moved + size_t{part.places[3 * i]} * 3;
+          std::copy(from, from + 3, effects + 3 * i);
+          continue;
+        }
         double sum[3] = {};
         for (size_t n = 0; n < 3; ++n) {
           const float* const from = moved + size_t{part.places[3 * i + n]} * 3;
@@ -98,6 +104,17 @@ bool measure_part(MienFit& fit, uint32_t mesh, const MienDeformer* whole, size_t
   return made;
 }
 
+/// Tested as bits, which is faster; -0 counts as something.
+bool is_zero(const float* row, size_t count) {
+  uint64_t any = 0, two;
+  size_t i = 0;
+  for (; i + 2 <= count; i += 2) {
+    std::memcpy(&two, row + i, sizeof two);
+    any |= two;
+  }
+  return any == 0 && (i == count || row[i] == 0);
+}
+
 /// Adds the products of all pairs of controls over rows of P, to the lower triangle of the metric.
 void add_products(MienFit& fit, size_t row_count, const Part& part) {
   for (size_t first = 0; first < row_count; first += kPanel) {
@@ -105,7 +122,7 @@ void add_products(MienFit& fit, size_t row_count, const Part& part) {
     size_t active = 0;
     for (uint32_t c = 0; c < fit.control_count; ++c) {
       const float* const from = part.effects.data + c * row_count + first;
-      if (std::all_of(from, from + rows, [](float v) { return v == 0; })) continue;
+      if (is_zero(from, rows)) continue;
       double* const to = part.panel.data + active * kPanel;
       std::fill(std::copy(from, from + rows, to), to + kPanel, 0.0);
       part.active[active++] = c;

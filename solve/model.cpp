@@ -3,6 +3,8 @@
 //
 //     cost(c + change) = cost(c) + 2 pull . change + change^T G change
 //
+// G is the metric at rest, corrected by what the steps of the frame have shown.
+//
 // Control values as functions of raw controls, with correctives, networks and bounds, are evaluated as they are, which
 // takes little time. So one evaluation of joints and points serves several steps. For joint values that are
 // sums, the model is the cost.
@@ -18,6 +20,26 @@ constexpr uint32_t kControlStages = MIEN_STAGE_ML | MIEN_STAGE_RBF | MIEN_STAGE_
 constexpr uint32_t kModelRounds = 24;
 constexpr uint32_t kBoundRounds = 6;
 constexpr double kShareOfBest = 0.01;  // of the best gain that frees a control held at a bound
+constexpr double kBeyondModel = 0.02;  // of its gain so far: what a model cannot tell
+constexpr double kLeastBend = 0.01;    // of the model's: less, or concave, is that of outliers
+
+/// Calls use(row of all controls, its weight, its change) for what is added to G.
+template <class F>
+void for_each_row(const Frame& f, F&& use) {
+  const MienFit& fit = f.fit;
+  const size_t count = fit.control_count;
+  for (size_t r = 0; r < fit.secant_count; ++r) {
+    use(fit.secant_rows.data + r * count, fit.secant_weights[r], fit.secant_changes.data + r);
+  }
+  for (size_t r = 0; r < f.row_count; ++r) {
+    use(fit.constraint_rows.data + r * count, fit.row_weights[r], fit.row_changes.data + r);
+  }
+}
+
+/// Whether G is that of any pose.
+bool is_exact(const Frame& f) {
+  return !f.has_points() && !f.in.constraints && !f.fit.joint_first.empty();
+}
 
 }  // namespace
 
@@ -80,15 +102,8 @@ namespace {
 void find_model_gradient(Frame& f, double damping) {
   MienFit& fit = f.fit;
   linearize_controls(fit);
-  std::copy(fit.pull.begin(), fit.pull.end(), fit.projected.begin());
-  for (size_t c = 0; c < fit.control_count; ++c) fit.projected[c] += fit.response[c];
-  for (size_t r = 0; r < f.row_count; ++r) {
-    const double factor = fit.row_weights[r] * fit.row_changes[r];
-    const float* row = fit.constraint_rows.data + r * fit.control_count;
-    for (size_t c = 0; c < fit.control_count; ++c) fit.projected[c] += factor * double{row[c]};
-  }
   for (size_t c = 0; c < fit.control_count; ++c) {
-    fit.metric_row[c] = static_cast<float>(fit.projected[c]);
+    fit.metric_row[c] = static_cast<float>(fit.pull[c] + fit.response[c]);
   }
   take_model_gradient(f, damping);
 }
@@ -103,20 +118,19 @@ void set_model_matrix(Frame& f, size_t free_count, double damping) {
   if (f.has_points()) {
     project_metric(fit, fit.point_metric.data, point_factor(fit), free_count);
   }
-  for (size_t r = 0; r < f.row_count; ++r) {
-    const float* row = fit.constraint_rows.data + r * fit.control_count;
+  for_each_row(f, [&](const float* row, double weight, const double*) {
     for (size_t a = 0; a < free_count; ++a) {
       fit.work[a] = 0;
       for (uint32_t i = fit.first[a]; i < fit.first[a + 1]; ++i) {
         fit.work[a] += double{row[fit.rows[i]]} * fit.values[i];
       }
       for (size_t b = 0; b <= a; ++b) {
-        const double value = fit.row_weights[r] * fit.work[a] * fit.work[b];
+        const double value = weight * fit.work[a] * fit.work[b];
         fit.matrix[a * free_count + b] += value;
         if (a != b) fit.matrix[b * free_count + a] += value;
       }
     }
-  }
+  });
   add_regularization(f, free_count);
   for (size_t a = 0; a < free_count; ++a) {
     fit.matrix[a * free_count + a] += damping * fit.stiffness[fit.free[a]];
@@ -145,24 +159,61 @@ double find_change(Frame& f) {
   };
   if (f.in.joints) respond(fit.joint_metric, f.joint_factor());
   if (f.has_points()) respond(fit.point_metric, point_factor(fit));
+  for_each_row(f, [&](const float* row, double weight, double* row_change) {
+    double sum = 0;
+    for (size_t i = 0; i < changed; ++i)
+      sum += double{row[fit.changed[i]]} * fit.change[fit.changed[i]];
+    *row_change = sum;
+    for (size_t c = 0; c < count; ++c) fit.response[c] += weight * sum * double{row[c]};
+  });
   double value = 0;
   for (size_t i = 0; i < changed; ++i) {
     const uint32_t c = fit.changed[i];
     value += (2 * fit.pull[c] + fit.response[c]) * fit.change[c];
   }
-  for (size_t r = 0; r < f.row_count; ++r) {
-    const float* row = fit.constraint_rows.data + r * count;
-    double sum = 0;
-    for (size_t i = 0; i < changed; ++i)
-      sum += double{row[fit.changed[i]]} * fit.change[fit.changed[i]];
-    fit.row_changes[r] = sum;
-    value += fit.row_weights[r] * sum * sum;
-  }
   return value;
 }
 
+namespace {
+
+/// The pull changed by y over a change s of controls since the last model, so G s should be y:
+/// G += y y^T / (y . s) - r r^T / (r . s), with r = G s (C. G. Broyden, R. Fletcher, D. Goldfarb and D. F. Shanno, 1970).
+void learn_from_step(Frame& f) {
+  MienFit& fit = f.fit;
+  const size_t count = fit.control_count;
+  if (fit.secant_count == kMostSecants) fit.secant_count = 0;
+  find_change(f);
+  // Constraints have rows of their own at each pose.
+  double* const y = fit.last_pull.data;
+  for (size_t c = 0; c < count; ++c) y[c] = fit.pull[c] - y[c];
+  for (size_t r = 0; r < f.row_count; ++r) {
+    const float* const row = fit.constraint_rows.data + r * count;
+    const double factor = fit.row_weights[r] * fit.row_changes[r];
+    for (size_t c = 0; c < count; ++c) {
+      y[c] -= factor * double{row[c]};
+      fit.response[c] -= factor * double{row[c]};
+    }
+  }
+  double seen = 0, modeled = 0;
+  for (size_t c = 0; c < count; ++c) {
+    seen += y[c] * fit.change[c];
+    modeled += fit.response[c] * fit.change[c];
+  }
+  if (!(modeled > 0) || !(seen > kLeastBend * modeled)) return;
+  const auto add_row = [&](const double* row, double weight) {
+    float* const to = fit.secant_rows.data + fit.secant_count * count;
+    for (size_t c = 0; c < count; ++c) to[c] = static_cast<float>(row[c]);
+    fit.secant_weights[fit.secant_count++] = weight;
+  };
+  add_row(y, 1 / seen);
+  add_row(fit.response.data, -1 / modeled);
+}
+
+}  // namespace
+
 void make_model(Frame& f) {
   MienFit& fit = f.fit;
+  std::swap(fit.pull, fit.last_pull);
   std::fill(fit.pull.begin(), fit.pull.end(), 0.0);
   const auto add = [&](MienDerivatives* derivatives, uint32_t from, uint32_t mesh,
                        const float* gradient) {
@@ -187,6 +238,8 @@ void make_model(Frame& f) {
     }
     list_constraint_rows(f, MIEN_POINT_CONTROLS);
   }
+  if (f.modeled && f.learns && !is_exact(f)) learn_from_step(f);
+  f.modeled = true;
   std::copy(fit.all_controls.begin(), fit.all_controls.end(), fit.model_controls.begin());
 }
 
@@ -271,6 +324,8 @@ ModelStep minimize_model(Frame& f, double cost, double first, double rounding, d
     return std::max(
         {kEnoughDecrease * std::max(cost + value, 0.0), kEnoughOfFirst * first, rounding});
   };
+  // The first frame of a motion is far: there, all controls that may explain it compete from the first step on.
+  const bool follows = f.in.start && !is_exact(f);
   double gain = HUGE_VAL;
   bool solved = false;
   for (uint32_t round = 0; round < kModelRounds && !solved; ++round) {
@@ -284,7 +339,7 @@ ModelStep minimize_model(Frame& f, double cost, double first, double rounding, d
     }
     solved = free_count == 0 || (gain <= enough() && left.held <= enough()) ||
              (round != 0 && left.all <= kLittle * enough());
-    if (solved) break;
+    if (solved || (round != 0 && follows && left.all <= kBeyondModel * -value)) break;
     set_model_matrix(f, free_count, damping);
     std::copy(fit.raw.begin(), fit.raw.end(), fit.kept.begin());
     gain = 0;

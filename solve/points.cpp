@@ -149,7 +149,7 @@ void find_points(Frame& f) {
     const MienSolvePoint& point = fit.points[i];
     const float* const positions = fit.meshes[point.mesh].at;
     double* const to = fit.surface.data + 3 * i;
-    if (point.weights[0] == 1 && point.weights[1] == 0 && point.weights[2] == 0) {
+    if (is_position(point)) {
       const float* from = positions + size_t{point.positions[0]} * 3;
       for (size_t k = 0; k < 3; ++k) to[k] = double{from[k]};
     } else {

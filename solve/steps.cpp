@@ -235,7 +235,7 @@ uint32_t Solve::run_stage(uint32_t limit, double enough_decrease) {
           ++iterations;
           return MIEN_FIT_CONVERGED;
         }
-        if (slow >= 2 || (step.solved && !as_modeled)) measure_again();
+        if (slow >= 2 || (!f.learns && step.solved && !as_modeled)) measure_again();
         break;
       }
       std::copy(fit.best.begin(), fit.best.end(), fit.raw.begin());
@@ -328,6 +328,9 @@ bool has_jumped(const Frame& f, const Moves& moves) {
 void solve_frame(Frame& f, MienFitResult& told) {
   MienFit& fit = f.fit;
   Solve solve = {f, {}};
+  fit.secant_count = 0;
+  // Far from the start, P at the pose of all points tells more; P of a sample tells less than steps.
+  f.learns = f.in.start || fit.samples.count != fit.points.count;
   start_motion(f);
   solve.cost = solve.find_all();
   solve.keep();
