@@ -379,7 +379,7 @@ TEST_P(PlacedHeads, BonesOfLodsAreNestedAndLoseLittleByIt) {
   double half = 0, fifth = 0;
   for (const std::array<double, 2>& ratios : all) {
     EXPECT_LE(ratios[0], 1.20);
-    EXPECT_LE(ratios[1], 1.30);
+    EXPECT_LE(ratios[1], 1.27);
     half += ratios[0] / static_cast<double>(all.size());
     fifth += ratios[1] / static_cast<double>(all.size());
   }
