@@ -213,7 +213,7 @@ template <class F>
 std::vector<double> unsure(const Subject& s, const Duals& expected, F&& model) {
   std::vector<double> all(expected.size());
   for (uint32_t n = 0; s.model.rbf_count != 0 && n < std::size(kNoises); ++n) {
-    const Duals with = model(Rounding{kNoises[n], n * 2654435761u});
+    const Duals with = model(Rounding{kNoises[n], n});
     for (size_t i = 0; i < all.size(); ++i) {
       all[i] = std::fmax(all[i], kMargin * std::fabs(with[i].slope - expected[i].slope));
     }

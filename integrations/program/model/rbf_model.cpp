@@ -35,10 +35,14 @@ RowOf<T> prepared(const PlainRbfSolver& solver, RowOf<T> values) {
   return values;
 }
 
-Row target(const PlainRbfSolver& solver, size_t pose) {
+std::vector<Row> targets_of(const PlainRbfSolver& solver) {
   const size_t n = solver.inputs.size();
-  const float* from = solver.targets.data() + pose * n;
-  return prepared(solver, Row(from, from + n));
+  std::vector<Row> targets;
+  const float* from = solver.targets.data();
+  for (size_t t = 0; t < solver.poses.size(); ++t, from += n) {
+    targets.push_back(prepared(solver, Row(from, from + n)));
+  }
+  return targets;
 }
 
 // 6.3: as it says there, the dot product of quaternions has 32-bit floats, each product and sum rounded once.
@@ -70,16 +74,14 @@ T distance(const PlainRbfSolver& solver, const Row& a, const RowOf<T>& b, double
 }
 
 // 6.4
-double radius(const LayerRig& rig, const PlainRbfSolver& solver) {
+double radius(const LayerRig& rig, const PlainRbfSolver& solver, const std::vector<Row>& targets) {
   if (solver.automatic_radius == 1) {
     return rig.rotation_unit == 0 ? solver.radius * 3.14159265358979323846 / 180
                                   : double{solver.radius};
   }
   double sum = 0, pairs = 0;
-  for (size_t a = 0; a < solver.poses.size(); ++a) {
-    for (size_t b = 0; b < a; ++b, ++pairs) {
-      sum += distance(solver, target(solver, a), target(solver, b));
-    }
+  for (size_t a = 0; a < targets.size(); ++a) {
+    for (size_t b = 0; b < a; ++b, ++pairs) sum += distance(solver, targets[a], targets[b]);
   }
   return sum / pairs;
 }
@@ -127,27 +129,28 @@ RowOf<T> solution(std::vector<Row> m, RowOf<T> b) {
 template <class T>
 std::vector<T> model_rbf_weights(const LayerRig& rig, const PlainRbfSolver& solver,
                                  const std::vector<T>& inputs, const Rounding& rounding) {
-  const double r = radius(rig, solver);
-  // The highest bit of a linear congruential sequence is the sign.
-  uint32_t distances = rounding.signs, products = ~rounding.signs;
-  const auto next_noise = [&](uint32_t& draw) {
-    draw = draw * 1664525u + 1013904223u;
-    return draw >> 31 ? rounding.noise : -rounding.noise;
+  const std::vector<Row> targets = targets_of(solver);
+  const double r = radius(rig, solver, targets);
+  // splitmix64: neighboring states start independent sequences.
+  uint64_t state = rounding.signs;
+  const auto noise = [&] {
+    uint64_t z = state += 0x9e3779b97f4a7c15u;
+    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ z >> 27) * 0x94d049bb133111ebu;
+    return z >> 63 != 0 ? rounding.noise : -rounding.noise;
   };
-  const size_t n = solver.poses.size();
+  const size_t n = targets.size();
   const RowOf<T> input = prepared(solver, inputs);
   RowOf<T> weights(n);
   for (size_t t = 0; t < n; ++t) {
-    weights[t] =
-        weight(solver, distance(solver, target(solver, t), input, next_noise(distances)), r) *
-        (1 + next_noise(products) / 32);
+    weights[t] = weight(solver, distance(solver, targets[t], input, noise()), r);
+    weights[t] *= 1 + noise() / 32;
   }
   if (solver.type == 0) return weights;
   std::vector<Row> kernel(n, Row(n));
   for (size_t s = 0; s < n; ++s) {
     for (size_t t = 0; t < n; ++t) {
-      kernel[s][t] = weight(
-          solver, distance(solver, target(solver, s), target(solver, t), next_noise(distances)), r);
+      kernel[s][t] = weight(solver, distance(solver, targets[s], targets[t], noise()), r);
     }
   }
   weights = solution(kernel, weights);

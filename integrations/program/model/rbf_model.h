@@ -9,8 +9,9 @@
 namespace mien::model {
 
 /// What rounding may do to solvers: the squared dot products of angular distances are off by `noise` of themselves, up or
-/// down, and the weights that an inverse multiplies by a 32nd of it; the products by `noise`. `signs` chooses a sequence
-/// of ups and downs. What that changes tells how far results can be trusted (docs/rig-evaluation.md, 10).
+/// down, and the weights that an inverse multiplies by a 32nd of it; the products by `noise`. `signs` chooses one of
+/// many sequences of ups and downs, which are independent of each other. What that changes tells how far results can be
+/// trusted (docs/rig-evaluation.md, 10).
 struct Rounding {
   double noise = 0;
   uint32_t signs = 0;
