@@ -69,10 +69,15 @@ Expected expected_controls(const model::LayerRig& rig, const std::vector<float>&
   if (rig.rbf_count == 0) return expected;
   model::model_rbf(rig, lod, expected.controls);
   for (uint32_t n = 0; n < kNoises; ++n) {
-    std::vector<double> with = start;
-    model::model_rbf(rig, lod, with, {n % 2 == 0 ? kNoise : -kNoise, n});
-    for (size_t i = 0; i < with.size(); ++i) {
-      expected.unsure[i] = std::max(expected.unsure[i], std::fabs(with[i] - expected.controls[i]));
+    // The margin times what noise does, and what noise times the margin does: that crosses clamps and thresholds.
+    for (const double times : {1.0, kNoiseMargin}) {
+      const double noise = kNoise * (n % 2 == 0 ? times : -times);
+      std::vector<double> with = start;
+      model::model_rbf(rig, lod, with, {noise, n});
+      for (size_t i = 0; i < with.size(); ++i) {
+        const double change = std::fabs(with[i] - expected.controls[i]);
+        expected.unsure[i] = std::max(expected.unsure[i], change * kNoiseMargin / times);
+      }
     }
   }
   return expected;
@@ -97,8 +102,7 @@ void compare_controls(const model::LayerRig& rig, const std::vector<float>& mine
     const bool learned = i < rig.first_rbf();
     const double distance = std::fabs(mine[i] - expected.controls[i]);
     if (!(distance >= 0)) worst.see_nan("control", i, at.lod, at.pose);
-    const double allowed =
-        learned ? kLearned * scale : kRbf * scale + kNoiseMargin * expected.unsure[i];
+    const double allowed = learned ? kLearned * scale : kRbf * scale + expected.unsure[i];
     worst.see(distance, allowed, "control", i, at.lod, at.pose);
   }
 }
