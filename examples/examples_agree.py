@@ -30,6 +30,15 @@ def run(command, arguments):
     return result.returncode == 0, result.stdout
 
 
+def near(one, other):
+    """Whether all numbers of two texts differ by at most one unit of the last digit that is printed."""
+    words, others = one.split(), other.split()
+    return len(words) == len(others) and all(
+        a == b or ("." in a and "." in b and len(a) == len(b)
+                   and abs(float(a) - float(b)) < 1.5 * 10.0 ** -len(a.split(".")[1]))
+        for a, b in zip(words, others))
+
+
 def mixes_differ(programs):
     """Whether they say something else while the head speaks, smiles and is dazzled."""
     printed = {name: run(command, [])[1] for name, command in programs.items()}
@@ -41,6 +50,10 @@ def mixes_differ(programs):
     if not (of[60]["jaw"] < 0.02 and of[50]["jaw"] > 0.5 and of[60]["smile"] == 0.72
             and of[90]["lids"] == 0 and of[100]["lids"] == 1 and of[150]["squint"] == 0):
         sys.exit("the mix does not do what its comments say")
+    # A rig is compiled with the mathematical functions of WebAssembly's library, so what guards measure may differ by a
+    # step of rounding.
+    if near(printed.get("JavaScript", printed["C"]), printed["C"]):
+        printed.pop("JavaScript", None)
     return len(set(printed.values())) != 1
 
 
