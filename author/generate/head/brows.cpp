@@ -85,17 +85,6 @@ void add_lashes(const Form& form, uint32_t lod, HalfMesh& out) {
 /// Rows of cards that lie on the skin, denser in the middle of the brow.
 void add_brow(const Form& form, uint32_t lod, HalfMesh& out) {
   const Person& person = form.person();
-  struct Arch {
-    double x, y, half;
-  };
-  const auto arch_at = [&person](double t) {
-    const double y = 2.36 + person.brow_height +
-                     (0.66 + person.brow_arch) * exact_sine(kPi * clamp01(t * 0.66 + 0.12)) -
-                     0.4 * person.brow_arch + person.brow_slope * (t - 0.4) - 0.10 * t;
-    const double half = 0.34 * person.brow * exact_pow(clamp01((1 - t) * 1.9), 0.75) *
-                        mix(0.72, 1, smooth_step(0, 0.3, t));
-    return Arch{mix(1.22, 5.25, t), y, half + 0.03};
-  };
   const auto place = [&form](double x, double y, double raise, Color color) {
     const FacePoint at = form.face(form.angle_of(x, y), y, Side::kAbove);
     const Vec3 out_of_face = unit({at.closed.x * 0.55, 0.8, at.closed.z});
@@ -112,7 +101,7 @@ void add_brow(const Form& form, uint32_t lod, HalfMesh& out) {
     const double t = clamp01((i + 0.5) / count + 0.012 * scatter(i + 300));
     const double edge = scatter(i);
     const double across = edge * mix(0.45, 0.95, std::abs(edge));
-    const Arch at = arch_at(t);
+    const Form::BrowArch at = form.brow_arch(t);
     const double size = (0.50 + 0.12 * scatter(i + 500)) * mix(0.9, 1, smooth_step(0, 0.2, t)) *
                         mix(1, 0.75, smooth_step(0.7, 1, t)) * std::sqrt(wider);
     const double lean = mix(1.15, 0.30, smooth_step(-0.02, 0.30, t)) -

@@ -434,6 +434,15 @@ FacePoint Form::face(double angle, double row, Side side) const {
   return out;
 }
 
+Form::BrowArch Form::brow_arch(double along) const {
+  const double y = 2.36 + person_.brow_height +
+                   (0.66 + person_.brow_arch) * exact_sine(kPi * clamp01(along * 0.66 + 0.12)) -
+                   0.4 * person_.brow_arch + person_.brow_slope * (along - 0.4) - 0.10 * along;
+  const double half = 0.34 * person_.brow * exact_pow(clamp01((1 - along) * 1.9), 0.75) *
+                      mix(0.72, 1, smooth_step(0, 0.3, along));
+  return {mix(1.22, 5.25, along), y, half + 0.03};
+}
+
 // Colors ---------------------------------------------------------------------------------------
 
 Color Form::skin_color(Vec3 p, double row, double lid) const {
@@ -448,6 +457,14 @@ Color Form::skin_color(Vec3 p, double row, double lid) const {
       0.05 * bump(x, p.y, 0, -9.4, 1.6, 0.9) + 0.12 * bump(x, p.y, 3.2, -0.6, 1.6, 0.55) +
       0.10 * bump(x, p.y, 3.2, 1.3, 1.7, 0.7) + 0.12 * bump(x, p.y, 1.3, -3.7, 0.5, 0.5);
   c = mix(c, blush, std::min(red, 0.8) * in_front);
+  // Between the hairs of the brows skin is dark with their roots.
+  const double along = (x - 1.22) / (5.25 - 1.22);
+  if (in_front > 0 && along > -0.1 && along < 1) {
+    const BrowArch brow = brow_arch(clamp01(along));
+    const double inside = smooth_step(1.25, 0.35, std::abs(p.y - brow.y) / brow.half) *
+                          smooth_step(-0.06, 0.10, along) * smooth_step(1.0, 0.75, along);
+    c = mix(c, mix(person_.brow_hair, mix(skin, {0, 0, 0}, 0.4), 0.5), 0.65 * inside);
+  }
   // Lips.
   if (x < 1.06 * kMouthHalfWidth && p.z > 4) {
     const double d = p.y - mouth_line(p.x);

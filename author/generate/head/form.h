@@ -131,6 +131,12 @@ class Form {
   double upper_opening(double x) const;
   double lower_opening(double x) const;
 
+  /// Where the middle of the brow is in the front view, and half of its height; `along` 0 ... 1 from the nose outwards.
+  struct BrowArch {
+    double x, y, half;
+  };
+  BrowArch brow_arch(double along) const;
+
   Color skin_color(Vec3 look, double row, double lid) const;
 
  private:
