@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "tests/derive/derivatives_handle.h"
+#include "tests/derive/random_skeleton.h"
 #include "tests/support/deform_rig.h"
 #include "tests/support/random_layer_rig.h"
 #include "tests/support/rig_files.h"
@@ -206,24 +207,9 @@ TEST(Derivatives, OfMatricesAndPositionsInReverseAreTheTransposedOnes) {
   Random random = Random::from_seed(71, 3);
   for (uint32_t round = 0; round < 12; ++round) {
     SCOPED_TRACE(round);
-    DeformRigOptions options;
-    options.rotation_sequence = round % 6;
-    for (int i = 0; i < 3; ++i) options.rotation_signs[i] = round >> i & 1 ? -1 : 1;
-    options.rotation_unit = round % 2;
-    const bool quaternions = round % 3 == 2, adds = round % 6 == 1;
-    MienDeformerDesc desc = sized<MienDeformerDesc>();
-    desc.compose = adds ? MIEN_COMPOSE_EULER_ADD : MIEN_COMPOSE_PRODUCT;
-    desc.storage = round % 4 == 3 ? MIEN_STORAGE_16_BIT : MIEN_STORAGE_32_BIT;
-    const Deformed made(random_deform_rig(round, options), desc,
-                        quaternions ? MIEN_ROTATION_OUTPUT_QUATERNION : MIEN_ROTATION_OUTPUT_EULER);
-    const DeformValues values = random_values(made.rig.get(), round);
-    Character character(made.rig);
-    character.evaluate(0);
-    Instance& instance = *reinterpret_cast<Instance*>(character.instance.get());
-    std::copy(values.joints.begin(), values.joints.end(), instance.joints.begin());
-    std::copy(values.channels.begin(), values.channels.end(), instance.channels.begin());
-    const DerivativesHandle d = create_derivatives(made.rig.get(), made.deformer.get());
-    linearize(d, character);
+    const RandomSkeleton skeleton(round,
+                                  round % 4 == 3 ? MIEN_STORAGE_16_BIT : MIEN_STORAGE_32_BIT);
+    const DerivativesHandle& d = skeleton.d;
     expect_consistent(d, random, true);
     expect_transposed(d, random, MIEN_POINT_JOINTS, MIEN_POINT_POSITIONS, 1);
     expect_transposed_matrix(d, MIEN_POINT_JOINTS, MIEN_POINT_SKINS);

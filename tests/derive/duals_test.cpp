@@ -13,6 +13,7 @@
 #include "integrations/program/model/rbf_model.h"
 #include "integrations/program/model/rotation_model.h"
 #include "tests/derive/derivatives_handle.h"
+#include "tests/derive/random_skeleton.h"
 #include "tests/support/deform_rig.h"
 #include "tests/support/random_layer_rig.h"
 #include "tests/support/rig_files.h"
@@ -420,24 +421,11 @@ TEST(Duals, OfTheModelAreTheDerivativesOfMatricesAndPositions) {
   Comparison seen;
   for (uint32_t round = 0; round < 12; ++round) {
     SCOPED_TRACE(round);
-    DeformRigOptions options;
-    options.rotation_sequence = round % 6;
-    for (int i = 0; i < 3; ++i) options.rotation_signs[i] = round >> i & 1 ? -1 : 1;
-    options.rotation_unit = round % 2;
-    const bool quaternions = round % 3 == 2, adds = round % 6 == 1;
-    MienDeformerDesc desc = sized<MienDeformerDesc>();
-    desc.compose = adds ? MIEN_COMPOSE_EULER_ADD : MIEN_COMPOSE_PRODUCT;
-    const Deformed made(random_deform_rig(round, options), desc,
-                        quaternions ? MIEN_ROTATION_OUTPUT_QUATERNION : MIEN_ROTATION_OUTPUT_EULER);
-    const PlainDeformer plain = {made.dna->view, quaternions, adds, false};
-    const DeformValues values = random_values(made.rig.get(), round);
-    Character character(made.rig);
-    character.evaluate(0);
-    Instance& instance = *reinterpret_cast<Instance*>(character.instance.get());
-    std::copy(values.joints.begin(), values.joints.end(), instance.joints.begin());
-    std::copy(values.channels.begin(), values.channels.end(), instance.channels.begin());
-    const DerivativesHandle d = create_derivatives(made.rig.get(), made.deformer.get());
-    linearize(d, character);
+    const RandomSkeleton skeleton(round);
+    const DeformValues& values = skeleton.values;
+    const DerivativesHandle& d = skeleton.d;
+    const PlainDeformer plain = {skeleton.made.dna->view, skeleton.quaternions, skeleton.adds,
+                                 false};
 
     const Duals joints = constants(span_of(values.joints)),
                 channels = constants(span_of(values.channels));
