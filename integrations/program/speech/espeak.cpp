@@ -44,10 +44,17 @@ struct Event {
   } id;
 };
 using Callback = int(short*, int, Event*);
+struct Voice {
+  const char *name, *languages, *identifier;
+  unsigned char gender, age, variant, reserved;
+  int score;
+  void* spare;
+};
 
 struct Library {
   int (*initialize)(int, int, const char*, int) = nullptr;
   int (*set_voice)(const char*) = nullptr;
+  int (*set_voice_of)(Voice*) = nullptr;
   void (*set_callback)(Callback*) = nullptr;
   void (*trace)(int, FILE*) = nullptr;
   int (*synthesize)(const void*, size_t, unsigned, int, unsigned, unsigned, unsigned*,
@@ -71,6 +78,7 @@ const Library* load() {
     };
     return find(library.initialize, "espeak_Initialize") &&
            find(library.set_voice, "espeak_SetVoiceByName") &&
+           find(library.set_voice_of, "espeak_SetVoiceByProperties") &&
            find(library.set_callback, "espeak_SetSynthCallback") &&
            find(library.trace, "espeak_SetPhonemeTrace") &&
            find(library.synthesize, "espeak_Synth") &&
@@ -159,7 +167,10 @@ Spoken speak(const std::string& text, const std::string& voice) {
     cli::fail(cli::kFile, kCannotSay, "", "the voices of espeak-ng are missing",
               "install them (Debian: apt-get install espeak-ng-data)");
   }
-  if (library->set_voice(voice.c_str()) != 0) {
+  // Names of voices, then languages, which some voices are not named after: en-gb.
+  Voice language = {};
+  language.languages = voice.c_str();
+  if (library->set_voice(voice.c_str()) != 0 && library->set_voice_of(&language) != 0) {
     cli::fail_usage("--voice \"" + cli::one_line(voice) + "\"", "espeak-ng has no such voice",
                     "'espeak-ng --voices' lists them");
   }
@@ -198,7 +209,8 @@ Spoken speak(const std::string& text, const std::string& voice) {
   std::vector<Phoneme>& phonemes = spoken.utterance.phonemes;
   for (size_t i = 0; i < all.marks.size(); ++i) {
     const Heard::Mark& mark = all.marks[i];
-    if (mark.ends_clause) continue;
+    // A language is named where it changes: "(en)".
+    if (mark.ends_clause || mark.letters[0] == '(') continue;
     const double end_sample = i + 1 < all.marks.size() ? all.marks[i + 1].sample
                                                        : static_cast<double>(all.samples.size());
     const double begin = kLead + mark.sample / static_cast<double>(rate);
@@ -206,6 +218,11 @@ Spoken speak(const std::string& text, const std::string& voice) {
     if (mark.letters.empty()) {
       const bool follows = !phonemes.empty() && phonemes.back().end > begin - 1e-6;
       if (follows && end - begin < kPause) phonemes.back().end = rounded(end);
+      continue;
+    }
+    if (is_modifier(mark.letters) && !phonemes.empty()) {
+      phonemes.back().label += mark.letters;
+      phonemes.back().end = rounded(end);
       continue;
     }
     // Times of 0.1 ms, so that files of phonemes are short, and give the same take.

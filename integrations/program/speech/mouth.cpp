@@ -37,8 +37,10 @@ constexpr double kShortestPause = 0.04;
 /// Visemes are held poses. Speech opens the jaw less than half as far.
 constexpr float kJawOfSpeech = 0.45f;
 
-// Closures: how long lips take to come together and to part; the jaw, which is slower; how far open it stays.
-constexpr double kClosing = 0.08, kOpening = 0.07, kJawTime = 0.16, kJawOfClosure = 0.03;
+// Closures: how long lips take to come together and to part, and at least between two; the jaw,
+// which is slower, and turns around before the lips part; how far open it stays.
+constexpr double kClosing = 0.08, kOpening = 0.07, kQuickest = 0.02, kJawTime = 0.15,
+                 kJawTurn = 0.025, kJawOfClosure = 0.03;
 /// The held pose of f brings the lower lip near the teeth; to touch them it rolls in twice as far.
 constexpr double kRollToTeeth = 2;
 /// Of a stop, the last part is its release.
@@ -90,6 +92,7 @@ struct Pull {
   double core_begin, core_end;
   float dominance[kGroups];
   std::vector<float> targets;  // of all controls; empty: rest
+  bool rounds;
 };
 
 Pull pull_of(const Segment& segment, float effort) {
@@ -99,11 +102,13 @@ Pull pull_of(const Segment& segment, float effort) {
   Pull pull{segment.begin + transition,
             segment.end - transition,
             {d.jaw, d.lips, d.rounding, d.spreading, d.tongue},
-            {}};
+            {},
+            false};
   pull.targets = controls().visemes.at(sound.viseme);
   for (size_t c = 0; c < pull.targets.size(); ++c) {
     pull.targets[c] *= sound.amount * (sound.is_vowel ? effort : 1.0f);
     if (controls().groups[c] == kJaw) pull.targets[c] *= kJawOfSpeech;
+    if (controls().groups[c] == kRounding && pull.targets[c] > 0) pull.rounds = true;
   }
   // What touches is up to the closure; before and after it the lips are as they are at rest.
   const bool by_lips = sound.closure == Closure::kLips || sound.closure == Closure::kLipToTeeth;
@@ -121,7 +126,7 @@ std::vector<Pull> find_pulls(const std::vector<Segment>& segments, const std::ve
   const auto add_pause = [&](double begin, double end) {
     if (end - begin < kShortestPause) return;
     const double transition = std::min(kTransition, (end - begin) / 2);
-    Pull pause{begin + transition, end - transition, {}, {}};
+    Pull pause{begin + transition, end - transition, {}, {}, false};
     std::fill(std::begin(pause.dominance), std::end(pause.dominance), kRestDominance);
     pulls.push_back(std::move(pause));
   };
@@ -135,7 +140,8 @@ std::vector<Pull> find_pulls(const std::vector<Segment>& segments, const std::ve
 }
 
 double dominance(const Pull& pull, Group group, double time) {
-  const Reach& reach = kReach[group];
+  // Lips round early, but part with it no earlier than they move otherwise.
+  const Reach& reach = kReach[group == kRounding && !pull.rounds ? kLips : group];
   double away = 0;
   if (time < pull.core_begin) away = (pull.core_begin - time) / reach.before;
   if (time > pull.core_end) away = (time - pull.core_end) / reach.after;
@@ -143,11 +149,15 @@ double dominance(const Pull& pull, Group group, double time) {
                              : static_cast<double>(pull.dominance[group]) * std::exp(-away * away);
 }
 
-/// How far lips or teeth hold the jaw up at a time, 0 to 1.
-double jaw_held_at(const std::vector<ClosedTime>& closures, size_t first, double time) {
+/// How far lips or teeth hold the jaw up at a time, 0 to 1. `turn`: how long before a closure ends it may let go, and
+/// how long after its begin it may arrive.
+double jaw_held_at(const std::vector<ClosedTime>& closures, size_t first, double time,
+                   double turn) {
   double most = 0;
   for (size_t i = first; i < closures.size() && closures[i].begin - kJawTime < time; ++i) {
-    const double away = std::max({closures[i].begin - time, time - closures[i].end, 0.0});
+    const double inset = std::min((closures[i].end - closures[i].begin) / 2, turn);
+    const double away =
+        std::max({closures[i].begin + inset - time, time - closures[i].end + inset, 0.0});
     most = std::max(most, ease(1 - away / kJawTime));
   }
   return most;
@@ -158,13 +168,18 @@ double closed_at(const std::vector<ClosedTime>& closures, size_t first, Closure 
   double most = 0;
   for (size_t i = first; i < closures.size() && closures[i].begin - kClosing < time; ++i) {
     if (closures[i].closure != kind) continue;
-    const double before = (closures[i].begin - time) / kClosing;
-    // The other lip contact that follows comes in place of this one.
-    double opening = kOpening;
-    if (i + 1 < closures.size() && closures[i + 1].closure != kind) {
-      opening = std::clamp(closures[i + 1].end - closures[i].end, 0.02, 2 * kOpening) / 2;
+    double closing = kClosing, opening = kOpening;
+    if (i > 0) closing = std::min(closing, (closures[i].begin - closures[i - 1].end) / 2);
+    // Lips part between two closures, however soon the second follows.
+    if (i + 1 < closures.size()) {
+      opening = std::min(opening, (closures[i + 1].begin - closures[i].end) / 2);
+      // The other lip contact that follows comes in place of this one.
+      if (closures[i + 1].closure != kind) {
+        opening = std::clamp(closures[i + 1].end - closures[i].end, kQuickest, 2 * kOpening) / 2;
+      }
     }
-    const double after = (time - closures[i].end) / opening;
+    const double before = (closures[i].begin - time) / std::max(closing, kQuickest);
+    const double after = (time - closures[i].end) / std::max(opening, kQuickest);
     most = std::max(most, ease(1 - std::max({before, after, 0.0})));
   }
   return most;
@@ -227,7 +242,8 @@ void move_mouth(const std::vector<Segment>& segments, const std::vector<float>& 
   const std::vector<float>& bilabial = all.visemes.at("viseme_21_p");
   std::vector<float> labiodental = all.visemes.at("viseme_18_f");
   labiodental[all.index("mouthRollLower")] *= static_cast<float>(kRollToTeeth);
-  const size_t count = all.names.size(), jaw = all.index("jawOpen"), close = all.index(kMouthClose);
+  const size_t count = all.names.size(), jaw = all.index("jawOpen"), close = all.index(kMouthClose),
+               funnel = all.index("mouthFunnel");
   std::vector<double> sums(count);
   size_t first_pull = 0, first_closure = 0;
   for (size_t f = 0; f < curves.frame_count; ++f) {
@@ -237,6 +253,15 @@ void move_mouth(const std::vector<Segment>& segments, const std::vector<float>& 
     };
     while (first_pull < pulls.size() && is_past(pulls[first_pull].core_end)) ++first_pull;
     while (first_closure < lips.size() && is_past(lips[first_closure].end)) ++first_closure;
+
+    // A funnel parts the lips, so it waits until they have met.
+    double next_contact = 1e9;
+    for (size_t i = first_closure; i < lips.size(); ++i) {
+      const double middle = (lips[i].begin + lips[i].end) / 2;
+      if (middle < time) continue;
+      next_contact = middle;
+      break;
+    }
 
     // Each value is the mean of the targets, weighted by dominance.
     double weights[kGroups] = {};
@@ -250,6 +275,7 @@ void move_mouth(const std::vector<Segment>& segments, const std::vector<float>& 
         weights[g] += own[g];
       }
       for (size_t c = 0; c < pull.targets.size(); ++c) {
+        if (c == funnel && pull.core_begin > next_contact) continue;
         sums[c] += own[all.groups[c]] * static_cast<double>(pull.targets[c]);
       }
     }
@@ -259,7 +285,8 @@ void move_mouth(const std::vector<Segment>& segments, const std::vector<float>& 
     const double with_teeth =
         closed_at(lips, first_closure, Closure::kLipToTeeth, time) * (1 - with_lips);
     const double touching = with_lips + with_teeth;
-    const double held = jaw_held_at(lips, first_closure, time);
+    const double held = jaw_held_at(lips, first_closure, time, kJawTurn);
+    const double funnel_held = jaw_held_at(lips, first_closure, time, 0);
     for (size_t c = 0; c < count; ++c) {
       const double weight = weights[all.groups[c]];
       double value = weight > 0 ? sums[c] / weight : 0;
@@ -269,9 +296,9 @@ void move_mouth(const std::vector<Segment>& segments, const std::vector<float>& 
         value = value * (1 - touching) + with_lips * static_cast<double>(bilabial[c]) +
                 with_teeth * static_cast<double>(labiodental[c]);
       } else if (all.groups[c] == kRounding) {
-        // Lips that touch each other may protrude; a lip at the teeth cannot. A funnel is open, by the jaw too.
-        const bool is_funnel = all.names[c] == "mouthFunnel";
-        value *= is_funnel ? 1 - held : 1 - 0.5 * with_lips - 0.9 * with_teeth;
+        // Lips that touch each other may protrude; a lip at the teeth cannot. A funnel parts them,
+        // and lowers the jaw of some rigs.
+        value *= c == funnel ? 1 - funnel_held : 1 - 0.5 * with_lips - with_teeth;
       } else if (all.groups[c] == kSpreading) {
         value *= 1 - touching * 0.5;
       } else {

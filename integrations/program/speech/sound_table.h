@@ -31,7 +31,7 @@ constexpr Dominance kRoundVowel = {0.9f, 0.9f, 1, 0.9f, 0.8f};
 constexpr Dominance kSchwa = {0.5f, 0.5f, 0.2f, 0.2f, 0.5f};
 constexpr Dominance kBilabial = {0.7f, 0.6f, 0.06f, 0.2f, 0.2f};
 constexpr Dominance kLabiodental = {0.9f, 0.8f, 0.15f, 0.3f, 0.3f};
-constexpr Dominance kDental = {0.8f, 0.6f, 0.1f, 0.15f, 1};
+constexpr Dominance kDental = {1, 0.6f, 0.1f, 0.15f, 1};
 constexpr Dominance kAlveolar = {0.6f, 0.5f, 0.06f, 0.1f, 0.6f};
 constexpr Dominance kSibilant = {1, 0.8f, 0.1f, 0.5f, 0.8f};
 constexpr Dominance kPostalveolar = {1, 0.8f, 0.8f, 0.5f, 0.8f};
@@ -90,8 +90,8 @@ constexpr Sound kSounds[] = {
     {U'ʍ', "viseme_7_w", 1, false, Closure::kNone, kRoundGlide},
     {U'ɥ', "viseme_7_w", 0.9f, false, Closure::kNone, kRoundGlide},
     // Tongue at the teeth and behind them
-    {U'θ', "viseme_17_th", 1, false, Closure::kNone, kDental},
-    {U'ð', "viseme_17_th", 0.9f, false, Closure::kNone, kDental},
+    {U'θ', "viseme_17_th", 0.7f, false, Closure::kNone, kDental},
+    {U'ð', "viseme_17_th", 0.65f, false, Closure::kNone, kDental},
     {U't', "viseme_19_d", 1, false, Closure::kNone, kAlveolar},
     {U'd', "viseme_19_d", 1, false, Closure::kNone, kAlveolar},
     {U'n', "viseme_19_d", 1, false, Closure::kNone, kAlveolar},
@@ -158,6 +158,17 @@ constexpr Spelling kArpabetSpellings[] = {
     {"OW", "oʊ"}, {"OY", "ɔɪ"}, {"P", "p"}, {"Q", "ʔ"}, {"R", "ɹ"}, {"S", "s"}, {"SH", "ʃ"}, {"T", "t"},
     {"TH", "θ"}, {"UH", "ʊ"}, {"UW", "u"}, {"UX", "ʉ"}, {"V", "v"}, {"W", "w"}, {"WH", "ʍ"}, {"Y", "j"},
     {"Z", "z"}, {"ZH", "ʒ"}};
+
+// Letters with marks as one character, as dictionaries and voices have them; ligatures; Greek letters in place of
+// the IPA's. Marks of their own need no spelling: the mouth does not show them.
+constexpr Spelling kIpaSpellings[] = {
+    {"ä", "a"}, {"ã", "a"}, {"á", "a"}, {"à", "a"}, {"â", "a"}, {"ā", "a"}, {"ă", "a"}, {"å", "a"},
+    {"ë", "e"}, {"ẽ", "e"}, {"é", "e"}, {"è", "e"}, {"ê", "e"}, {"ē", "e"}, {"ĕ", "e"}, {"ï", "i"},
+    {"ĩ", "i"}, {"í", "i"}, {"ì", "i"}, {"î", "i"}, {"ī", "i"}, {"ĭ", "i"}, {"ö", "o"}, {"õ", "o"},
+    {"ó", "o"}, {"ò", "o"}, {"ô", "o"}, {"ō", "o"}, {"ŏ", "o"}, {"ü", "u"}, {"ũ", "u"}, {"ú", "u"},
+    {"ù", "u"}, {"û", "u"}, {"ū", "u"}, {"ŭ", "u"}, {"ÿ", "y"}, {"ý", "y"}, {"ỹ", "y"}, {"ñ", "ɲ"},
+    {"ʦ", "ts"}, {"ʣ", "dz"}, {"ʧ", "tʃ"}, {"ʤ", "dʒ"}, {"ʨ", "tɕ"}, {"ʥ", "dʑ"}, {"ε", "ɛ"}, {"α", "ɑ"},
+    {"φ", "ɸ"}, {"Φ", "ɸ"}, {"ϕ", "ɸ"}, {"ß", "β"}};
 
 // X-SAMPA (and SAMPA), which aligners of other languages write; small letters that it shares with the IPA stay.
 constexpr Spelling kSampaSpellings[] = {

@@ -69,11 +69,13 @@ std::string from_arpabet(const std::string& label, Stress& stress) {
   return {};
 }
 
-std::string from_sampa(const std::string& label) {
+/// Replaces the longest spelling that fits, from left to right; what none fits stays.
+template <size_t N>
+std::string respell(const std::string& label, const Spelling (&spellings)[N]) {
   std::string ipa;
   for (size_t at = 0; at < label.size();) {
     const Spelling* best = nullptr;
-    for (const Spelling& spelling : kSampaSpellings) {
+    for (const Spelling& spelling : spellings) {
       const size_t length = std::strlen(spelling.text);
       if (label.compare(at, length, spelling.text) != 0) continue;
       if (!best || length > std::strlen(best->text)) best = &spelling;
@@ -90,6 +92,14 @@ bool is_pause(const std::string& label) {
   const std::string small = in_small(label);
   if (small.find_first_not_of(" \t\r\n") == std::string::npos) return true;
   return std::find(std::begin(kPauses), std::end(kPauses), small) != std::end(kPauses);
+}
+
+bool is_modifier(const std::string& label) {
+  const std::u32string letters = decode(label);
+  return !letters.empty() && std::all_of(letters.begin(), letters.end(), [](char32_t letter) {
+    const bool is_stress = letter == U'ˈ' || letter == U'ˌ';
+    return letter >= 0x2B0 && letter <= 0x36F && !is_stress;
+  });
 }
 
 Alphabet find_alphabet(const std::vector<Phoneme>& phonemes) {
@@ -114,9 +124,10 @@ Segments find_segments(Utterance& utterance, Alphabet alphabet) {
   std::set<std::string> unknown;
   for (uint32_t p = 0; p < utterance.phonemes.size(); ++p) {
     Phoneme& phoneme = utterance.phonemes[p];
-    std::string ipa = phoneme.label;
-    if (alphabet == Alphabet::kArpabet) ipa = from_arpabet(phoneme.label, phoneme.stress);
-    if (alphabet == Alphabet::kSampa) ipa = from_sampa(phoneme.label);
+    const std::string ipa = alphabet == Alphabet::kArpabet
+                                ? from_arpabet(phoneme.label, phoneme.stress)
+                            : alphabet == Alphabet::kSampa ? respell(phoneme.label, kSampaSpellings)
+                                                           : respell(phoneme.label, kIpaSpellings);
     std::vector<const Sound*> sounds;
     for (const char32_t letter : decode(ipa)) {
       if (letter == U'ˈ') phoneme.stress = Stress::kPrimary;

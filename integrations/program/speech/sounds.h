@@ -15,6 +15,9 @@ enum class Alphabet { kIpa, kArpabet, kSampa };
 /// The alphabet of which all labels are; IPA if several fit.
 Alphabet find_alphabet(const std::vector<Phoneme>& phonemes);
 
+/// Whether a label only has diacritics and small raised letters, which say more about the sound before: "ʲ", "ː".
+bool is_modifier(const std::string& label);
+
 /// A sound with its time. A diphthong or an affricate is two of them.
 struct Segment {
   const Sound* sound = nullptr;

@@ -238,6 +238,13 @@ class Text(ProgramTest):
             saved = json.loads(read("a.json"))
             self.assertIn("primary", [row.get("stress") for row in saved["phonemes"]])
             self.assertAlmostEqual(saved["seconds"], (len(read("a.wav")) - 44) / 2 / 22050, places=3)
+        # A voice may be named by its language. Softness, tones and other languages within a text are no labels.
+        for voice, text in (("en-gb", "Hello."), ("fr-fr", "Bonjour."), ("ru", "\u041f\u0440\u0438\u0432\u0435\u0442."),
+                            ("ru", "\u041f\u0440\u0438\u0432\u0435\u0442, Bob.")):
+            done = self.ok("speak", text, "--voice", voice, "-o", path("a.clip"), "--save-phonemes", path("a.json"))
+            self.assertEqual(done.stderr, "")
+            labels = [row["label"] for row in json.loads(read("a.json"))["phonemes"]]
+            self.assertFalse([label for label in labels if label[0] in "(\u02b2"], labels)
         self.fails(USAGE, "speak", "hello", "--voice", "klingon-opera", "-o", path("no.clip"), says="no such voice")
         self.fails(INVALID, "speak", "...", "-o", path("no.clip"), says="nothing in it that can be said")
 

@@ -35,6 +35,12 @@ TEST(Sounds, TheThreeAlphabetsSayTheSame) {
   EXPECT_EQ(letters_of(take_apart({"S", "2:", "n", "@"})), U"ʃønə");
 }
 
+TEST(Sounds, LettersWithMarksAreThoseLetters) {
+  EXPECT_EQ(letters_of(take_apart({"ä", "ʧ", "ɔ̃", "rʲ", "ε", "õː"})), U"atʃɔrɛo");
+  for (const char* label : {"ʲ", "ː", "̃", "ʰː"}) EXPECT_TRUE(is_modifier(label)) << label;
+  for (const char* label : {"", "a", "rʲ", "ˈ", "5", "(en)"}) EXPECT_FALSE(is_modifier(label));
+}
+
 TEST(Sounds, DiphthongsAndAffricatesShareTheirTime) {
   const Segments segments = take_apart({"aʊ"});
   ASSERT_EQ(segments.list.size(), 2u);
