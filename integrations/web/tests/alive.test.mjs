@@ -477,13 +477,14 @@ test("all of the page is reached on the screen of a phone", options, async () =>
   await page.size(390, 844, true);
   await open(baked);
   const sizes = await page.run(() => ({
-    wide: document.documentElement.scrollWidth, canvas: document.getElementById("stage").clientHeight,
+    wide: document.documentElement.scrollWidth, tall: document.documentElement.scrollHeight,
+    canvas: document.getElementById("stage").clientHeight,
     small: [...document.querySelectorAll("button, select, #list input")].filter((one) => one.offsetParent && one.getBoundingClientRect().height < 24)
       .map((one) => one.id || one.textContent),
     outside: [...document.querySelectorAll("#panel *")].filter((one) => one.offsetParent && one.getBoundingClientRect().right > innerWidth + 0.5)
       .map((one) => one.id || one.tagName),
   }));
-  assert.ok(sizes.wide <= 390 && sizes.canvas >= 300, JSON.stringify(sizes));
+  assert.ok(sizes.wide <= 390 && sizes.tall <= 844 && sizes.canvas >= 300, JSON.stringify(sizes));
   assert.deepEqual([sizes.small, sizes.outside], [[], []]);
   // The face fills the width that there is, and no more.
   const face = await page.run(() => {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The viewer in a headless Chromium, used as people use it.
 import assert from "node:assert/strict";
-import { existsSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
+import { copyFileSync, existsSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
 import { deflateSync } from "node:zlib";
@@ -122,8 +122,9 @@ test("materials beside a rig are shown, with their textures", options, async () 
       { name: "skin", roughness: 0.9, textures: { base_color: "color.png", normal: "maps/normal.png", roughness: "rough.png" } },
       { name: "tooth", base_color: [0, 0.25, 1, 0.5] },
       { name: "lost", textures: { base_color: "lost.png" } },
+      { name: "card", alpha_cutoff: 0.3, textures: { base_color: "color.png", roughness: "rough.png" } },
     ],
-    meshes: { head_lod0_mesh: "skin", teeth_lod0_mesh: "tooth", tongue_lod0_mesh: "lost" },
+    meshes: { head_lod0_mesh: "skin", teeth_lod0_mesh: "tooth", tongue_lod0_mesh: "lost", hair_lod0_mesh: "card" },
   }));
   await open(dna, file, ...paths);
   assert.deepEqual(await materialOf("head_lod0_mesh"), {
@@ -131,6 +132,12 @@ test("materials beside a rig are shown, with their textures", options, async () 
   const tooth = await materialOf("teeth_lod0_mesh");
   assert.deepEqual([tooth.map, tooth.opacity, tooth.color, tooth.vertexColors], [null, 0.5, [0, 0.25, 1], false]);
   assert.match(await text("error"), /Some textures are missing: lost\.png/);
+  // A texture is the roughness itself; edges of cards are smooth.
+  assert.equal((await materialOf("hair_lod0_mesh")).roughness, 1);
+  assert.deepEqual(await page.run(() => {
+    const { alphaTest, alphaToCoverage } = window.viewer.model.object.children.find((child) => child.name === "hair_lod0_mesh").material;
+    return [alphaTest, alphaToCoverage];
+  }), [0.3, true]);
   const reds = (await canvas()).filter((value, i, all) => i % 4 === 0 && value > 40 && all[i + 2] < value / 3).length;
   assert.ok(reds > 100, `${reds} of 4096 pixels are red`);
   // They stay when the rig is opened with other options, and go with another rig.
@@ -412,6 +419,44 @@ test("expressions of ARKit drive rigs with other names, by sliders and recording
   await open(baked);
   assert.equal(await page.run(() => window.viewer.model.arkit), null, "its controls have these names");
   assert.deepEqual(page.errors, []);
+});
+
+/** How much of the picture's height the object takes, from below -1 to above 1. */
+const seen = () => page.run(() => {
+  const { object, camera } = window.viewer.stage;
+  const ys = [];
+  object.traverse((mesh) => {
+    for (let i = 0; mesh.isMesh && mesh.visible && i < mesh.geometry.attributes.position.count; i += 50) {
+      ys.push(mesh.getVertexPosition(i, camera.position.clone()).applyMatrix4(mesh.matrixWorld).project(camera).y);
+    }
+  });
+  return [Math.min(...ys), Math.max(...ys)];
+});
+
+test("a GLB fills the picture, whatever numbers its vertices have", options, async () => {
+  for (const more of [[], ["--no-quantize"], ["--quantize", "--skeleton"], ["--lod", "6", "--skeleton"]]) {
+    const [glb, plain] = [join(work, "framed.glb"), join(work, "plain.dna")]; // without materials beside it
+    copyFileSync(dna, plain);
+    mien(["export", plain, "-o", glb, "--force", "--quiet", ...more]);
+    await open(glb);
+    const [least, most] = await seen();
+    assert.ok(least > -1 && most < 1 && most - least > 1.2, `${more}: ${least} to ${most}`);
+    const drawn = (await canvas()).filter((value, i) => i % 4 === 3 && value > 0).length;
+    assert.ok(drawn > 300, `${more}: ${drawn} of 4096 pixels are drawn`);
+  }
+  assert.deepEqual(page.errors, []);
+});
+
+test("phonemes are told what makes a take of them, and each of several files has its message", options, async () => {
+  writeFileSync(join(work, "said.json"), JSON.stringify({ phonemes: [{ label: "m", begin: 0, end: 1 }] }));
+  writeFileSync(join(work, "torn.json"), "{");
+  await open(dna);
+  await open(join(work, "said.json"), join(work, "torn.json"));
+  assert.match(await text("error"), /said\.json could not be opened: these are phonemes: mien speak --phonemes 'said\.json' -o take\.clip/);
+  assert.match(await text("error"), /\ntorn\.json could not be opened/);
+  await open(dna);
+  assert.equal(await text("error"), "");
+  page.errors.length = 0;
 });
 
 test("a GLB opens with its morph targets", options, async () => {

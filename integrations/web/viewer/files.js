@@ -35,6 +35,9 @@ function rateOf(heading, lines) {
   return [24, 25, 30, 50, 60].find((rate) => most < rate) ?? 60;
 }
 
+/** Whether a JSON value is phonemes, as `mien speak` and the Montreal Forced Aligner write them. */
+export const isPhonemes = (value) => Array.isArray(value?.phonemes) || Boolean(value?.tiers?.phones);
+
 /** Values by name: of an object, or of a list in the order of `names`. */
 function named(values, names, what) {
   if (Array.isArray(values) && Array.isArray(names)) {

@@ -1,9 +1,20 @@
 // SPDX-License-Identifier: MIT
 // Materials of the meshes of a rig, out of the file that `mien author` writes beside it: head.materials.json.
-import { DoubleSide, LinearSRGBColorSpace, MeshStandardMaterial, RepeatWrapping, SRGBColorSpace, Texture } from "three";
+import {
+  CustomBlending, DoubleSide, LinearSRGBColorSpace, MeshStandardMaterial, OneFactor, RepeatWrapping, SRGBColorSpace, Texture, ZeroFactor,
+} from "three";
 
 // What each texture of the file is to three.js.
 const MAPS = { base_color: "map", normal: "normalMap", roughness: "roughnessMap" };
+
+/** Cards of hair get edges as smooth as those of triangles. */
+export function smoothCutEdges(material) {
+  material.alphaToCoverage = true;
+  // What is drawn stays opaque where something opaque is behind it: the page shines through the canvas.
+  Object.assign(material, {
+    blending: CustomBlending, blendSrc: OneFactor, blendDst: ZeroFactor, blendSrcAlpha: OneFactor, blendDstAlpha: OneFactor,
+  });
+}
 
 const isObject = (value) => value !== null && typeof value === "object" && !Array.isArray(value);
 
@@ -22,7 +33,7 @@ export class Materials {
     materials.missing = [];
     for (const path of paths) {
       const blob = typeof path === "string" && path !== "" ? await find(path) : null;
-      const image = blob && await createImageBitmap(blob, { imageOrientation: "flipY" }).catch(() => null);
+      const image = blob && await createImageBitmap(blob, { imageOrientation: "flipY", premultiplyAlpha: "none" }).catch(() => null);
       if (image) materials.#textures.set(path, image);
       else materials.missing.push(String(path));
     }
@@ -45,10 +56,10 @@ export class Materials {
       made.opacity = color[3] ?? 1;
       made.transparent = made.opacity < 1;
     }
-    if (typeof given.roughness === "number") made.roughness = given.roughness;
     if (given.alpha_cutoff > 0) { // cards of hair
       made.alphaTest = given.alpha_cutoff;
       made.side = DoubleSide;
+      smoothCutEdges(made);
     }
     for (const [kind, slot] of Object.entries(MAPS)) {
       const image = this.#textures.get(given.textures?.[kind]);
@@ -62,6 +73,8 @@ export class Materials {
       made[slot] = texture;
       this.#made.push(texture);
     }
+    // A texture is the roughness itself, unless the file scales it.
+    if (typeof given.roughness === "number" || made.roughnessMap) made.roughness = given.roughness ?? 1;
     // Colors of vertices stand for a material where none is given.
     made.userData.hasColor = Array.isArray(color) || made.map !== null;
     return made;

@@ -3,6 +3,7 @@
 import { Isa, Kind } from "mien";
 import { FaceObject } from "mien/three";
 import { ArkitControls } from "./arkit.js";
+import { smoothCutEdges } from "./materials.js";
 
 /** A rig of a DNA file or a baked file. */
 export class RigModel {
@@ -177,6 +178,7 @@ export class GlbModel {
     this.targets = new Map();
     scene.traverse((mesh) => {
       mesh.frustumCulled = false;
+      if (mesh.material?.alphaTest > 0) smoothCutEdges(mesh.material);
       for (const [name, target] of Object.entries(mesh.morphTargetDictionary ?? {})) {
         if (!this.targets.has(name)) this.targets.set(name, []);
         this.targets.get(name).push([mesh, target]);

@@ -3,12 +3,16 @@
 import { meshClass } from "mien/three";
 import { Box3, Vector3 } from "three";
 
+/** Of the vertices as they are shown: those of the file may be integers that only the joints scale to meters, and the
+ * boxes of three.js have room for every morph target. */
 function boxOf(object, isMeant) {
   const box = new Box3();
+  const vertex = new Vector3();
   object.traverse((node) => {
     if (!node.isMesh || !node.visible || !isMeant(meshClass(node.name))) return;
-    node.geometry.computeBoundingBox();
-    box.union(node.geometry.boundingBox.clone().applyMatrix4(node.matrixWorld));
+    for (let i = 0; i < node.geometry.attributes.position.count; ++i) {
+      box.expandByPoint(node.getVertexPosition(i, vertex).applyMatrix4(node.matrixWorld));
+    }
   });
   return box;
 }

@@ -3,7 +3,7 @@
 import { Isa, Kind, Mien, Preset } from "mien";
 import { Attention } from "./attention.js";
 import { Comparison } from "./compare.js";
-import { readCsv, readFrames } from "./files.js";
+import { isPhonemes, readCsv, readFrames } from "./files.js";
 import { HeatMap } from "./heat.js";
 import { LIGHTS } from "./lights.js";
 import { Live } from "./live.js";
@@ -58,7 +58,8 @@ function say(text) {
 function fail(what, error) {
   console.error(error);
   const place = error.byteOffset !== undefined && error.byteOffset !== null ? ` (at byte ${error.byteOffset})` : "";
-  $("error").textContent = `${what}: ${error.message}${place}`;
+  const before = $("error").hidden ? "" : `${$("error").textContent}\n`; // of another file of several
+  $("error").textContent = `${before}${what}: ${error.message}${place}`;
   $("error").hidden = false;
 }
 
@@ -157,8 +158,9 @@ async function openScene(value, find) {
   say(`${opened.name}: a live scene of ${player.take.duration.toFixed(1)} s${waits}`);
 }
 
-async function openJson(text, find) {
+async function openJson(name, text, find) {
   const value = JSON.parse(text);
+  if (isPhonemes(value)) throw new Error(`these are phonemes: mien speak --phonemes '${name}' -o take.clip makes a take of them`);
   if (isScene(value)) return openScene(value, find);
   const read = readFrames(value);
   if (!read.pose) {
@@ -175,10 +177,9 @@ async function openJson(text, find) {
 
 /** Opens the bytes of a file. `find` gives the bytes of another one, by its name, or null. */
 async function openBytes(name, bytes, materials, find = async () => null) {
-  clearError();
   if (SOUNDS.test(name)) return openSound(name, bytes);
   const ending = name.slice(name.lastIndexOf(".") + 1).toLowerCase();
-  if (ending === "json") return openJson(new TextDecoder().decode(bytes), find);
+  if (ending === "json") return openJson(name, new TextDecoder().decode(bytes), find);
   if (TAKES.test(name)) {
     needRig();
     if (ending === "csv") return openTake(readCsv(new TextDecoder().decode(bytes)));
@@ -211,6 +212,7 @@ function sayAboutMaterials(materials, sayFailure) {
 }
 
 async function openFiles(files) {
+  clearError();
   const is = (ending) => (file) => ending.test(file.name);
   const list = [...files];
   // Images are found by their names alone: a page does not learn the folders of files.
