@@ -139,7 +139,7 @@ static constexpr Motion kCrowded[][2] = {
     {Motion::kFrown, Motion::kStretch},         {Motion::kPucker, Motion::kTongueOut},
     {Motion::kPucker, Motion::kShrugLower},     {Motion::kMouthLeft, Motion::kSneer},
     {Motion::kMouthLeft, Motion::kDimple},      {Motion::kCheekPuff, Motion::kTongueOut},
-    {Motion::kShrugUpper, Motion::kCheekPuff},  {Motion::kCheekPuff, Motion::kSneer},
+    {Motion::kSmile, Motion::kDimple},          {Motion::kSmile, Motion::kDeepenFold},
     {Motion::kFunnel, Motion::kPucker},         {Motion::kBrowInnerUp, Motion::kBrowOuterUp},
 };
 

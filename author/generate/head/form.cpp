@@ -137,9 +137,9 @@ double Form::lip_height(double x, int which) const {
   const double s = std::min(std::abs(x) / (1.04 * kMouthHalfWidth), 1.0), end = 1 - s * s;
   const double full = mix(1, person_.lips, 0.5) * (1 - 0.18 * which * person_.lip_share);
   if (which < 0)
-    return full * (0.80 * exact_pow(end, 0.50) - 0.05 * bump(s, 0, 0, 0, 0.30, 1) * end);
+    return full * (0.80 * exact_pow(end, 0.54) - 0.05 * bump(s, 0, 0, 0, 0.30, 1) * end);
   const double bow = 0.57 + 0.11 * bump(s, 0, 0.24, 0, 0.20, 1) - 0.06 * bump(s, 0, 0, 0, 0.11, 1);
-  return bow * full * exact_pow(end, 0.52);
+  return bow * full * exact_pow(end, 0.54);
 }
 
 FrontPlace Form::lip_curve(double out, int which) const {
@@ -235,26 +235,25 @@ double Form::relief(double x, double y) const {
       {-0.02 - 0.22 * p.cheek, 4.5, -5.0, 1.4, 1.5},    // hollow of the cheek
       {0.50 + 0.74 * p.muzzle, 0, -5.7, 2.6, 1.9},      // muzzle
       {-0.06 - 0.24 * p.age, 2.25, -4.35, 0.30, 0.85},  // from nose to mouth
-      {-0.30, 2.56, -6.00, 0.42, 0.34},                 // corners of the mouth, behind the cheek
-      {-0.24, 2.46, -6.00, 0.22, 0.20},                 // and the pit at the end of each
-      {0.17, 2.98, -6.12, 0.36, 0.60},                  // the muscles that meet beside them
-      {0.08, 3.3, -6.2, 0.7, 0.9},
-      {0.45 * p.weight, 4.3, -5.2, 1.6, 1.9},        // fat of the cheeks
-      {0.30 * p.weight, 3.0, -8.6, 1.8, 1.2},        // and of the jaw
-      {p.nose_hump, 0, -0.7, 0.7, 0.8},              // bridge of the nose: convex or hollow
-      {-0.16, 0, -4.85, 0.24, 0.60},                 // philtrum
-      {0.09, 0.42, -4.95, 0.18, 0.55},               // its edges
-      {0.10 * p.age, 3.2, -1.35, 1.1, 0.35},         // below the eyes
-      {-0.30 * p.age, 4.6, -4.0, 1.2, 1.2},          // cheeks sink
-      {0.28 * p.age, 3.6, -8.4, 1.5, 1.2},           // jowls
-      {-0.34, 0, -7.70, 1.5, 0.50},                  // fold above the chin
-      {0.26 + 0.62 * p.chin, 0, -9.25, 1.25, 0.95},  // chin
-      {0.10, 0.75, -9.35, 0.6, 0.6},                 // its two tubercles
-      {-p.cleft, 0, -9.25, 0.26, 0.75},              // and the cleft between them
-      {-0.16, 2.3, -9.0, 0.7, 1.0},                  // beside it, before the jowl
-      {0.22, 1.7, 5.6, 1.7, 1.5},                    // frontal eminences
-      {-0.10, 0, 4.3, 1.6, 0.7},                     // between them and the brow ridge
-      {-0.28, 6.0, 2.2, 0.9, 1.6},                   // temples
+      {-0.16, 2.60, -6.02, 0.62, 0.80},                 // corners of the mouth, behind the cheek
+      {-0.15, 2.52, -6.01, 0.25, 0.20},                 // and the pit at the end of each
+      {0.12, 3.30, -6.25, 0.75, 0.95},                  // the muscles that meet beside them
+      {0.45 * p.weight, 4.3, -5.2, 1.6, 1.9},           // fat of the cheeks
+      {0.30 * p.weight, 3.0, -8.6, 1.8, 1.2},           // and of the jaw
+      {p.nose_hump, 0, -0.7, 0.7, 0.8},                 // bridge of the nose: convex or hollow
+      {-0.16, 0, -4.85, 0.24, 0.60},                    // philtrum
+      {0.09, 0.42, -4.95, 0.18, 0.55},                  // its edges
+      {0.10 * p.age, 3.2, -1.35, 1.1, 0.35},            // below the eyes
+      {-0.30 * p.age, 4.6, -4.0, 1.2, 1.2},             // cheeks sink
+      {0.28 * p.age, 3.6, -8.4, 1.5, 1.2},              // jowls
+      {-0.34, 0, -7.70, 1.5, 0.50},                     // fold above the chin
+      {0.26 + 0.62 * p.chin, 0, -9.25, 1.25, 0.95},     // chin
+      {0.10, 0.75, -9.35, 0.6, 0.6},                    // its two tubercles
+      {-p.cleft, 0, -9.25, 0.26, 0.75},                 // and the cleft between them
+      {-0.16, 2.3, -9.0, 0.7, 1.0},                     // beside it, before the jowl
+      {0.22, 1.7, 5.6, 1.7, 1.5},                       // frontal eminences
+      {-0.10, 0, 4.3, 1.6, 0.7},                        // between them and the brow ridge
+      {-0.28, 6.0, 2.2, 0.9, 1.6},                      // temples
   };
   for (const Bump& b : bumps) z += b.amount * bump(std::abs(x), y, b.cx, b.cy, b.sx, b.sy);
   return z;
@@ -476,7 +475,7 @@ Color Form::skin_color(Vec3 p, double row, double lid) const {
     c = mix(c, mix(person_.lip, {60, 16, 20}, 0.5), 0.7 * inside * bump(0, d, 0, 0, 1, 0.05));
   }
   // Little light comes into the corners of the mouth.
-  c = mix(c, mix(skin, {64, 22, 22}, 0.6), 0.36 * bump(x, p.y, 2.44, mouth_line(p.x), 0.16, 0.13));
+  c = mix(c, mix(skin, {64, 22, 22}, 0.6), 0.60 * bump(x, p.y, 2.48, mouth_line(p.x), 0.17, 0.10));
   // Edges of the upper lids are dark with lashes.
   if (lid > 0) {
     const double open = upper_opening(p.x);

@@ -71,8 +71,8 @@ double from_middle(double out) { return 0.5 + 0.45 * out; }
 
 uint32_t SkinMaker::mouth_vertex(uint32_t from, double out, double depth, bool at_back) {
   static constexpr double kPath[][3] = {
-      {0.00, 0.00, 0.00},  {0.02, 0.00, -0.02}, {0.12, 0.12, -0.40}, {0.30, 0.85, -0.80},
-      {0.48, 1.62, -1.05}, {0.66, 1.75, -2.20}, {0.85, 1.25, -4.20}, {1.00, 0.00, -5.40}};
+      {0.00, 0.00, 0.00},  {0.02, 0.00, -0.004}, {0.12, 0.12, -0.40}, {0.30, 0.85, -0.80},
+      {0.48, 1.62, -1.05}, {0.66, 1.75, -2.20},  {0.85, 1.25, -4.20}, {1.00, 0.00, -5.40}};
   int i = 0;
   while (i < 6 && depth > kPath[i + 1][0]) ++i;
   const double t = (depth - kPath[i][0]) / (kPath[i + 1][0] - kPath[i][0]);
@@ -88,8 +88,11 @@ uint32_t SkinMaker::mouth_vertex(uint32_t from, double out, double depth, bool a
   v.position = v.closed;
   v.edge = false;
   v.depth = depth;
-  v.u = from_middle(out);
-  v.v = kInnerV * (0.5 + (v.side == Side::kAbove ? 0.42 : -0.42) * (1 - 0.9 * depth));
+  // Around the throat in the texture, so that both sides are next to each other at the corners. The jump there from
+  // the outside is within the first ring, which is too narrow to be seen.
+  const double from_throat = 1 - 0.9 * depth;
+  v.u = from_middle(out * from_throat);
+  v.v = kInnerV * (0.5 + (v.side == Side::kAbove ? 0.42 : -0.42) * open * from_throat);
   const Color lip = v.color, wet = {168, 78, 76}, dark = {58, 16, 20};
   v.color =
       mix(mix(lip, wet, smooth_step(0.02, 0.20, depth)), dark, smooth_step(0.30, 0.85, depth));

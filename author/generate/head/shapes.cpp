@@ -14,14 +14,23 @@ using author::smooth_step;
 
 // Jaw -------------------------------------------------------------------------------------------
 
+namespace {
+
+/// 1 in the middle of the mouth, 0 from the corners on. An open mouth is rounder than an ellipse.
+double inside_mouth(double x) {
+  const double s = std::abs(x) / kMouthHalfWidth;
+  return s < 1 ? 1 - exact_pow(s, 2.6) : 0;
+}
+
+}  // namespace
+
 double jaw_weight(const Vertex& v) {
   const Vec3 p = v.look;
-  const double s = std::abs(p.x) / kMouthHalfWidth;
   const double by_height = smooth_step(-4.0, -8.6, p.y);
   const double by_lip = v.side == Side::kBelow ? 1 : 0;
   // Round at the corners of the mouth, softer away from the lips.
   const double apart = std::min(std::abs(v.above_mouth), 2.0);
-  double w = mix(by_height, by_lip, exact_pow(std::max(0.0, 1 - s * s), 0.5 + 0.8 * apart));
+  double w = mix(by_height, by_lip, exact_pow(inside_mouth(p.x), 0.5 + 0.8 * apart));
   w *= smooth_step(-15.6, -10.4, p.y) * smooth_step(-2.5, 3.5, p.z);
   // The floor of the mouth hangs between chin and throat, which does not move.
   w *= mix(1, 0.25 + 0.75 * smooth_step(2.0, 8.2, p.z), smooth_step(-8.6, -11.8, p.y));
@@ -39,11 +48,8 @@ Vec3 move_with_jaw(const JointTurns& turns, Vec3 p) {
 
 namespace {
 
-/// Where the mouth opens: 1 in the middle, 0 from the corners on, round.
-double between_corners(double x) {
-  const double s = x / kMouthHalfWidth;
-  return std::sqrt(std::max(0.0, 1 - s * s));
-}
+/// How far the mouth opens.
+double between_corners(double x) { return std::sqrt(inside_mouth(x)); }
 
 struct Window {
   Vec3 look;
@@ -52,22 +58,23 @@ struct Window {
   }
 };
 
-/// The fold from the wing of the nose past the corner of the mouth to the side of the chin; `beside` it, towards
-/// the cheek.
+/// The fold from the wing of the nose past the corner of the mouth to the side of the chin: a valley, and beside it,
+/// towards the cheek, the mass that hangs over it.
 struct Fold {
-  Vec3 look;
-  double at(double beside) const {
-    constexpr double kWingX = 1.75, kWingY = -3.0, kCornerX = 3.20, kCornerY = -5.8, kEndY = -7.6;
+  explicit Fold(Vec3 look) {
+    constexpr double kWingX = 1.75, kWingY = -3.0, kCornerX = 3.35, kCornerY = -5.8, kEndY = -7.6;
     const double down = (look.y - kWingY) / (kCornerY - kWingY);
     // Straight from the wing to beside the corner; below it bends back.
     const double past = std::max(0.0, down - 0.8);
     const double line = mix(kWingX, kCornerX, down) - 1.1 * past * past;
     constexpr double kLean = 0.89;  // cosine of the angle between the line and the vertical
-    const double across = (look.x - line) * kLean - beside;
-    const double wide = beside > 0 ? 0.48 : 0.26;
-    return bump(across, 0, 0, 0, wide, 1) * smooth_step(kWingY + 0.7, kWingY - 0.6, look.y) *
-           smooth_step(kEndY, kCornerY, look.y);
+    const double across = (look.x - line) * kLean;
+    const double along = smooth_step(kWingY + 0.9, kWingY - 0.9, look.y) *
+                         smooth_step(kEndY, kCornerY + 0.2, look.y);
+    valley = bump(across, 0, 0, 0, across > 0 ? 0.40 : 0.50, 1) * along;
+    roll = smooth_step(-0.1, 1.0, across) * smooth_step(2.6, 0.6, across) * along;
   }
+  double valley, roll;
 };
 
 /// Moves one lip to a line between where the open jaw has put both.
@@ -107,13 +114,13 @@ Vec3 Shapes::lids(Motion motion, const Vertex& v) const {
 
 Vec3 Shapes::one_side(Motion motion, Vec3 look, const Vertex& v) const {
   const Window w = {look};
-  const Fold fold = {look};
+  const Fold fold(look);
   const double line = v.above_mouth;
   const double apart = between_corners(look.x);
   const bool above = v.side == Side::kAbove;
   // Corners pull the lips along, less toward the middle: lines of lips bend without a kink.
   const double out = std::min(std::max(look.x, 0.0) / kMouthHalfWidth, 1.1);
-  const double corner = out * out * bump(0, line, 0, 0, 1, 1.45) * smooth_step(4.9, 2.5, look.x);
+  const double corner = out * out * bump(0, line, 0, 0, 1, 1.45) * smooth_step(5.3, 2.5, look.x);
   Vec3 d;
   const auto add = [&d](double amount, Vec3 way) { d = d + way * amount; };
   switch (motion) {
@@ -136,16 +143,20 @@ Vec3 Shapes::one_side(Motion motion, Vec3 look, const Vertex& v) const {
     case Motion::kLookIn:
     case Motion::kLookOut: break;
     case Motion::kSmile:
-      // The line of the lips bends up at its ends; its middle loses the bow.
-      add(corner, {0.78, 0.72 * mix(0.50, 1, out), -0.56});
-      add(bump(look.x, line, 0, 0, 0.9, 0.6), {0, 0.04, 0});
-      add(w.at(0.9, -5.4, 0.9, 0.5), {0.05, 0.06, -0.06});
-      // Cheeks rise below the eyes, round in front.
-      add(w.at(4.1, -2.9, 1.5, 1.25), {0.14, 0.66, 0.56});
-      add(w.at(3.5, -2.8, 1.0, 0.9), {0.02, 0.04, 0.18});
-      add(w.at(3.9, -4.9, 0.9, 0.9), {0.06, 0.10, 0.16});
-      add(fold.at(0), {0.02, 0.04, -0.22});
-      add(fold.at(0.62), {0.10, 0.20, 0.32});
+      // The line of the lips bends up at its ends; its middle loses the bow. Stretched lips are thinner.
+      add(corner, {0.80, 0.76 * mix(0.36, 1, out), -0.60});
+      add(bump(look.x, line, 0, 0, 0.8, 0.9), {0, 0.09, 0});
+      add(bump(look.x, line, 0, 0, 2.0, 0.9), {0, -0.20 * line, -0.08});
+      add(w.at(0.9, -5.2, 1.1, 0.7), {0.05, 0.06, -0.08});
+      // The cheek is pushed up below the eye, round in front, and hangs over the fold.
+      add(w.at(3.8, -3.0, 1.7, 1.4), {0.08, 0.60, 0});
+      add(w.at(3.5, -3.5, 1.35, 1.25), {0, 0, 0.60});
+      add(w.at(4.9, -3.6, 1.5, 1.7), {0.30, 0.12, 0.16});
+      add(fold.roll, {0.02, 0.20, 0.26});
+      add(fold.valley, {0.04, 0.02, -0.18});
+      add(w.at(3.3, -1.35, 1.4, 0.5), {0, 0.08, 0.12});
+      // A dimple beside the corner.
+      add(w.at(3.40, -5.80, 0.45, 0.50), {0, 0, -0.08});
       add(w.at(1.3, -3.0, 0.5, 0.5), {0.12, 0.06, 0});
       break;
     case Motion::kFrown:
@@ -192,8 +203,8 @@ Vec3 Shapes::one_side(Motion motion, Vec3 look, const Vertex& v) const {
       add(w.at(1.05, -0.5, 0.8, 1.1), {-0.06, 0.26, 0.14});
       add(w.at(2.6, -2.6, 1.2, 1.2), {0, 0.30, 0.20});
       add(w.at(1.3, 2.8, 1.1, 0.9), {-0.14, -0.34, 0.06});
-      add(fold.at(0), {0, 0.05, -0.12});
-      add(fold.at(0.62), {0, 0.10, 0.14});
+      add(fold.valley, {0, 0.05, -0.12});
+      add(fold.roll, {0, 0.10, 0.14});
       // The lip is pulled up from above; its edge hardly leaves the other one.
       if (above) {
         add(bump(look.x, line, 1.5, 1.0, 1.3, 1.0) * mix(0.12, 1, smooth_step(0, 0.8, line)),
@@ -232,8 +243,8 @@ Vec3 Shapes::one_side(Motion motion, Vec3 look, const Vertex& v) const {
       add(w.at(1.75, -3.3, 0.5, 0.7), {0.10, 0.04, 0.04});
       break;
     case Motion::kDeepenFold:
-      add(fold.at(0), {0, 0.03, -0.28});
-      add(fold.at(0.62), {0.04, 0.14, 0.26});
+      add(fold.valley, {0, 0.03, -0.24});
+      add(fold.roll, {0.02, 0.14, 0.28});
       add(w.at(3.4, -3.2, 1.1, 1.0), {0.02, 0.20, 0.14});
       break;
     case Motion::kClench:  // masseter and temple
@@ -275,7 +286,11 @@ Vec3 Shapes::both_sides(Motion motion, const Vertex& v) const {
   const double line = v.above_mouth, apart = between_corners(look.x);
   const bool above = v.side == Side::kAbove;
   const double lips = bump(look.x, line, 0, 0, 2.7, 1.5);
-  const double narrow = smooth_step(5.0, 2.2, look.x) * bump(0, line, 0, 0, 1, 1.5);
+  const double narrow = smooth_step(5.4, 2.2, look.x) * bump(0, line, 0, 0, 1, 1.5);
+  // Lips that are pushed forward come to lie in one plane: their corners go farther than their middle.
+  const auto forward = [x = look.x](double middle, double corners) {
+    return mix(middle, corners, smooth_step(0, 2.4, x)) * smooth_step(5.0, 2.4, x);
+  };
   Vec3 d;
   const auto add = [&d](double amount, Vec3 way) { d = d + way * amount; };
   switch (motion) {
@@ -296,28 +311,27 @@ Vec3 Shapes::both_sides(Motion motion, const Vertex& v) const {
       add(w.at(0, -11.3, 1.8, 0.8), {0, 0.06, -0.18});
       break;
     case Motion::kFunnel:
-      add(narrow, {-0.34 * look.x, 0, 0});
-      add(bump(look.x, line, 2.5, 0, 0.9, 1.0), {0, 0, 0.30});
-      add(bump(look.x, line, 0, above ? 0.4 : -0.4, 1.2, 0.5), {0, 0, 0.14});
-      add(lips, {0, 0, 0.75});
-      add(bump(look.x, line, 0, 0, 2.2, 0.8), {0, 0, 0.40});
-      add(lips * apart, {0, above ? 0.20 : -0.30, 0.14});
-      add(lips * bump(0, line, 0, 0, 1, 0.5) * apart, {0, 0, 0.16});
+      add(narrow, {-0.36 * look.x, 0, 0});
+      add(bump(0, line, 0, 0, 1, 1.5), {0, 0, forward(0.60, 0.80)});
+      add(bump(0, line, 0, 0, 1, 0.8), {0, 0, forward(0.35, 0.50)});
+      add(bump(look.x, line, 0, 0, 0.7, 0.8), {0, 0.08, 0});
+      // The lips are turned outwards.
+      add(lips * apart, {0, above ? 0.22 : -0.26, 0.06});
+      add(bump(look.x, line, 0, 0, 2.2, 0.4) * apart, {0, above ? 0.10 : -0.10, 0.06});
       break;
     case Motion::kPucker:
-      add(narrow, {-0.43 * look.x, 0, 0});
-      // The corners come closest: red runs around to them, and no line is left beside it.
-      add(smooth_step(1.1, 2.45, look.x) * smooth_step(4.6, 2.6, look.x) *
-              bump(0, line, 0, 0, 1, 1.3),
-          {-0.30, 0, 0});
-      add(bump(look.x, line, 1.9, 0, 0.8, 1.0), {0, -0.34 * line, 0});
-      add(bump(look.x, line, 2.1, 0, 0.55, 0.45), {0, 0.62 * line, 0.06});
-      add(bump(look.x, line, 2.5, 0, 0.9, 0.9), {0, 0, 0.50});
-      add(bump(look.x, line, 2.5, 0, 0.36, 0.30), {0, 0, 0.26});
-      add(lips, {0, -0.08 * line, 0.46});
-      add(bump(look.x, line, 0, 0, 1.9, 1.1), {0, 0.36 * line * apart, 0.55});
-      add(bump(look.x, line, 0, 0, 1.1, 0.8), {0, 0.16 * line, 0.32});
+      add(narrow, {-0.55 * look.x, 0, 0});
+      add(bump(0, line, 0, 0, 1, 1.5), {0, 0, forward(0.40, 0.70)});
+      add(bump(0, line, 0, 0, 1, 0.8), {0, 0, forward(0.62, 0.74)});
+      // Lips become as round as they are wide.
+      add(bump(look.x, line, 0, 0, 2.1, 0.75), {0, 0.30 * line, 0});
+      add(bump(look.x, line, 2.0, 0, 0.6, 0.55), {0, 0.25 * line, 0});
+      add(bump(look.x, line, 0, 0, 2.6, 0.28), {0, 0, 0.10 * apart});
       add(w.at(4.2, -5.2, 1.3, 1.6), {-0.25, 0, -0.12});
+      break;
+    case Motion::kJawOpen:  // cheeks are drawn tight between the jaws, and the corners in
+      add(smooth_step(4.0, 2.2, look.x) * bump(0, line, 0, 0, 1, 0.9), {-0.06 * look.x, 0, 0});
+      add(bump(look.x, line, 0, 0, 0.7, 0.8), {0, 0.06, 0});
       break;
     case Motion::kLessRaise: add(lips * apart, {0, above ? -0.10 : 0.85, 0.10}); break;
     case Motion::kLessRound:  // the jaw has opened the lips already
@@ -361,7 +375,8 @@ Vec3 Shapes::both_sides(Motion motion, const Vertex& v) const {
     default: break;
   }
   // The middle does not move sideways; motions that scale x keep it there anyway.
-  const bool by_share = motion == Motion::kPucker || motion == Motion::kFunnel;
+  const bool by_share =
+      motion == Motion::kPucker || motion == Motion::kFunnel || motion == Motion::kJawOpen;
   if (!by_share) d.x *= clamp01(look.x / 0.8);
   return d * off_lids(look);
 }
@@ -375,7 +390,7 @@ Vec3 Shapes::skin_displacement(uint32_t index, const Vertex& v) const {
   Vec3 d;
   // Windows are those of the front view: nothing moves at the back. Inside the mouth the skin follows the
   // lips less with depth.
-  const double share = smooth_step(-0.5, 3.0, v.look.z) * (1 - smooth_step(0.20, 0.80, v.depth));
+  const double share = smooth_step(-0.5, 3.0, v.look.z) * (1 - smooth_step(0.08, 0.50, v.depth));
   if (share > 0) {
     if (s.side == 0) {
       d = both_sides(s.motion, v);
