@@ -111,7 +111,7 @@ void run_speak(const SpeakOptions& options, const Session& session) {
     output.write(bytes.data(), size);
   }
   std::optional<Output> wav, phonemes;
-  if (!options.wav.empty()) speech::write_wav(*heard.sound, wav.emplace(options.wav));
+  if (!options.wav.empty()) wav.emplace(options.wav).write(speech::wav_bytes(*heard.sound));
   if (!options.save_phonemes.empty()) {
     speech::write_phoneme_json(heard.utterance, heard.alphabet,
                                phonemes.emplace(options.save_phonemes));

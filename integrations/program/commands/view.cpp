@@ -10,6 +10,7 @@
 
 #include "integrations/program/commands/options.h"
 #include "integrations/program/commands/real_time.h"
+#include "integrations/program/commands/view_takes.h"
 #include "integrations/program/io/baked_file.h"
 #include "integrations/program/io/input.h"
 #include "integrations/program/io/materials.h"
@@ -23,6 +24,7 @@ namespace {
 
 struct ViewOptions {
   std::string file, port, page, names;
+  std::vector<std::string> takes;
   RealTimeOptions real_time;
   bool no_open = false;
 };
@@ -54,7 +56,7 @@ Rig checked_rig(const std::string& bytes, const std::string& shown, bool is_live
     }
   } else if (bytes.compare(0, 4, "glTF") != 0) {
     fail(kInvalid, "cannot view", shown, "it is not a DNA file, baked file or GLB",
-         "check what was given; poses and takes are dropped on the page");
+         "name a rig first; poses and takes come after it, or are dropped on the page");
   }
   return Rig(rig);
 }
@@ -117,19 +119,6 @@ class LiveView {
   std::atomic<bool> is_over_{false};
   std::thread receiver_;
 };
-
-/// Everything but letters, digits and - . _ ~ as %XX.
-std::string url_encoded(const std::string& text) {
-  std::string encoded;
-  for (const char c : text) {
-    const bool plain = (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') ||
-                       c == '-' || c == '.' || c == '_' || c == '~';
-    char hex[4];
-    std::snprintf(hex, sizeof(hex), "%%%02X", static_cast<unsigned>(static_cast<unsigned char>(c)));
-    encoded += plain ? std::string(1, c) : hex;
-  }
-  return encoded;
-}
 
 /// What the page calls the file; it tells GLB by the ending.
 std::string name_of(const std::string& path, const std::string& bytes) {
@@ -205,6 +194,7 @@ void run(const ViewOptions& options, const Session& session) {
     files["/rig/" + name] = {"application/octet-stream", std::move(bytes)};
     // The page decodes its query, the server the path that is in it.
     address += "?file=rig/" + url_encoded(url_encoded(name)) + of_materials;
+    address += serve_takes(options.takes, files, session);
     if (live) address += "&live=live";
   }
   view::serve(files, live ? &live->rows() : nullptr, static_cast<uint16_t>(port),
@@ -228,6 +218,10 @@ Command add_view_command(CLI::App& app, const Session& session) {
   view->add_option("FILE", options->file,
                    "DNA file, baked rig or GLB; - reads standard input. Default: an empty page")
       ->type_name("");
+  view->add_option("TAKES", options->takes,
+                   "What it plays: clips, Live Link Face CSV, scenes of 'mien play' with\nall that "
+                   "they name, poses and frames (JSON), mixes, and a sound")
+      ->type_name("");
   view->add_option("--port", options->port, "Port on 127.0.0.1 (default: a free one)")
       ->type_name("N");
   view->add_flag("--no-open", options->no_open, "Print the address without opening a browser");
@@ -249,13 +243,15 @@ Command add_view_command(CLI::App& app, const Session& session) {
       ->type_name("FILE");
   view->footer(
       "Serves the viewer on this machine until it is interrupted, and opens the browser. The "
-      "file,\n"
-      "and head.materials.json with its textures beside head.dna, are\n"
-      "read once and only sent to the page; nothing leaves the machine. Other users of the "
-      "machine\n"
-      "can open the address too.\n\n"
+      "files, "
+      "and head.materials.json with its textures beside head.dna, are read once and only sent to "
+      "the "
+      "page; nothing leaves the machine. Other users of the machine can open the address too.\n\n"
+      "A scene that speaks is heard in time: its takes are made as 'mien speak' makes them.\n\n"
       "Examples:\n"
       "  mien view head.dna\n"
+      "  mien view head.dna hello.clip hello.wav\n"
+      "  mien view head.dna scene.json\n"
       "  mien view head.rig --port 8000 --no-open\n"
       "  mien view head.dna --live livelink://:11111\n"
       "  mien gen --preset medium -o - | mien view -");

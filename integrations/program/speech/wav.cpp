@@ -129,7 +129,7 @@ Sound16 parse_wav(const std::string& bytes, const std::string& shown) {
   chunks.wrong(bytes.size(), "the file ends before its samples");
 }
 
-void write_wav(const Sound16& sound, cli::Output& output) {
+std::string wav_bytes(const Sound16& sound) {
   const auto data = static_cast<uint32_t>(2 * sound.samples.size());
   std::string bytes;
   const auto number = [&](uint64_t value, size_t count) {
@@ -148,7 +148,7 @@ void write_wav(const Sound16& sound, cli::Output& output) {
   bytes += "data";
   number(data, 4);
   for (const int16_t sample : sound.samples) number(static_cast<uint16_t>(sample), 2);
-  output.write(bytes);
+  return bytes;
 }
 
 Sound16 resample(const Sound16& sound, uint32_t rate) {

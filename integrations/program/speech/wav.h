@@ -6,8 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "integrations/program/io/output.h"
-
 namespace mien::speech {
 
 /// One channel.
@@ -21,7 +19,8 @@ struct Sound16 {
 /// promises more samples than the file has counts for those that are there. Fails with exit code 2.
 Sound16 parse_wav(const std::string& bytes, const std::string& shown);
 
-void write_wav(const Sound16& sound, cli::Output& output);
+/// A WAV file with PCM of 16 bits.
+std::string wav_bytes(const Sound16& sound);
 
 /// At another rate, by a windowed sinc that leaves out what the lower rate cannot hold.
 Sound16 resample(const Sound16& sound, uint32_t rate);

@@ -4,6 +4,7 @@
 
     cli_view_test.py path/to/mien [unittest options]      (or MIEN_BIN=path/to/mien)
 """
+import ctypes.util
 import http.client
 import json
 import os
@@ -244,6 +245,48 @@ class View(ProgramTest):
             self.assertTrue(line, "it has ended")
             if "listening on" in line:
                 return int(line.rsplit(":", 1)[1])
+
+    def test_what_the_rig_plays_comes_with_it(self):
+        """Files as they are; of scenes the clips that they name, the takes of what they say, and its sound."""
+        def clip(name):
+            write("said.json", json.dumps({"phonemes": [{"label": "m", "begin": 0, "end": 0.2}, {"label": "a", "begin": 0.2, "end": 0.4}]}))
+            self.ok("speak", "--phonemes", path("said.json"), "-o", path(name))
+        clip("a part.clip")
+        write("voice.wav", b"RIFF")
+        said = {"speech": {"phonemes": "said.json"}}
+        write("scene.json", json.dumps({"seconds": 2, "layers": [
+            {"name": "talk", "source": said}, {"name": "more", "source": {"clip": "a part.clip"}},
+            {"name": "again", "source": said}, {"name": "hear", "source": {"live": True}}],
+            "events": [{"time": 1, "layer": "talk", "play": {"speech": {**said["speech"]}}},
+                       {"time": 0.5, "layer": "talk", "play": {"clip": "a part.clip"}}]}))
+        url = self.start(path("tiny.dna"), path("voice.wav"), path("scene.json"))
+        more = parse_qs(urlsplit(url).query)["more"]
+        self.assertEqual(more, ["rig/voice.wav", "rig/talk.speech.clip", "rig/a%20part.clip", "rig/scene.json"])
+        for where, name in zip(more, ("voice.wav", None, "a part.clip", "scene.json")):
+            status, _, body = self.ask("/" + where)
+            self.assertEqual(status, 200)
+            self.assertEqual(body, read(name or "a part.clip"), where)
+        # A text is heard.
+        scene = {"layers": [{"name": "talk", "source": {"speech": {"text": "Mama."}}}],
+                 "events": [{"time": 1, "layer": "talk", "play": {"speech": {"text": "Papa."}}}]}
+        write("scene.json", json.dumps(scene))
+        if ctypes.util.find_library("espeak-ng") is None:
+            print("NOT TESTED: the sound of a scene in mien view; espeak-ng is not installed")
+            self.fails(FILE, "view", "--page", path("page"), path("tiny.dna"), path("scene.json"), "--no-open", says="espeak-ng")
+        else:
+            more = parse_qs(urlsplit(self.start(path("tiny.dna"), path("scene.json"))).query)["more"]
+            self.assertEqual(more, ["rig/talk.speech.clip", "rig/talk-2.speech.clip", "rig/scene.json", "rig/talk.wav"])
+            self.ok("speak", "Mama.", "-o", path("mama.clip"), "--wav", path("mama.wav"))
+            self.assertEqual(self.ask("/rig/talk.speech.clip")[2], read("mama.clip"))
+            self.assertEqual(self.ask("/rig/talk.wav")[2], read("mama.wav"))
+
+    def test_what_is_nothing_to_play_is_refused(self):
+        page = "view", "--page", path("page"), "--no-open", path("tiny.dna")
+        self.fails(USAGE, *page, path("tiny.dna"), says="nothing that a rig plays")
+        self.fails(FILE, *page, path("missing.clip"), says="missing.clip")
+        self.fails(INVALID, *page, write("scene.json", '{"layers": [{"name": "a"}]}'), says="scene.json")
+        self.fails(FILE, *page, write("scene.json", '{"layers": [{"name": "a", "source": {"clip": "none.clip"}}]}'), says="none.clip")
+        self.fails(INVALID, "view", "--page", path("page"), "--no-open", path("scene.json"), says="name a rig first")
 
     def test_live_data_are_sent_to_the_page(self):
         """A packet of Live Link Face becomes a line for each page that asks; answers end when the program ends."""

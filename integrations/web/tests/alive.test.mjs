@@ -9,7 +9,7 @@ import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
 import { mien, program, sameBits } from "./support.mjs";
-import { baked, choose, dna, frames, numbers, open, options, page, press, slide, switches, text, work } from "./viewer_page.mjs";
+import { baked, choose, dna, frames, numbers, open, options, page, press, server, slide, switches, text, work } from "./viewer_page.mjs";
 
 // The program gives the bits of WebAssembly, also where guards measure positions.
 process.env.MIEN_ISA = "scalar";
@@ -176,6 +176,21 @@ test("scenes speak as in the program, with takes of `mien speak`", options, asyn
   });
   mien(["play", scene, baked, "-o", join(work, "spoken.json"), "--quiet"]);
   const native = JSON.parse(readFileSync(join(work, "spoken.json")));
+  // `mien view` makes the takes itself.
+  const viewing = spawn(program, ["view", baked, scene, "--no-open"]);
+  let direct;
+  try {
+    const [address] = await once(viewing.stdout, "data");
+    await page.goto(String(address).trim());
+    await page.until("() => window.viewer?.player.take && !document.body.hasAttribute('aria-busy')", "opened");
+    assert.match(await text("file"), /72 controls played, 2\.5 s/);
+    direct = await page.run(() => Array.from(window.viewer.player.take.clip.read()));
+  } finally {
+    viewing.kill("SIGINT");
+    await once(viewing, "exit");
+  }
+  await page.goto(server.url);
+  await page.until("() => document.body.dataset.ready", "loaded");
   await open(baked);
   await open(scene, takes[0]);
   assert.match(await text("error"), /make it with mien speak --phonemes 'second\.json' -o 'talk-2\.speech\.json'/);
@@ -185,6 +200,7 @@ test("scenes speak as in the program, with takes of `mien speak`", options, asyn
     const { clip } = window.viewer.player.take;
     return [clip.channels.map(({ name }) => name), Array.from(clip.read())];
   });
+  assert.deepEqual(direct, values);
   const curve = (name) => Float32Array.from({ length: native.frames.length }, (_, frame) => values[frame * names.length + names.indexOf(name)]);
   for (const [i, name] of native.controls.entries()) {
     assert.ok(sameBits(curve(name), Float32Array.from(native.frames, ({ raw }) => raw[i])), name);

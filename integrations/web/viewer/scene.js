@@ -21,7 +21,7 @@ export const isScene = (value) => Array.isArray(value?.layers);
 export const isLive = (value) => value.layers.some(({ source }) => source?.live);
 
 /** Whether a file is a take of speech for a scene, and not to be opened by itself. */
-export const SPEECH = /\.speech\.json$/i;
+export const SPEECH = /\.speech\.(json|clip)$/i;
 
 const quoted = (text) => `'${String(text).replaceAll("'", "'\\''")}'`;
 
@@ -109,8 +109,8 @@ class Scene {
 
   /** `find` gives the bytes of a file by its name, or null. */
   async openClips(find) {
-    const sources = [...this.value.layers.map(({ name, source }) => [name, source]),
-      ...(this.value.events ?? []).map(({ layer, play }) => [layer, play])];
+    const events = [...(this.value.events ?? [])].sort((a, b) => a.time - b.time);
+    const sources = [...this.value.layers.map(({ name, source }) => [name, source]), ...events.map(({ layer, play }) => [layer, play])];
     const spoken = {}; // how many takes of speech each layer has
     for (const [layer, source] of sources) {
       const key = clipKey(source);
@@ -138,9 +138,12 @@ class Scene {
     return { clip, binding: clip.bind(this.rig, { matrix: this.mien.arkitMatrix() }), head };
   }
 
-  /** The take that `mien speak` has written as JSON. */
+  /** The take that `mien speak` has written, as a clip or as JSON. */
   async #openSpeech(layer, number, speech, find) {
-    const file = `${layer}${number > 1 ? `-${number}` : ""}.speech.json`;
+    const name = `${layer}${number > 1 ? `-${number}` : ""}.speech`;
+    const made = await find(`${name}.clip`);
+    if (made) return this.#bind(await this.mien.openClip(made));
+    const file = `${name}.json`;
     const bytes = await find(file);
     if (!bytes) {
       throw new Error(`the speech of layer ${layer} is missing: make it with ${speakCommand(speech, file)}, and drop it together with the scene`);

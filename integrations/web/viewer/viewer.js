@@ -211,8 +211,13 @@ function sayAboutMaterials(materials, sayFailure) {
   fail("Some textures are missing", new Error(`${materials.missing.slice(0, 5).join(", ")}; drop them together with the rig`));
 }
 
-async function openFiles(files) {
+function openFiles(files) {
   clearError();
+  return openEach(files);
+}
+
+/** Opens files, and shows a message for each that cannot be opened. */
+async function openEach(files) {
   const is = (ending) => (file) => ending.test(file.name);
   const list = [...files];
   // Images are found by their names alone: a page does not learn the folders of files.
@@ -555,6 +560,9 @@ if (wanted) {
     const [materials, sayFailure] = await fetchMaterials(query.get("materials"));
     await openBytes(name, new Uint8Array(await answer.arrayBuffer()), materials);
     sayAboutMaterials(materials, sayFailure);
+    // &more=ADDRESS, of any number: what it plays.
+    await openEach(await Promise.all(query.getAll("more").map(async (address) =>
+      new File([await (await fetch(address)).blob()], decodeURIComponent(address.slice(address.lastIndexOf("/") + 1))))));
   });
 }
 // &live=ADDRESS follows what `mien view --live` receives.
