@@ -287,7 +287,7 @@ class Sounds(ProgramTest):
         heard = [row["begin"] for row in json.loads(read("heard.json"))["phonemes"] if row["label"] in ("M", "B", "P")]
         self.assertEqual(len(said), len(heard))
         for one, other in zip(said, heard):
-            self.assertLess(abs(one - other), 0.25)
+            self.assertLess(abs(one - other), 0.12)
 
     def test_silence_is_no_speech(self):
         self.fails(INVALID, "speak", "--audio", write("silent.wav", wav([0.0] * 16000)), "-o", path("no.clip"),
