@@ -23,7 +23,7 @@ export interface FaceObjectOptions {
   /** Makes the material of a mesh; undefined: a MeshStandardMaterial by its class. Colors of vertices that the rig
    * has are multiplied by its color, unless its userData.hasColor is true. */
   material?: (kind: MeshClass, name: string) => Material | undefined;
-  /** Show tears and shells, which need textures to look right. Default: false. */
+  /** Show tears, shells, and lashes without a texture: they look right with textures only. Default: false. */
   showFilms?: boolean;
 }
 

@@ -224,7 +224,9 @@ export class FaceObject extends Group {
     }
     const mesh = this.#skeleton ? this.#skinned(index, neutral, geometry, material) : new Mesh(geometry, material);
     mesh.name = name;
-    mesh.userData = { kind, index, vertexCount: neutral.vertexCount, channels: neutral.targetChannels.slice() };
+    // Cards of lashes are wedges until a texture cuts hairs out of them.
+    const isShown = kind !== "film" && (material.map || !/lash/i.test(name));
+    mesh.userData = { kind: isShown ? kind : "film", index, vertexCount: neutral.vertexCount, channels: neutral.targetChannels.slice() };
     return mesh;
   }
 

@@ -76,8 +76,12 @@ test("the built-in head opens by its button", options, async () => {
   assert.equal(await text("file"), "Built-in head");
   assert.equal(await text("count"), "72 controls");
   assert.match(await text("facts"), /110 joints.*8 LODs/);
+  assert.deepEqual(await seenMeshes(/lash|brow/), ["brows_lod0_mesh"]); // cards of lashes need a texture
   assert.deepEqual(page.errors, []);
 });
+
+const seenMeshes = async (pattern) => (await page.run(() => window.viewer.model.object.children.filter((mesh) => mesh.visible).map((mesh) => mesh.name)))
+  .filter((name) => pattern.test(name));
 
 /** The bytes of a PNG of 2 x 2 pixels: the color above, black below. */
 function png(color) {
@@ -124,7 +128,7 @@ test("materials beside a rig are shown, with their textures", options, async () 
       { name: "lost", textures: { base_color: "lost.png" } },
       { name: "card", alpha_cutoff: 0.3, textures: { base_color: "color.png", roughness: "rough.png" } },
     ],
-    meshes: { head_lod0_mesh: "skin", teeth_lod0_mesh: "tooth", tongue_lod0_mesh: "lost", hair_lod0_mesh: "card" },
+    meshes: { head_lod0_mesh: "skin", teeth_lod0_mesh: "tooth", tongue_lod0_mesh: "lost", hair_lod0_mesh: "card", lashes_lod0_mesh: "card" },
   }));
   await open(dna, file, ...paths);
   assert.deepEqual(await materialOf("head_lod0_mesh"), {
@@ -132,6 +136,7 @@ test("materials beside a rig are shown, with their textures", options, async () 
   const tooth = await materialOf("teeth_lod0_mesh");
   assert.deepEqual([tooth.map, tooth.opacity, tooth.color, tooth.vertexColors], [null, 0.5, [0, 0.25, 1], false]);
   assert.match(await text("error"), /Some textures are missing: lost\.png/);
+  assert.deepEqual(await seenMeshes(/lash/), ["lashes_lod0_mesh"]);
   // A texture is the roughness itself; edges of cards are smooth.
   assert.equal((await materialOf("hair_lod0_mesh")).roughness, 1);
   assert.deepEqual(await page.run(() => {
