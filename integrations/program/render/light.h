@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The studio: a warm key light from the upper left, a cool fill, rims from behind, and a soft sky.
-// It moves with the camera.
+// The studio: a large warm key light from the upper left, a cool fill, rims from behind, a soft sky, and what the ground
+// throws back. It moves with the camera.
 #pragma once
 
 #include "integrations/program/render/occlusion.h"
@@ -21,7 +21,7 @@ struct Arriving {
 };
 
 /// Whether a rim light can be seen on the fragment at all.
-bool has_rim(const Fragment& fragment, float openness, int rim);
+bool has_rim(const Fragment& fragment, int rim);
 
 /// Linear color of a fragment that is `openness` open to the sky.
 math::Vec3 light(const Fragment& fragment, float openness, const Arriving& arriving);

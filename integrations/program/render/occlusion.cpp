@@ -7,7 +7,7 @@ using namespace math;
 
 namespace {
 
-constexpr int kProbes = 8;
+constexpr int kProbes = 12;
 constexpr int kTile = 4;  // pixels of a tile probe in different directions; a blur evens them out
 
 struct Probes {
@@ -20,7 +20,7 @@ struct Probes {
       const float start = float(turn * 7 % 16) / 16 * 6.2831853f;
       for (int i = 0; i < kProbes; ++i) {
         const float share = (float(i) + 0.5f) / kProbes;
-        const float reach = share * std::sqrt(share);  // denser near the pixel
+        const float reach = share * share;  // denser near the pixel
         const float angle = start + kGoldenAngle * float(i);
         x[turn][i] = reach * std::cos(angle);
         y[turn][i] = reach * std::sin(angle);
@@ -54,7 +54,7 @@ float probe_pixel(const PixelLayer& layer, const Lens& lens, float radius, int x
     const float rise = dot(step, normal) / std::sqrt(squared);
     blocked += std::max(rise - 0.08f, 0.0f) * fade;
   }
-  return std::max(1 - 2.2f * blocked / kProbes, 0.0f);
+  return std::max(1 - 2.4f * blocked / kProbes, 0.0f);
 }
 
 /// Means of as many pixels as a tile is wide, along rows or columns; those apart in depth are left
@@ -87,23 +87,51 @@ void blur(const PixelLayer& layer, const std::vector<float>& from, std::vector<f
 
 std::vector<float> find_openness(const PixelLayer& layer, const Lens& lens, float radius) {
   static const Probes probes;
-  std::vector<float> openness(layer.distance.size(), 1.0f), row_wise(layer.distance.size());
+  std::vector<float> openness(layer.distance.size(), 1.0f);
   for (int y = 0; y < layer.height; ++y) {
     for (int x = 0; x < layer.width; ++x) {
       const size_t at = layer.index(x, y);
       if (layer.distance[at] == 0) continue;
-      const int turn = y % kTile * kTile + x % kTile;
+      const int turn = turn_of(x, y);
       openness[at] = probe_pixel(layer, lens, radius, x, y, probes.x[turn], probes.y[turn]);
     }
   }
-  // Any window of the size of a tile holds each direction once.
-  const float depth = radius * 0.3f;
-  blur(layer, openness, row_wise, depth, true);
-  blur(layer, row_wise, openness, depth, false);
+  even_out(layer, openness, radius * 0.2f);
   return openness;
 }
 
-ShadowMap::ShadowMap(const Scene& scene, Vec3 to_light, int size) {
+void even_out(const PixelLayer& layer, std::vector<float>& values, float depth) {
+  // Any window of the size of a tile holds each direction once.
+  std::vector<float> row_wise(values.size());
+  blur(layer, values, row_wise, depth, true);
+  blur(layer, row_wise, values, depth, false);
+}
+
+namespace {
+
+constexpr int kTaps = 16;
+
+/// Places in a disk of radius 1, spread evenly (Vogel 1979), for each turn of a tile.
+struct Disk {
+  float x[kTile * kTile][kTaps], y[kTile * kTile][kTaps];
+
+  Disk() {
+    constexpr float kGoldenAngle = 2.399963f;
+    for (int turn = 0; turn < kTile * kTile; ++turn) {
+      const float start = float(turn * 7 % 16) / 16 * kGoldenAngle;
+      for (int i = 0; i < kTaps; ++i) {
+        const float reach = std::sqrt((float(i) + float(turn * 5 % 16) / 16) / kTaps);
+        x[turn][i] = reach * std::cos(start + kGoldenAngle * float(i));
+        y[turn][i] = reach * std::sin(start + kGoldenAngle * float(i));
+      }
+    }
+  }
+};
+
+}  // namespace
+
+ShadowMap::ShadowMap(const Scene& scene, Vec3 to_light, int size, float softness)
+    : softness_(softness), size_(size) {
   back_ = to_light;
   right_ = normalized(cross({0, 1, 0}, back_), {1, 0, 0});
   up_ = cross(back_, right_);
@@ -118,13 +146,13 @@ ShadowMap::ShadowMap(const Scene& scene, Vec3 to_light, int size) {
     }
     turned.push_back(std::move(places));
   }
-  map_.reset(size, size, 1);
   if (box.empty()) return;
 
   // A border of some texels stays empty, so that places outside are in the light.
   constexpr float kBorder = 8;
   const float extent = std::max({box.size().x, box.size().y, 1e-20f});
   texel_ = extent / (float(size) - 2 * kBorder);
+  search_ = 0.03f * float(size);
   lens_.perspective = false;
   lens_.focal = 1 / texel_;
   lens_.center_x = float(size) / 2 - box.center().x / texel_;
@@ -135,38 +163,55 @@ ShadowMap::ShadowMap(const Scene& scene, Vec3 to_light, int size) {
         right_ * ((x - lens_.center_x) * texel_) + up_ * ((lens_.center_y - y) * texel_);
     return scene.alpha(number, origin, -back_);
   };
+  Visibility map;
+  map.reset(size, size, 1);
   for (size_t s = 0; s < turned.size(); ++s) {
     for (Vec3& p : turned[s]) p.z -= depth_zero_;
     TriangleList list = scene.surfaces()[s].triangles();
     list.positions = turned[s].data();
-    draw(list, lens_, map_, scene.surfaces()[s].hides_all() ? Coverage() : coverage);
+    draw(list, lens_, map, scene.surfaces()[s].hides_all() ? Coverage() : coverage);
   }
+  depths_.reserve(map.seen.size());
+  for (const Seen& seen : map.seen) depths_.push_back(seen.depth);
 }
 
-float ShadowMap::light_at(Vec3 place, Vec3 normal) const {
+float ShadowMap::depth_at(float x, float y) const {
+  const int last = size_ - 1;
+  const int column = std::min(std::max(int(x), 0), last), row = std::min(std::max(int(y), 0), last);
+  return depths_[size_t(row) * size_t(size_) + size_t(column)];
+}
+
+float ShadowMap::light_at(Vec3 place, Vec3 normal, int turn) const {
+  static const Disk disk;
   if (texel_ == 0) return 1;
-  // Stepping off the surface, further where the light grazes, keeps it from shading itself.
-  const float slope = 1 - std::max(dot(normal, back_), 0.0f);
-  const Vec3 p = place + normal * (texel_ * (2 + 4 * slope));
-  constexpr int kTaps = 7;  // a box of 6 texels, moved smoothly
-  const float x = lens_.center_x + dot(p, right_) / texel_ - 0.5f - kTaps / 2 + 0.5f;
-  const float y = lens_.center_y - dot(p, up_) / texel_ - 0.5f - kTaps / 2 + 0.5f;
+  const Vec3 p = place + normal * (texel_ * (4 - 2 * saturate(dot(normal, back_))));
+  const float x = lens_.center_x + dot(p, right_) / texel_;
+  const float y = lens_.center_y - dot(p, up_) / texel_;
+  if (!(std::fabs(x) < 1e6f && std::fabs(y) < 1e6f)) return 1;
+  // Probes compare with the tangent plane, which keeps a surface from shading itself.
+  // Where light grazes it, the plane would rise above what hides it.
+  const float cosine = dot(normal, back_);
+  const float trusted = cosine > 0.1f ? texel_ * std::min(cosine - 0.1f, 0.2f) * 5 / cosine : 0;
+  const float slope_x = -dot(normal, right_) * trusted, slope_y = dot(normal, up_) * trusted;
   const float depth = dot(p, back_) - depth_zero_ + texel_;
-  if (!(x >= 0 && y >= 0 && x < float(map_.width - kTaps) && y < float(map_.height - kTaps)))
-    return 1;
-  const int left = int(x), top = int(y);
-  const float fx = x - float(left), fy = y - float(top);
-  float lit = 0;
-  for (int j = 0; j < kTaps; ++j) {
-    const Seen* row = &map_.seen[size_t(top + j) * size_t(map_.width) + size_t(left)];
-    float sum = 0;
-    for (int i = 0; i < kTaps; ++i) {
-      const float weight = i == 0 ? 1 - fx : i == kTaps - 1 ? fx : 1.0f;
-      sum += row[i].depth < depth ? weight : 0.0f;
-    }
-    lit += sum * (j == 0 ? 1 - fy : j == kTaps - 1 ? fy : 1.0f);
+  const float *dx = disk.x[turn], *dy = disk.y[turn];
+
+  float above = 0;
+  int blockers = 0;
+  for (int i = 0; i < kTaps; ++i) {
+    const float i_x = dx[i] * search_, i_y = dy[i] * search_;
+    const float over = depth_at(x + i_x, y + i_y) - (depth + slope_x * i_x + slope_y * i_y);
+    if (over > 0) above += over, ++blockers;
   }
-  return lit / ((kTaps - 1) * (kTaps - 1));
+  if (blockers == 0) return 1;
+  const float radius =
+      std::min(std::max(above / float(blockers) * softness_ / texel_, 1.5f), search_);
+  int lit = 0;
+  for (int i = 0; i < kTaps; ++i) {
+    const float i_x = dx[i] * radius, i_y = dy[i] * radius;
+    lit += depth_at(x + i_x, y + i_y) > depth + slope_x * i_x + slope_y * i_y ? 0 : 1;
+  }
+  return float(lit) / kTaps;
 }
 
 }  // namespace mien::render

@@ -12,7 +12,10 @@ using namespace math;
 
 namespace {
 
-constexpr int kShadowSize = 512;
+constexpr int kShadowSize = 1024, kRimShadowSize = 512;
+constexpr float kKeySoftness = 0.17f, kRimSoftness = 0.1f;
+// As shares of the subject: how far hollows reach, and what is at about one depth.
+constexpr float kHollow = 0.09f, kSameDepth = 0.01f;
 constexpr Vec3 kWire = {0.02f, 0.022f, 0.026f};
 
 /// Samples of a pixel that show one surface at about one depth: shaded once.
@@ -134,6 +137,26 @@ float wire_cover(const Fragment& f, const Lens& lens, float px, float py) {
   return saturate(1.05f - nearest) * 0.7f;
 }
 
+/// What stands before the lamps.
+struct Shadows {
+  ShadowMap key;
+  ShadowMap rims[kRimCount];
+
+  explicit Shadows(const Scene& scene)
+      : key(scene, key_direction(), kShadowSize, kKeySoftness),
+        rims{{scene, rim_direction(0), kRimShadowSize, kRimSoftness},
+             {scene, rim_direction(1), kRimShadowSize, kRimSoftness}} {}
+
+  Arriving on(const Fragment& f, int turn) const {
+    // Where a rim light does not show, there is none to be evened out with that of neighbors.
+    Arriving arriving = {key.light_at(f.place, f.smooth, turn), {}};
+    for (int i = 0; i < kRimCount; ++i) {
+      if (has_rim(f, i)) arriving.rims[i] = rims[i].light_at(f.place, f.smooth, turn);
+    }
+    return arriving;
+  }
+};
+
 /// The fragment that the layer was made of.
 Fragment layer_fragment(const Scene& scene, const PixelLayer& layer, size_t pixel, uint32_t number,
                         Vec3 ray) {
@@ -146,7 +169,8 @@ Fragment layer_fragment(const Scene& scene, const PixelLayer& layer, size_t pixe
           normalized(-place, {0, 0, 1}),
           layer.color[pixel],
           layer.roughness[pixel],
-          layer.smooth[pixel]};
+          layer.smooth[pixel],
+          layer.bend[pixel]};
 }
 
 }  // namespace
@@ -154,8 +178,8 @@ Fragment layer_fragment(const Scene& scene, const PixelLayer& layer, size_t pixe
 Image render_image(const std::vector<Surface>& surfaces, const Camera& camera,
                    const RenderOptions& options) {
   const Lens lens = make_lens(camera, options.width, options.height);
-  const Scene scene(surfaces, camera, 1 / lens.focal);
-  const float scale = options.scale > 0 ? options.scale : scene.scale();
+  const Scene scene(surfaces, camera, 1 / lens.focal, options.scale);
+  const float scale = scene.scale();
   const auto ray_at = [&](float x, float y) {
     return Vec3{(x - lens.center_x) / lens.focal, (lens.center_y - y) / lens.focal, -1};
   };
@@ -168,16 +192,17 @@ Image render_image(const std::vector<Surface>& surfaces, const Camera& camera,
   for (const PlacedSurface& surface : scene.surfaces()) {
     draw(surface.triangles(), lens, seen, surface.hides_all() ? Coverage() : coverage);
   }
-  const ShadowMap key(scene, key_direction(), kShadowSize);
-  const ShadowMap rims[kRimCount] = {{scene, rim_direction(0), kShadowSize},
-                                     {scene, rim_direction(1), kShadowSize}};
+  const Shadows shadows(scene);
 
-  PixelLayer layer{options.width, options.height, {}, {}, {}, {}, {}};
+  PixelLayer layer{options.width, options.height, {}, {}, {}, {}, {}, {}};
   layer.distance.resize(size_t(options.width) * size_t(options.height));
   layer.normal.resize(layer.distance.size());
   layer.smooth.resize(layer.distance.size());
   layer.color.resize(layer.distance.size());
   layer.roughness.resize(layer.distance.size());
+  layer.bend.resize(layer.distance.size());
+  std::vector<float> lit[1 + kRimCount];
+  for (std::vector<float>& of_lamp : lit) of_lamp.assign(layer.distance.size(), 1.0f);
   PixelPatches patches(scene, seen, options.wireframe);
   for (int y = 0; y < options.height; ++y) {
     for (int x = 0; x < options.width; ++x) {
@@ -191,9 +216,14 @@ Image render_image(const std::vector<Surface>& surfaces, const Camera& camera,
       layer.smooth[pixel] = f.smooth;
       layer.color[pixel] = f.color;
       layer.roughness[pixel] = f.roughness;
+      layer.bend[pixel] = f.bend;
+      const Arriving arriving = shadows.on(f, turn_of(x, y));
+      lit[0][pixel] = arriving.key;
+      for (int i = 0; i < kRimCount; ++i) lit[1 + i][pixel] = arriving.rims[i];
     }
   }
-  const std::vector<float> openness = find_openness(layer, lens, scale * 0.055f);
+  const std::vector<float> openness = find_openness(layer, lens, scale * kHollow);
+  for (std::vector<float>& of_lamp : lit) even_out(layer, of_lamp, scale * kSameDepth);
 
   Image image(options.width, options.height, {});
   const BackdropLight backdrop(options.backdrop, options.width, options.height);
@@ -215,10 +245,11 @@ Image render_image(const std::vector<Surface>& surfaces, const Camera& camera,
         const Fragment f = known ? layer_fragment(scene, layer, pixel, patch.number, ray)
                                  : scene.fragment(patch.number, ray);
         Arriving arriving;
-        arriving.key = key.light_at(f.place, f.normal);
-        for (int i = 0; i < kRimCount; ++i) {
-          if (has_rim(f, openness[pixel], i))
-            arriving.rims[i] = rims[i].light_at(f.place, f.normal);
+        if (known) {
+          arriving.key = lit[0][pixel];
+          for (int i = 0; i < kRimCount; ++i) arriving.rims[i] = lit[1 + i][pixel];
+        } else {
+          arriving = shadows.on(f, turn_of(x, y));
         }
         Vec3 color = tone(light(f, openness[pixel], arriving));
         if (options.wireframe) color = mix(color, kWire, wire_cover(f, lens, px, py));

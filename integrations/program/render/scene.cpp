@@ -10,6 +10,8 @@ using namespace math;
 namespace {
 
 constexpr Vec3 kTowardsViewer = {0, 0, 1};
+constexpr float kTranslucent = 0.1f;  // softness from which on light goes through
+constexpr float kBustSize = 600;      // mm: diagonal of the box around a head with a bust
 
 TriangleList list_triangles(const Surface& s, const Vec3* positions, uint32_t first_number) {
   return {positions,      s.position_count, s.vertex_position_indices,
@@ -33,6 +35,31 @@ std::vector<Vec3> make_normals(const Surface& s, const std::vector<Vec3>& positi
   }
   for (Vec3& normal : normals) normal = normalized(normal, {});
   return normals;
+}
+
+/// How much normals turn along the edges around each position. Only skin and flesh need it.
+void find_bends(PlacedSurface& placed, float millimeter) {
+  const Surface& s = placed.surface;
+  const TriangleList list = placed.triangles();
+  std::vector<float> turned(s.position_count), lengths(s.position_count);
+  size_t at[3];
+  for (size_t t = 0; t < s.triangle_count; ++t) {
+    if (!list.corner_indices(t, at)) continue;
+    for (size_t k = 0; k < 3; ++k) {
+      const size_t a = at[k], b = at[(k + 1) % 3];
+      const Vec3 turn =
+          placed.normal(s.triangles[3 * t + (k + 1) % 3]) - placed.normal(s.triangles[3 * t + k]);
+      const Vec3 way = placed.places[b] - placed.places[a];
+      const float by = length(turn), along = length(way);
+      if (!std::isfinite(by) || !std::isfinite(along)) continue;
+      turned[a] += by, turned[b] += by;
+      lengths[a] += along, lengths[b] += along;
+    }
+  }
+  placed.bends.resize(s.position_count);
+  for (size_t i = 0; i < s.position_count; ++i) {
+    if (lengths[i] > 0) placed.bends[i] = std::min(turned[i] / lengths[i] * millimeter, 1.0f);
+  }
 }
 
 /// A place of a triangle on the image, and how the image lies on the triangle in view space.
@@ -116,12 +143,12 @@ Vec3 PlacedSurface::normal(size_t vertex) const {
                                                      : vertex];
 }
 
-Scene::Scene(const std::vector<Surface>& surfaces, const Camera& camera, float pixel)
+Scene::Scene(const std::vector<Surface>& surfaces, const Camera& camera, float pixel, float scale)
     : camera_(camera), pixel_(pixel) {
   Box box;
   uint32_t number = 1;
   for (const Surface& s : surfaces) {
-    PlacedSurface placed{s, {}, {}, {}, to_linear(s.material.color), 1, number};
+    PlacedSurface placed{s, {}, {}, {}, {}, to_linear(s.material.color), 1, number};
     number += uint32_t(s.triangle_count);
     placed.places.resize(s.position_count);
     std::vector<Vec3> positions;
@@ -153,6 +180,10 @@ Scene::Scene(const std::vector<Surface>& surfaces, const Camera& camera, float p
     surfaces_.push_back(std::move(placed));
   }
   if (!box.empty()) scale_ = std::max(length(box.size()), 1e-20f);
+  if (scale > 0) scale_ = scale;
+  for (PlacedSurface& placed : surfaces_) {
+    if (placed.surface.material.softness >= kTranslucent) find_bends(placed, scale_ / kBustSize);
+  }
 }
 
 const PlacedSurface& Scene::surface_of(uint32_t number) const {
@@ -188,6 +219,12 @@ Fragment Scene::fragment(uint32_t number, Vec3 ray) const {
   const float away = dot(normal, f.to_eye);
   if (away < 0.02f) normal = normalized(normal + f.to_eye * (0.02f - away), f.to_eye);
   f.normal = f.smooth = normal;
+
+  for (int k = 0; k < 3 && !on.bends.empty(); ++k) {
+    f.bend +=
+        on.bends[s.vertex_position_indices ? s.vertex_position_indices[corners[k]] : corners[k]] *
+        w[k];
+  }
 
   f.color = on.color;
   f.roughness = s.material.roughness;

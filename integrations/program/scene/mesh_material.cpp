@@ -12,7 +12,7 @@ using render::Color;
 
 render::Material mesh_material(MeshClass mesh_class) {
   switch (mesh_class) {
-    case MeshClass::kEye: return {{232, 228, 222}, 0.20f, 0.12f, 0.040f};
+    case MeshClass::kEye: return {{232, 228, 222}, 0.45f, 0.12f, 0.040f};
     case MeshClass::kTeeth: return {{228, 219, 200}, 0.30f, 0.22f, 0.040f};
     case MeshClass::kGums:
     case MeshClass::kTongue: return {{172, 92, 88}, 0.40f, 0.30f, 0.035f};

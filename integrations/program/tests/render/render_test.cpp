@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "integrations/program/render/light.h"
+#include "integrations/program/render/occlusion.h"
 #include "integrations/program/render/scene.h"
 
 namespace mien::render {
@@ -332,6 +333,81 @@ TEST(Render, RimLightDoesNotReachWhatStandsInItsShadow) {
   const int shadowed = brightest_at_the_right(render_image({dark, wall}, camera, options));
   EXPECT_GT(open, 50);
   EXPECT_LT(shadowed, open * 0.85);
+}
+
+TEST(Render, LightGoesFartherUnderSkinTheRedderItIsAndTheMoreTheSkinIsBent) {
+  const Mesh mesh = sphere(8, 12);
+  Surface skin = mesh.surface(), chalk = mesh.surface();
+  chalk.material.softness = 0;
+  const Scene scene({skin, chalk}, Camera{}, 0.01f);
+  // What skin has more than chalk at some degrees from the direction of the key light.
+  const auto scattered = [&](float degrees, float bend) {
+    const Vec3 key = key_direction(), aside = normalized(cross(key, {0, 0, 1}), {});
+    const float turn = degrees * 0.0174532925f;
+    Fragment f{};
+    f.normal = f.smooth = key * std::cos(turn) + aside * std::sin(turn);
+    f.to_eye = {0, 0, 1};
+    f.color = {0.5f, 0.5f, 0.5f};
+    f.roughness = 1;
+    f.bend = bend;
+    Vec3 of[2];
+    for (size_t i = 0; i < 2; ++i) {
+      f.on = &scene.surfaces()[i];
+      of[i] = light(f, 1, {1, {0, 0}});
+    }
+    return of[0] - of[1];
+  };
+  const Vec3 flat = scattered(105, 0), bent = scattered(105, 0.05f);
+  EXPECT_GT(flat.x, 1e-3f);
+  EXPECT_GT(flat.x, 3 * flat.y);
+  EXPECT_GT(flat.y, flat.z);
+  EXPECT_GT(bent.x, 1.5f * flat.x);
+  // It is missing before the terminator, not made.
+  EXPECT_LT(scattered(60, 0.05f).x, 0);
+}
+
+TEST(Render, CurvatureIsThatOfTheSurfaceInUnitsOfAHead) {
+  // A ball in a scene of 600 mm across, whose radius is 1 of 2 * sqrt(3).
+  const Mesh mesh = sphere(48, 64);
+  const Scene scene({mesh.surface()}, Camera{}, 0.01f);
+  const std::vector<float>& bends = scene.surfaces()[0].bends;
+  ASSERT_EQ(bends.size(), mesh.positions.size() / 3);
+  EXPECT_NEAR(bends[24 * 65 + 7], 2 * std::sqrt(3.0f) / 600, 2e-4f);
+  Surface chalk = mesh.surface();
+  chalk.material.softness = 0.05f;
+  EXPECT_TRUE(Scene({chalk}, Camera{}, 0.01f).surfaces()[0].bends.empty());
+}
+
+TEST(Render, ShadowsAreSofterTheFartherTheyFall) {
+  // The border of the shadow of a plate on a plane, at right angles to the light.
+  const auto width = [](float height) {
+    Mesh mesh;
+    const Vec3 key = key_direction(), u = normalized(cross({0, 1, 0}, key), {}), v = cross(key, u);
+    const auto add = [&](Vec3 p) { mesh.positions.insert(mesh.positions.end(), {p.x, p.y, p.z}); };
+    const auto quad = [&](float left, float right, float up) {
+      const auto first = uint32_t(mesh.positions.size() / 3);
+      add(u * left + v * -2.0f + key * up), add(u * right + v * -2.0f + key * up);
+      add(u * right + v * 2.0f + key * up), add(u * left + v * 2.0f + key * up);
+      for (const uint32_t k : {0u, 1u, 2u, 0u, 2u, 3u}) mesh.triangles.push_back(first + k);
+    };
+    quad(-2, 2, 0);
+    quad(-2, 0, height);
+    const Scene scene({mesh.surface()}, Camera{}, 0.01f);
+    const Vec3 eye = Camera{}.to_view({});
+    const ShadowMap map(scene, key, 1024, 0.15f);
+    float first = 2, last = -2;
+    for (float x = -1; x < 1; x += 0.005f) {
+      float lit = 0;
+      for (int turn = 0; turn < 16; ++turn) lit += map.light_at(u * x + eye, key, turn) / 16;
+      if (lit > 0.1f && first > 1) first = x;
+      if (lit < 0.9f) last = x;
+    }
+    EXPECT_LT(std::fabs(first + last), 0.02f) << "the middle is below the edge";
+    return last - first;
+  };
+  const float near = width(0.2f), far = width(0.6f);
+  EXPECT_LT(near, 0.1f);
+  EXPECT_GT(far, 2 * near);
 }
 
 TEST(Render, WireframesLeaveOutInnerEdges) {
