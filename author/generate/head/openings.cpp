@@ -62,13 +62,6 @@ void SkinMaker::make_nostril() {
   }
 }
 
-namespace {
-
-/// Across the part of the texture for the inside of the mouth.
-double from_middle(double out) { return 0.5 + 0.45 * out; }
-
-}  // namespace
-
 uint32_t SkinMaker::mouth_vertex(uint32_t from, double out, double depth, bool at_back) {
   static constexpr double kPath[][3] = {
       {0.00, 0.00, 0.00},  {0.02, 0.00, -0.004}, {0.12, 0.12, -0.40}, {0.30, 0.85, -0.80},
@@ -88,14 +81,10 @@ uint32_t SkinMaker::mouth_vertex(uint32_t from, double out, double depth, bool a
   v.position = v.closed;
   v.edge = false;
   v.depth = depth;
-  // Around the throat in the texture, so that both sides are next to each other at the corners. The jump there from
-  // the outside is within the first ring, which is too narrow to be seen.
-  const double from_throat = 1 - 0.9 * depth;
-  v.u = from_middle(out * from_throat);
-  v.v = kInnerV * (0.5 + (v.side == Side::kAbove ? 0.42 : -0.42) * open * from_throat);
-  const Color lip = v.color, wet = {168, 78, 76}, dark = {58, 16, 20};
+  v.v = mix(v.v, v_of_row(kMouthY), at_back ? 1 : 0.95 * std::sqrt(depth));
+  const Color lip = v.color, wet = {164, 80, 77}, dark = {72, 22, 25};
   v.color =
-      mix(mix(lip, wet, smooth_step(0.02, 0.20, depth)), dark, smooth_step(0.30, 0.85, depth));
+      mix(mix(lip, wet, smooth_step(0.02, 0.20, depth)), dark, smooth_step(0.30, 0.90, depth));
   return out_.vertices.add(v);
 }
 

@@ -47,6 +47,13 @@ Vertex plain(Vec3 position, Color color, double u, double v, Carrier carrier) {
 
 // Eyes ------------------------------------------------------------------------------------------
 
+/// Distance from the middle of the texture by the angle from the pupil: what lids may uncover takes up most of it.
+/// Irises of all sizes are as large there.
+static double eye_texture_radius(double angle) {
+  constexpr double kSeen = 1.25, kShare = 0.45;
+  return angle < kSeen ? kShare * angle / kSeen : mix(kShare, 0.5, (angle - kSeen) / (kPi - kSeen));
+}
+
 void add_eyeball(const Form& form, HalfMesh& out) {
   // Angle from the middle of the pupil.
   static constexpr double kAngles[] = {0.08, 0.155, 0.172, 0.25, 0.33, 0.39, 0.425, 0.465,
@@ -94,7 +101,7 @@ void add_eyeball(const Form& form, HalfMesh& out) {
     for (uint32_t k = 0; k < around; ++k) {
       const auto [sk, ck] = exact_sine_cosine(2 * kPi * k / around);
       const Vec3 at = middle + Vec3{ck * s, sk * s, c} * (kEyeRadius + bulge(angle));
-      const double wide = 0.5 * angle / kPi;
+      const double wide = eye_texture_radius(kAngles[r]);
       out.vertices.add(
           plain(at, color(kAngles[r], k), 0.5 + wide * ck, 0.5 + wide * sk, Carrier::kEyeball));
     }

@@ -143,7 +143,10 @@ Person make_person(uint64_t seed) {
   // A wide jaw below a narrow face would be out of proportion.
   p.jaw = std::min(p.jaw, p.face + 0.10);
   p.brow_hair = mix(p.hair, {20, 14, 12}, 0.25);
-  p.lip = mix(redder(mix(p.skin, {0, 0, 0}, 0.06), 0.46), {150, 82, 84}, 0.16);
+  // Pigment hides some of the blood of lips, too.
+  const double light = author::smooth_step(60, 150, p.skin.g);
+  p.lip = mix(redder(mix(p.skin, {0, 0, 0}, mix(0.10, 0.06, light)), mix(0.30, 0.46, light)),
+              {150, 82, 84}, 0.16);
   return p;
 }
 

@@ -53,12 +53,20 @@ Vertex SkinMaker::skin_vertex(Place place, Side lid, Side lip) const {
   v.lid = at.lid;
   v.side = lip;
   v.position = turn_lid(v.closed, v.lid);
-  v.u = 0.5 + 0.5 * place.angle / kPi;
-  // The slit between the lids is open in the texture, too: their edges are there.
-  v.v = row_v(place.y) + kLidV * std::min(std::max(v.lid / 0.5, -1.0), 1.0);
+  v.u = u_of_angle(place.angle);
+  v.v = v_of_row(place.y) + kLidV * std::min(std::max(v.lid / 0.5, -1.0), 1.0) +
+        lip_v(v.look, place.y, lip);
   v.color = form_.skin_color(v.look, place.y, v.lid);
   v.color = mix(v.color, form_.person().hair, 0.6 * scalp(form_, place.angle, place.y));
   return v;
+}
+
+double SkinMaker::lip_v(Vec3 look, double y, Side side) const {
+  const double x = look.x / kMouthHalfWidth, above = y - kMouthY;
+  if (look.z < 4 || std::abs(x) >= 1) return 0;
+  const bool is_above = std::abs(above) < 1e-6 ? side == Side::kAbove : above > 0;
+  const double open = kLipV * (1 - x * x) * smooth_step(1.2, 0, std::abs(above));
+  return is_above ? open : -open;
 }
 
 void SkinMaker::make_vertices() {
@@ -123,7 +131,7 @@ uint32_t SkinMaker::lid_edge_vertex(uint32_t from, Color color, bool at_ball) {
 void SkinMaker::make_lid_edges() {
   // The rim of the lid is pink; where it meets the ball, tears shine. Roots of lashes darken the upper one.
   const Color skin = form_.person().skin, rim = mix(skin, {206, 126, 118}, 0.50),
-              tears = mix(rim, {244, 226, 222}, 0.60), dark = mix(skin, {50, 26, 24}, 0.65);
+              tears = mix(rim, {232, 204, 198}, 0.45), dark = mix(skin, {50, 26, 24}, 0.65);
   uint32_t ball[kMaxRing], deep[kMaxRing];
   for (uint32_t k = 0; k < ring_size_; ++k) {
     const double roots =

@@ -10,10 +10,29 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include "author/generate/head/cage.h"
 
 namespace mien::head {
+
+// The texture: skin by angle and row. The middle of the face has 1.8 times the texels that even steps would give it, the
+// nape and the crown about half.
+constexpr double kDenseInFront = 0.8, kMiddleRow = -3;
+
+/// -1 ... 1, from even steps to those of the texture, and back.
+inline double denser(double even) {
+  return even * (1 + kDenseInFront) / (1 + kDenseInFront * std::abs(even));
+}
+inline double even_again(double dense) {
+  return dense / (1 + kDenseInFront - kDenseInFront * std::abs(dense));
+}
+inline double u_of_angle(double angle) { return 0.5 + 0.5 * denser(angle / author::kPi); }
+inline double angle_of_u(double u) { return author::kPi * even_again(2 * u - 1); }
+inline double v_of_row(double y) {
+  const double span = y > kMiddleRow ? kCrownY - kMiddleRow : kMiddleRow - kBottomY;
+  return (kMiddleRow - kBottomY + span * denser((y - kMiddleRow) / span)) / (kCrownY - kBottomY);
+}
 
 struct Rings {
   uint32_t outside, inside;  // of the border between
@@ -107,10 +126,10 @@ class SkinMaker {
   /// The first ring is close to the lips, so that the normals of the lips are those of their outside.
   double depth_of(uint32_t ring) const;
 
-  // The texture: skin above kInnerV, by angle and row; the inside of the mouth below.
-  static constexpr double kInnerV = 0.06, kLidV = 0.008;
-  static double row_v(double y) { return mix_v((y - kBottomY) / (kCrownY - kBottomY)); }
-  static double mix_v(double share) { return kInnerV + (1 - kInnerV) * share; }
+  // Slits are open in the texture, too: between lids is nothing, between lips the inside of the mouth.
+  static constexpr double kLidV = 0.008, kLipV = 0.013;
+  /// How far a place is moved up or down in the texture by the slit of the mouth.
+  double lip_v(Vec3 look, double y, Side side) const;
 
   const Form& form_;
   HalfMesh& out_;

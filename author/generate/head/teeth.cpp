@@ -66,7 +66,7 @@ struct Arch {
 
 /// In the shadow of the cheeks, far back.
 Color in_shadow(Color c, double share) {
-  return mix(c, {84, 38, 36}, 0.90 * smooth_step(0.35, 0.95, share));
+  return mix(c, {110, 58, 48}, 0.80 * smooth_step(0.40, 1.0, share));
 }
 
 /// A tooth: rings around it from the neck, within the gum, to the edge.
@@ -217,7 +217,7 @@ void add_tongue(const Form& form, HalfMesh& out) {
       // A furrow along the middle, which ends before the tip; sides that curl up a little.
       const double top = std::max(s, 0.0), furrow = bump(c, 0, 0, 0, 0.24, 1) * top;
       const double rise =
-          0.13 * bump(c, 0, 0.52, 0, 0.30, 1) * top - 0.17 * furrow * smooth_step(0.05, 0.30, t);
+          0.13 * bump(c, 0, 0.52, 0, 0.30, 1) * top - 0.06 * furrow * smooth_step(0.05, 0.30, t);
       // Papillae make it uneven, except at the border.
       const double papilla = 0.016 * scatter(row * 64 + k + 7) * top * smooth_step(0.95, 0.7, c);
       Vec3 at = {half * exact_pow(std::max(c, 0.0), 0.88),

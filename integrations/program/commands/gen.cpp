@@ -83,10 +83,9 @@ Command add_demo_head_command(CLI::App& app, const Session& session) {
   options->preset = "head";
   CLI::App* head = app.add_subcommand("demo-head", "Generate a stylized head with 72 expressions");
   add_common_options(head, *options, "Each number gives another person (default: 0)");
-  head->add_option(
-          "--textures", options->textures,
-          "Also write base color, normal and roughness of the skin and hair\nwith an alpha into "
-          "this folder, and OUT.materials.json, which\nnames them, beside OUT.dna")
+  head->add_option("--textures", options->textures,
+                   "Also write images of the skin, the eyes and hair with an alpha\ninto "
+                   "this folder, and OUT.materials.json, which\nnames them, beside OUT.dna")
       ->type_name("DIR");
   head->footer(
       "A stylized person: skin, eyes, teeth, tongue, hair, with vertex colors, correctives,\n"

@@ -9,6 +9,7 @@
 
 #include "integrations/program/io/materials.h"
 #include "integrations/program/io/output.h"
+#include "integrations/program/render/eye_texture.h"
 #include "integrations/program/render/hair_texture.h"
 #include "integrations/program/render/png.h"
 #include "integrations/program/render/skin_texture.h"
@@ -18,23 +19,61 @@ namespace mien::cli {
 
 namespace {
 
-/// Texels are 0.3 mm wide in front and 0.5 mm high. A GLB with them has less than 6 MB.
-constexpr int kSkinWidth = 1280, kSkinHeight = 640;
+/// Texels of skin are 0.25 mm wide and 0.3 mm high in front. A GLB with them has less than 6 MB.
+constexpr int kSkinWidth = 1152, kSkinHeight = 768, kEyeSize = 512;
 
-/// v of a row of the head at a height in centimeters, as author/generate/head/skin.h has it.
-constexpr float row_v(double y) { return float(0.06 + 0.94 * (y + 22.0) / 34.6); }
+// Places in the texture, as author/generate/head/skin.h has them.
+float denser(float even) { return even * 1.8f / (1 + 0.8f * std::fabs(even)); }
+
+/// v of a row of the head at a height in centimeters.
+float row_v(float y) {
+  const float span = y > -3 ? 15.6f : 19;
+  return (19 + span * denser((y + 3) / span)) / 34.6f;
+}
+
+/// How far beside the middle a place is in u that many degrees around the head.
+float beside(float degrees) { return 0.5f * denser(degrees / 180); }
+
+render::SkinZone zone(float degrees, float y, float half_degrees, float half_y, float oil,
+                      float pores) {
+  const float u = beside(degrees), v = row_v(y);
+  return {u, v, beside(degrees + half_degrees) - u, row_v(y + half_y) - v, oil, pores};
+}
 
 render::SkinLayout head_layout(uint64_t seed) {
   render::SkinLayout layout;
-  layout.inner_below = row_v(-22);
-  layout.cloth_below = row_v(-17.5);
-  layout.collar = row_v(0.45f) - row_v(0), layout.hem = 0.03f;
+  // Sebum makes the middle of the face shine: forehead, nose, chin. Pores are largest on the nose and beside it.
+  layout.zones = {zone(0, 5.2f, 40, 3.2f, 0.10f, 0.1f),    zone(0, -2.4f, 13, 3.4f, 0.13f, 0.5f),
+                  zone(0, -9.6f, 16, 1.8f, 0.12f, 0.3f),   zone(24, -2.6f, 15, 2.6f, 0.06f, 0.5f),
+                  zone(27, 0.9f, 16, 1.6f, 0.10f, -0.5f),  zone(27, -1.2f, 15, 1.0f, 0.02f, -0.5f),
+                  zone(100, -1.0f, 22, 4.0f, 0.06f, -0.6f)};
+  layout.plain_u = beside(95), layout.plain_v = row_v(8.5f);
+  layout.lids_low_u = 0.5f + beside(10), layout.lids_high_u = 0.5f + beside(42);
+  layout.lids_low_v = row_v(-0.9f), layout.lids_high_v = row_v(1.5f);
+  layout.cloth_below = row_v(-17.5f);
+  layout.collar = row_v(-17.05f) - row_v(-17.5f), layout.hem = 0.03f;
   layout.skin_u = 0.5f, layout.skin_v = row_v(5);
-  layout.lips_low_u = 0.41f, layout.lips_high_u = 0.59f;
-  layout.lips_low_v = row_v(-7.3), layout.lips_high_v = row_v(-4.9);
+  layout.lips_low_u = 0.5f - beside(33), layout.lips_high_u = 0.5f + beside(33);
+  layout.lips_low_v = row_v(-7.3f), layout.lips_high_v = row_v(-4.9f);
   layout.freckles_low_v = row_v(-5), layout.freckles_high_v = row_v(2);
   layout.freckles = seed % 3 == 1 ? 0.7f : 0;  // one in three
   return layout;
+}
+
+/// The color of an iris in plain light, from the vertices between its rim and the ring around the pupil.
+render::Color iris_color(const SceneMesh& mesh) {
+  double sums[3] = {}, count = 0;
+  for (uint32_t i = 0; i < mesh.neutral.vertex_count; ++i) {
+    const float u = mesh.texture_coordinates[2 * i] - 0.5f;
+    const float v = mesh.texture_coordinates[2 * i + 1] - 0.5f;
+    const float angle = std::sqrt(u * u + v * v) * (1.25f / 0.45f);
+    if (angle < 0.28f || angle > 0.36f || v > 0) continue;
+    const uint32_t position = mesh.neutral.vertex_position_indices.data[i];
+    for (size_t k = 0; k < 3; ++k) sums[k] += mesh.colors[3 * position + k];
+    ++count;
+  }
+  const auto mean = [&](size_t k) { return uint8_t(std::lround(sums[k] / std::max(count, 1.0))); };
+  return {mean(0), mean(1), mean(2)};
 }
 
 size_t mesh_named(const PosedScene& scene, const std::string& name) {
@@ -96,8 +135,20 @@ void write_head_textures(Dna dna, uint64_t seed, const std::string& path, const 
     const bool gray = k == size_t(TextureKind::kRoughness);
     outputs.back()->write(gray ? render::to_gray_png(*images[k], {}) : render::to_png(*images[k]));
   }
+  const render::EyeMaps eyes = render::make_eye_maps(
+      iris_color(scene.meshes[mesh_named(scene, "eyeLeft_lod0_mesh")]), kEyeSize);
+  SurfaceMaterial eye;
+  eye.name = "eyes";
+  eye.roughness = 0.12;
+  eye.has_roughness = true;
+  eye.textures[size_t(TextureKind::kBaseColor)] = out.file("eyes_basecolor.png");
+  eye.textures[size_t(TextureKind::kNormal)] = out.file("eyes_normal.png");
+  outputs.push_back(std::make_unique<Output>(eye.texture(TextureKind::kBaseColor)));
+  outputs.back()->write(render::to_png(eyes.base_color));
+  outputs.push_back(std::make_unique<Output>(eye.texture(TextureKind::kNormal)));
+  outputs.back()->write(render::to_png(eyes.normal));
   Materials materials;
-  materials.list.push_back(skin);
+  materials.list = {skin, eye};
   const render::HairMap hair = render::make_hair_map();
   const std::string hair_path = out.file("hair.png");
   outputs.push_back(std::make_unique<Output>(hair_path));
@@ -109,7 +160,8 @@ void write_head_textures(Dna dna, uint64_t seed, const std::string& path, const 
   for (uint32_t lod = 0; lod < info.lod_count; ++lod) {
     const std::string of_lod = "_lod" + std::to_string(lod) + "_mesh";
     materials.of_mesh["head" + of_lod] = 0;
-    for (size_t m = 1; m < materials.list.size(); ++m) {
+    materials.of_mesh["eyeLeft" + of_lod] = materials.of_mesh["eyeRight" + of_lod] = 1;
+    for (size_t m = 2; m < materials.list.size(); ++m) {
       materials.of_mesh[materials.list[m].name + of_lod] = m;
     }
   }

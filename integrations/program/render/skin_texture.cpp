@@ -1,76 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "integrations/program/render/skin_texture.h"
 
+#include "integrations/program/render/noise.h"
+
 namespace mien::render {
 
 using namespace math;
 
 namespace {
 
-// Noise ------------------------------------------------------------------------------------------
-
-uint32_t hash_cell(int x, int y, int z) {
-  uint32_t h = uint32_t(x) * 73856093u ^ uint32_t(y) * 19349663u ^ uint32_t(z) * 83492791u;
-  h = (h ^ h >> 16) * 2246822519u;
-  h = (h ^ h >> 13) * 3266489917u;
-  return h ^ h >> 16;
-}
-
-/// 0 ... 1 from 8 bits of a hash.
-float share_of_hash(uint32_t hash, int byte) {
-  return float(hash >> (8 * byte) & 255) * (1.0f / 255);
-}
-
-float eased(float t) { return t * t * (3 - 2 * t); }
-
-/// Smooth noise, -1 ... 1, one wave per unit.
-float noise(Vec3 p) {
-  const float fx = std::floor(p.x), fy = std::floor(p.y), fz = std::floor(p.z);
-  const int x = int(fx), y = int(fy), z = int(fz);
-  const float u = eased(p.x - fx), v = eased(p.y - fy), w = eased(p.z - fz);
-  const auto at = [&](int i, int j, int k) {
-    return float(hash_cell(x + i, y + j, z + k) & 65535) * (2.0f / 65535) - 1;
-  };
-  const auto along_x = [&](int j, int k) { return at(0, j, k) + (at(1, j, k) - at(0, j, k)) * u; };
-  const float low = along_x(0, 0) + (along_x(1, 0) - along_x(0, 0)) * v;
-  const float high = along_x(0, 1) + (along_x(1, 1) - along_x(0, 1)) * v;
-  return low + (high - low) * w;
-}
-
-/// Round spots at random places, one in each cell of size 1 at most: 1 in the middle of one, 0 outside of `radius`.
-/// `share` of the cells have one.
-float spots(Vec3 p, float radius, float share) {
-  const float fx = std::floor(p.x), fy = std::floor(p.y), fz = std::floor(p.z);
-  // Neighbors only where their spots reach; the margin is for rounding.
-  const float reach = radius + 0.01f;
-  const auto first = [reach](float within) { return within < reach ? -1 : 0; };
-  const auto last = [reach](float within) { return 1 - within < reach ? 1 : 0; };
-  const int left = first(p.x - fx), right = last(p.x - fx);
-  const int low = first(p.y - fy), high = last(p.y - fy);
-  const int back = first(p.z - fz), front = last(p.z - fz);
-  float most = 0;
-  for (int k = back; k <= front; ++k) {
-    for (int j = low; j <= high; ++j) {
-      for (int i = left; i <= right; ++i) {
-        const uint32_t h = hash_cell(int(fx) + i, int(fy) + j, int(fz) + k);
-        if (share_of_hash(h, 3) >= share) continue;
-        const Vec3 d =
-            Vec3{fx + float(i) + share_of_hash(h, 0), fy + float(j) + share_of_hash(h, 1),
-                 fz + float(k) + share_of_hash(h, 2)} -
-            p;
-        const float t = 1 - dot(d, d) / (radius * radius);
-        most = std::max(most, t);
-      }
-    }
-  }
-  return most;
-}
-
 // The surface in the texture --------------------------------------------------------------------
 
 struct Texel {
   Vec3 place, color;  // sRGB, 0 ... 255
   bool covered = false;
+  bool spread = false;  // has what a texel beside it has
 };
 
 class SkinMap {
@@ -99,6 +43,7 @@ class SkinMap {
   void draw(const uint32_t* corners);
   void spread();
   float lips_at(float u, float v, const Texel& texel) const;
+  bool is_wet(int x, int y, float u, float v) const;
   Vec3 color_at(int x, int y, float v) const;
 
   struct Detail {
@@ -106,7 +51,7 @@ class SkinMap {
     Vec3 tint;     // times the color
     float roughness;
   };
-  Detail detail(float u, float v, const Texel& texel) const;
+  Detail detail(int x, int y, float u, float v) const;
 
   const Surface& surface_;
   const SkinLayout& layout_;
@@ -157,17 +102,21 @@ void SkinMap::draw(const uint32_t* corners) {
 
 /// Texels that no triangle covers take what is beside them, so that blends at borders find skin.
 void SkinMap::spread() {
+  const auto take = [](Texel& texel, const Texel& from) {
+    texel = from;
+    texel.spread = true;
+  };
   for (int y = 0; y < height_; ++y) {
     Texel* row = &texels_[size_t(y) * size_t(width_)];
     for (int x = 1; x < width_; ++x) {
-      if (!row[x].covered && row[x - 1].covered) row[x] = row[x - 1];
+      if (!row[x].covered && row[x - 1].covered) take(row[x], row[x - 1]);
     }
     for (int x = width_ - 1; x-- > 0;) {
-      if (!row[x].covered && row[x + 1].covered) row[x] = row[x + 1];
+      if (!row[x].covered && row[x + 1].covered) take(row[x], row[x + 1]);
     }
     if (row[0].covered || y == 0) continue;
     const Texel* above = row - width_;
-    for (int x = 0; x < width_; ++x) row[x] = above[x];
+    for (int x = 0; x < width_; ++x) take(row[x], above[x]);
   }
 }
 
@@ -181,9 +130,22 @@ float SkinMap::lips_at(float u, float v, const Texel& texel) const {
   return eased(saturate((redness(texel.color) / redness(reference_) - 1.06f) / 0.12f));
 }
 
-SkinMap::Detail SkinMap::detail(float u, float v, const Texel& texel) const {
+/// On the rim of a lid, within two texels of the slit, stands a line of tears.
+bool SkinMap::is_wet(int x, int y, float u, float v) const {
+  u = 0.5f + std::fabs(u - 0.5f);
+  if (u < layout_.lids_low_u || u > layout_.lids_high_u || v < layout_.lids_low_v ||
+      v > layout_.lids_high_v) {
+    return false;
+  }
+  for (int by = -2; by <= 2; ++by) {
+    if (at(x, y + by).spread) return true;
+  }
+  return false;
+}
+
+SkinMap::Detail SkinMap::detail(int x, int y, float u, float v) const {
+  const Texel& texel = at(x, y);
   const Vec3 p = texel.place;
-  if (v < layout_.inner_below) return {0.003f * noise(p * 6), {1, 1, 1}, 0.38f};
   if (v < layout_.cloth_below) {
     // Threads would be finer than a pixel of most pictures, and make patterns of their own there.
     const float fine = noise(p * 9);
@@ -191,31 +153,49 @@ SkinMap::Detail SkinMap::detail(float u, float v, const Texel& texel) const {
             Vec3{1, 1, 1} * (1 + 0.03f * fine + 0.04f * noise(p * 2)), 0.92f};
   }
   const float lips = lips_at(u, v, texel), skin = 1 - lips;
+  float oil = 0, pores = 0.5f;
+  for (const SkinZone& zone : layout_.zones) {
+    const float du = (std::fabs(u - 0.5f) - zone.u) / zone.half_u, dv = (v - zone.v) / zone.half_v;
+    const float inside = saturate(1 - du * du - dv * dv);
+    oil += zone.oil * inside;
+    pores += zone.pores * inside;
+  }
+  const float seen =
+      eased(0.12f, 0, std::fabs(u - 0.5f) - layout_.plain_u) * eased(0.08f, 0, v - layout_.plain_v);
+  pores = std::max(pores, 0.0f) * skin * seen;
+
   // Pores are a third of a millimeter wide and a millimeter and more apart; between them runs a net of fine creases.
-  const float pore = spots(p * 9, 0.34f, 0.8f) * skin;
-  const float coarse = noise(p * 4), fine = noise(p * 11), net = std::fabs(noise(p * 7));
+  const float pore = pores > 0 ? pores * spots(p * 9, 0.34f, 0.85f) : 0;
+  const float coarse = noise(p * 3.5f);
+  const float fine = seen > 0 ? noise(p * 11) * seen : 0;
+  const float net = seen > 0 ? std::fabs(noise(p * 7)) * seen : 0;
   // The lips have folds across them.
-  const float fold = lips > 0 ? std::fabs(noise({p.x * 9, p.y * 1.6f, p.z * 2})) : 0;
+  const float fold = lips > 0 ? std::fabs(noise({p.x * 8, p.y * 1.2f, p.z * 2})) : 0;
   Detail d;
-  d.height = skin * (0.0030f * coarse + 0.0022f * fine + 0.0030f * net - 0.0045f * pore) +
-             lips * (0.016f * fold + 0.003f * fine);
-  // Blood and pigment vary over centimeters, and again over millimeters.
-  const float blood = noise(p * 0.9f) + 0.6f * noise(p * 2.3f),
-              pigment = noise(p * 1.4f + Vec3{9, 4, 7});
+  d.height = skin * (0.0020f * coarse + 0.0020f * fine + 0.0030f * net - 0.0050f * pore) +
+             lips * (0.010f * fold + 0.002f * fine);
+  // Blood and pigment vary over centimeters, and again over millimeters: little, or it would look like dirt.
+  const float blood = noise(p * 0.8f) + 0.7f * noise(p * 2.1f);
+  const float pigment = noise(p * 1.4f + Vec3{9, 4, 7});
   const float shade = 1 +
-                      skin * (0.030f * pigment + 0.020f * coarse + 0.018f * fine - 0.045f * pore) +
-                      lips * (0.10f * fold - 0.05f);
-  d.tint = Vec3{1, 1 - 0.018f * blood, 1 - 0.020f * blood - 0.010f * pigment} * shade;
+                      skin * (0.008f * pigment + 0.008f * coarse + 0.012f * fine - 0.035f * pore) +
+                      lips * (0.07f * fold - 0.035f);
+  d.tint = Vec3{1, 1 - 0.010f * blood, 1 - 0.011f * blood - 0.006f * pigment} * shade;
   if (layout_.freckles > 0 && v > layout_.freckles_low_v && v < layout_.freckles_high_v) {
     const float middle =
         (v - layout_.freckles_low_v) / (layout_.freckles_high_v - layout_.freckles_low_v);
     const float dense = layout_.freckles * eased(1 - std::fabs(2 * middle - 1));
-    const float spot = skin * saturate(1.6f * spots(p * 2.6f, 0.24f, dense));
-    d.tint = d.tint * (Vec3{1, 1, 1} - Vec3{0.13f, 0.22f, 0.28f} * spot);
+    const float spot = skin * saturate(1.5f * spots(p * 4.5f, 0.28f, dense)) *
+                       (0.6f + 0.4f * noise(p * 1.7f + Vec3{40, 2, 8}));
+    d.tint = d.tint * (Vec3{1, 1, 1} - Vec3{0.12f, 0.21f, 0.26f} * spot);
   }
-  // In nostrils and ears there is less of it: few texels, and dark.
-  d.height *= saturate((texel.color.y / reference_.y - 0.35f) / 0.4f);
-  d.roughness = (0.50f + 0.05f * coarse + 0.10f * pore) * skin + (0.36f + 0.08f * fold) * lips;
+  d.roughness = (0.54f - oil + 0.05f * coarse + 0.05f * net + 0.12f * pore) * skin +
+                (0.36f + 0.12f * fold + 0.05f * coarse) * lips;
+  // In nostrils, ears and the throat there are few texels, and too little light to shine.
+  const float lit = saturate((texel.color.y / reference_.y - 0.35f) / 0.4f);
+  d.height *= lit;
+  d.roughness += 0.4f * saturate(1 - 2 * lit);
+  if (is_wet(x, y, u, v)) d.roughness = 0.16f, d.height = 0;
   return d;
 }
 
@@ -237,9 +217,8 @@ SkinMaps SkinMap::make() const {
   };
   for (int y = 0; y < height_; ++y) {
     for (int x = 0; x < width_; ++x) {
-      const Texel& texel = at(x, y);
       const float u = (float(x) + 0.5f) / float(width_), v = 1 - (float(y) + 0.5f) / float(height_);
-      const Detail d = detail(u, v, texel);
+      const Detail d = detail(x, y, u, v);
       heights[size_t(y) * size_t(width_) + size_t(x)] = d.height;
       const Vec3 color = color_at(x, y, v) * d.tint;
       maps.base_color.set(x, y, {byte(color.x), byte(color.y), byte(color.z)});

@@ -3,18 +3,31 @@
 // space, so that they have the same size everywhere and no seam.
 #pragma once
 
+#include <vector>
+
 #include "integrations/program/render/image.h"
 #include "integrations/program/render/render.h"
 
 namespace mien::render {
 
+/// An ellipse of the texture and its mirror image, where skin differs: fading from its middle outwards.
+struct SkinZone {
+  float u, v, half_u, half_v;
+  float oil;    // less rough by so much
+  float pores;  // larger pores; less than 0: smaller ones
+};
+
 /// Where in the texture other materials are. Coordinates as in Surface.
 struct SkinLayout {
-  float inner_below = 0;  // v below which the inside of the mouth is: wet, without pores
-  float cloth_below = 0;  // and v below which a shirt is
+  std::vector<SkinZone> zones;
+  // From here on, away from u = 1/2 and upwards, skin is under hair or seldom seen: it gets no pores.
+  float plain_u = 0.5f, plain_v = 1;
+  // Eyes are above and below the open slit between the lids, whose rims are wet, in this box and its mirror image.
+  float lids_low_u = 0, lids_low_v = 0, lids_high_u = 0, lids_high_v = 0;
+  float cloth_below = 0;  // v below which a shirt is
   float collar = 0;       // how far from there, in v, colors of vertices blend skin and shirt
   float hem = 0;          // cm: thickness of the shirt
-  // Lips are what is redder than the skin at `skin`, in the box from `lips_low` to `lips_high`.
+  // Lips, and the inside of the mouth, are what is redder than the skin at `skin`, in the box from `lips_low` to `lips_high`.
   float skin_u = 0, skin_v = 0;
   float lips_low_u = 0, lips_low_v = 0, lips_high_u = 0, lips_high_v = 0;
   // Freckles are in this box, so many of 1 spots.

@@ -73,14 +73,22 @@ class GeneratedHead(MaterialsTest):
     def test_textures_of_the_skin(self):
         self.ok("demo-head", "-o", path("made.dna"), "--textures", path("made"), "-q")
         sidecar = json.loads(read("made.materials.json"))
-        parts = {"head": "skin", "hair": "hair", "brows": "brows", "lashes": "lashes"}
+        parts = {"head": "skin", "eyeLeft": "eyes", "eyeRight": "eyes", "hair": "hair", "brows": "brows",
+                 "lashes": "lashes"}
         self.assertEqual(sidecar["meshes"],
                          {"%s_lod%d_mesh" % (part, lod): name for part, name in parts.items() for lod in range(8)})
-        skin, *hairs = sidecar["materials"]
+        skin, eyes, *hairs = sidecar["materials"]
         self.assertEqual(skin["textures"], {"base_color": "made/skin_basecolor.png", "normal": "made/skin_normal.png",
                                             "roughness": "made/skin_roughness.png"})
-        for kind, size in (("basecolor", (1280, 640)), ("normal", (1280, 640)), ("roughness", (640, 320))):
+        for kind, size in (("basecolor", (1152, 768)), ("normal", (1152, 768)), ("roughness", (576, 384))):
             self.assertEqual(struct.unpack(">II", read("made/skin_%s.png" % kind)[16:24]), size)
+        self.assertEqual(eyes["textures"], {"base_color": "made/eyes_basecolor.png", "normal": "made/eyes_normal.png"})
+        # The iris has the color that the eyes have without a texture: blue, while the white is not.
+        iris = Picture(read("made/eyes_basecolor.png"))
+        below, white = iris.at(256, 256 + 62), iris.at(256 + 120, 256)
+        self.assertGreater(below[2], 1.2 * below[0])
+        self.assertGreater(white[0], white[2])
+        self.assertLess(max(iris.at(256, 256)), 16, "the pupil")
         self.ok("demo-head", "-o", path("plain.dna"), "-q")
         pictures = {}
         for name in ("plain", "made"):
