@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 // The meshes of a rig as objects of three.js, posed by Mien.
-import type { Camera, Group, Material, Matrix4, Object3D, Vector3 } from "three";
+import type { Camera, Group, Material, Matrix4, MeshStandardMaterial, Object3D, Vector3 } from "three";
 import type { DeformerInstance, Instance, Normals, Rig } from "./index.js";
 
 export type MeshClass = "skin" | "eye" | "teeth" | "tongue" | "hair" | "film";
 
 /** What a mesh shows, by its name; "film": tears and shells over the eyes. */
 export function meshClass(name: string): MeshClass;
+
+/** The material of a mesh of a class for which FaceObject was given none. */
+export function defaultMaterial(kind: MeshClass): MeshStandardMaterial;
 
 /** The matrix from the axes and units of a rig to those of three.js: x left, y up, z front, meters. */
 export function rigMatrix(rig: Rig): Matrix4;

@@ -142,6 +142,11 @@ class FaceSkeleton extends Skeleton {
   }
 }
 
+/** The material that a mesh of a class gets if none is given. */
+export function defaultMaterial(kind) {
+  return new MeshStandardMaterial(MATERIALS[kind]);
+}
+
 export class FaceObject extends Group {
   #skeleton = null;
   #lod = -1;
@@ -159,7 +164,7 @@ export class FaceObject extends Group {
     this.skinning = skinning;
     this.normals = normals;
     this.showFilms = showFilms;
-    this.makeMaterial = (kind, name) => material?.(kind, name) ?? new MeshStandardMaterial(MATERIALS[kind]);
+    this.makeMaterial = (kind, name) => material?.(kind, name) ?? defaultMaterial(kind);
     this.matrix.copy(rigMatrix(rig));
     this.matrixAutoUpdate = false;
     if (skinning === "gpu") this.#skeleton = new FaceSkeleton(rig.deformer.info.jointCount);

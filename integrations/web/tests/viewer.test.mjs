@@ -188,6 +188,46 @@ test("scalar and vector kernels show the same vertices", options, async () => {
   await page.until("() => window.viewer.model !== window.viewerModel && !document.body.hasAttribute('aria-busy')", "reopened");
 });
 
+test("skin ends softly and in red where light does, other materials do not", options, async () => {
+  // Gray skin alone, lit from the side: the terminator runs down the middle of the face.
+  const redness = await page.run(() => {
+    const { stage, model } = window.viewer;
+    const { renderer, scene, camera, canvas: element } = stage;
+    const shown = model.object.children.filter(({ visible }) => visible);
+    const skin = shown.find(({ userData }) => userData.kind === "skin").material;
+    for (const mesh of shown) mesh.visible = mesh.material === skin;
+    const { color, vertexColors, map, onBeforeCompile, customProgramCacheKey } = skin;
+    const before = color.getHex();
+    stage.lights.choose("Side");
+    Object.assign(skin, { vertexColors: false, map: null });
+    color.set(0xc0c0c0);
+    const measure = () => {
+      skin.needsUpdate = true;
+      renderer.render(scene, camera);
+      const context = new OffscreenCanvas(64, 64).getContext("2d");
+      context.drawImage(element, 0, 0, 64, 64);
+      const { data } = context.getImageData(0, 0, 64, 64);
+      let most = 0;
+      for (let i = 0; i < data.length; i += 4) {
+        if (data[i + 3] === 255 && data[i] > 40) most = Math.max(most, data[i] / data[i + 2]);
+      }
+      return most;
+    };
+    const soft = measure();
+    delete skin.onBeforeCompile;
+    delete skin.customProgramCacheKey;
+    const hard = measure();
+    Object.assign(skin, { vertexColors, map, onBeforeCompile, customProgramCacheKey, needsUpdate: true });
+    color.set(before);
+    for (const mesh of shown) mesh.visible = true;
+    stage.lights.choose("Studio");
+    return { soft, hard };
+  });
+  await frames();
+  assert.ok(redness.soft > 1.2 * redness.hard, JSON.stringify(redness));
+  assert.deepEqual(page.errors, []);
+});
+
 test("an open mouth is seen, and skinning on the GPU shows nearly the same", options, async () => {
   await page.run(() => document.getElementById("neutral").click());
   await frames();

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // What can be opened: a rig, whose controls Mien evaluates, or a GLB, whose morph targets are its controls.
 import { Isa, Kind } from "mien";
-import { FaceObject } from "mien/three";
+import { FaceObject, defaultMaterial } from "mien/three";
 import { ArkitControls } from "./arkit.js";
 import { smoothCutEdges } from "./materials.js";
+import { asSkin } from "./skin.js";
 
 /** A rig of a DNA file or a baked file. */
 export class RigModel {
@@ -22,7 +23,11 @@ export class RigModel {
     this.rig = rig;
     const { materials, ...shown } = options;
     this.materials = materials;
-    this.object = new FaceObject(rig, { ...shown, material: (kind, name) => materials?.of(name) });
+    const material = (kind, name) => {
+      const made = materials?.of(name) ?? defaultMaterial(kind);
+      return kind === "skin" ? asSkin(made) : made;
+    };
+    this.object = new FaceObject(rig, { ...shown, material });
     this.face = this.object.face; // with the pose of the controls
     this.times = { evaluation: 0, deformation: 0 };
     this.kinds = [["raw", "Raw controls"]];
@@ -179,6 +184,7 @@ export class GlbModel {
     scene.traverse((mesh) => {
       mesh.frustumCulled = false;
       if (mesh.material?.alphaTest > 0) smoothCutEdges(mesh.material);
+      if (mesh.material?.name === "skin") asSkin(mesh.material);
       for (const [name, target] of Object.entries(mesh.morphTargetDictionary ?? {})) {
         if (!this.targets.has(name)) this.targets.set(name, []);
         this.targets.get(name).push([mesh, target]);
