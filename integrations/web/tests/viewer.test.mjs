@@ -207,11 +207,11 @@ test("skin ends softly and in red where light does, other materials do not", opt
       const context = new OffscreenCanvas(64, 64).getContext("2d");
       context.drawImage(element, 0, 0, 64, 64);
       const { data } = context.getImageData(0, 0, 64, 64);
-      let most = 0;
+      const found = [];
       for (let i = 0; i < data.length; i += 4) {
-        if (data[i + 3] === 255 && data[i] > 40) most = Math.max(most, data[i] / data[i + 2]);
+        if (data[i + 3] === 255 && data[i] > 40) found.push(data[i] / data[i + 2]);
       }
-      return most;
+      return found;
     };
     const soft = measure();
     delete skin.onBeforeCompile;
@@ -221,10 +221,12 @@ test("skin ends softly and in red where light does, other materials do not", opt
     color.set(before);
     for (const mesh of shown) mesh.visible = true;
     stage.lights.choose("Studio");
-    return { soft, hard };
+    const most = Math.max(...hard);
+    return { redder: soft.filter((of) => of > 1.05 * most).length, most, of: soft.length, lit: hard.length };
   });
   await frames();
-  assert.ok(redness.soft > 1.2 * redness.hard, JSON.stringify(redness));
+  // Redder than anything is with a hard edge: a band along the terminator. Light reaches farther, too.
+  assert.ok(redness.redder > 15 && redness.of > redness.lit, JSON.stringify(redness));
   assert.deepEqual(page.errors, []);
 });
 
