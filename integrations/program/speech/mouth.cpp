@@ -43,6 +43,7 @@ constexpr double kClosing = 0.08, kOpening = 0.07, kQuickest = 0.02, kJawTime = 
                  kJawTurn = 0.025, kJawOfClosure = 0.03;
 /// The held pose of f brings the lower lip near the teeth; to touch them it rolls in twice as far.
 constexpr double kRollToTeeth = 2;
+constexpr float kPressToTeeth = 0.5f;  // and is firm
 /// Of a stop, the last part is its release.
 constexpr double kHeldShare = 0.75;
 
@@ -207,15 +208,24 @@ std::vector<std::string> speech_controls() {
 
 std::vector<ClosedTime> find_closures(const std::vector<Segment>& segments, double rate) {
   std::vector<ClosedTime> closures;
-  for (const Segment& segment : segments) {
+  for (size_t s = 0; s < segments.size(); ++s) {
+    const Segment& segment = segments[s];
     const Closure closure = segment.sound->closure;
     if (closure == Closure::kNone) continue;
     const bool is_stop = segment.sound->letter == U'p' || segment.sound->letter == U'b';
     const double length = (segment.end - segment.begin) * (is_stop ? kHeldShare : 1);
-    ClosedTime closed{closure, segment.begin, segment.begin + std::max(length, 2 / rate)};
+    // A frame shows it in any case, a second one only if that leaves as much time until the next.
+    const auto next = std::find_if(segments.begin() + static_cast<long>(s) + 1, segments.end(),
+                                   [](const Segment& other) {
+                                     return other.sound->closure == Closure::kLips ||
+                                            other.sound->closure == Closure::kLipToTeeth;
+                                   });
+    const double room = next == segments.end() ? 1 : (next->begin - segment.begin) / 2;
+    const double least = std::min(2 / rate, std::max(1 / rate, room));
+    ClosedTime closed{closure, segment.begin, segment.begin + std::max(length, least)};
     // Of two like each other, such as those of "mb", the second goes on with the first.
     if (!closures.empty() && closures.back().closure == closure &&
-        closed.begin - closures.back().end < 1.5 / rate) {
+        closed.begin - closures.back().end < kQuickest) {
       closures.back().end = std::max(closures.back().end, closed.end);
       continue;
     }
@@ -242,6 +252,9 @@ void move_mouth(const std::vector<Segment>& segments, const std::vector<float>& 
   const std::vector<float>& bilabial = all.visemes.at("viseme_21_p");
   std::vector<float> labiodental = all.visemes.at("viseme_18_f");
   labiodental[all.index("mouthRollLower")] *= static_cast<float>(kRollToTeeth);
+  for (const char* press : {"mouthPressLeft", "mouthPressRight"}) {
+    labiodental[all.index(press)] = kPressToTeeth;
+  }
   const size_t count = all.names.size(), jaw = all.index("jawOpen"), close = all.index(kMouthClose),
                funnel = all.index("mouthFunnel");
   std::vector<double> sums(count);

@@ -28,8 +28,8 @@ struct ClosedTime {
   double begin, end;  // seconds
 };
 
-/// Of the sounds that close something. Lips and teeth touch for at least as long as two frames take, so
-/// that a frame shows it.
+/// Of the sounds that close something. Lips and teeth touch for at least as long as two frames take, or one
+/// where another closure follows soon, so that a frame shows both and what is between them.
 std::vector<ClosedTime> find_closures(const std::vector<Segment>& segments, double rate);
 
 /// All controls that speech moves: those of the visemes, mouthClose, and what prosody.h adds.

@@ -144,7 +144,7 @@ TEST(Sentences, TheLowerLipTouchesTheUpperTeethAtEachFAndV) {
     }
   }
   EXPECT_GT(count, 20u);
-  std::printf("%zu contacts, the worst is %.2f mm\n", count, worst);
+  std::printf("%zu contacts, the worst is %.2f mm, %.1f at rest\n", count, worst, at_rest);
 }
 
 TEST(Sentences, TheMouthOpensAtOpenVowels) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -18,6 +19,32 @@ constexpr double kMillimeters = 10;  // the head is in centimeters
 template <class Point>
 double distance(const Point& a, const Point& b) {
   return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
+}
+
+/// From a point to a triangle.
+template <class Point>
+double distance(const Point& p, const Point& a, const Point& b, const Point& c) {
+  const auto minus = [](const Point& u, const Point& v) {
+    return Point{u.x - v.x, u.y - v.y, u.z - v.z};
+  };
+  const auto dot = [](const Point& u, const Point& v) { return u.x * v.x + u.y * v.y + u.z * v.z; };
+  const auto along = [](const Point& from, const Point& way, double share) {
+    return Point{from.x + way.x * share, from.y + way.y * share, from.z + way.z * share};
+  };
+  const Point ab = minus(b, a), ac = minus(c, a), ap = minus(p, a);
+  const double bb = dot(ab, ab), bc = dot(ab, ac), cc = dot(ac, ac), area = bb * cc - bc * bc;
+  if (area > 0) {
+    const double v = (cc * dot(ab, ap) - bc * dot(ac, ap)) / area;
+    const double w = (bb * dot(ac, ap) - bc * dot(ab, ap)) / area;
+    if (v >= 0 && w >= 0 && v + w <= 1) return distance(p, along(along(a, ab, v), ac, w));
+  }
+  const auto to_edge = [&](const Point& from, const Point& to) {
+    const Point way = minus(to, from);
+    const double length = dot(way, way);
+    const double share = length > 0 ? dot(minus(p, from), way) / length : 0;
+    return distance(p, along(from, way, std::clamp(share, 0.0, 1.0)));
+  };
+  return std::min({to_edge(a, b), to_edge(b, c), to_edge(c, a)});
 }
 
 void expect_ok(MienStatus status) { ASSERT_EQ(status, MIEN_OK); }
@@ -74,12 +101,21 @@ SpokenHead::SpokenHead() {
   upper_contact_.assign(upper.begin(), upper.end());
   lower_contact_.assign(lower.begin(), lower.end());
   // The lower lip: what goes with the jaw within a centimeter of where the lips touch.
+  std::vector<bool> is_lip(skin.size());
   for (const uint32_t i : near) {
-    if (distance(skin[i], open[i]) < 2 || std::abs(skin[i].x) > 0.6) continue;
-    const bool is_lip = std::any_of(lower.begin(), lower.end(), [&](uint32_t contact) {
-      return distance(skin[i], skin[contact]) < 1;
-    });
-    if (is_lip) lower_lip_.push_back(i);
+    if (distance(skin[i], open[i]) < 1 || std::abs(skin[i].x) > 0.6) continue;
+    is_lip[i] = std::any_of(lower.begin(), lower.end(),
+                            [&](uint32_t contact) { return distance(skin[i], skin[contact]) < 1; });
+  }
+  auto mesh = cli::sized<MienMesh>();
+  expect_ok(mien_deformer_mesh(deformer, skin_, &mesh));
+  for (size_t t = 0; t + 2 < mesh.triangles.count; t += 3) {
+    std::array<uint32_t, 3> corners{};
+    for (size_t k = 0; k < 3; ++k) {
+      corners[k] = mesh.vertex_position_indices.data[mesh.triangles.data[t + k]];
+    }
+    if (is_lip[corners[0]] && is_lip[corners[1]] && is_lip[corners[2]])
+      lower_lip_.push_back(corners);
   }
   double front = -1e9;
   for (const Point& tooth : teeth) front = std::max(front, tooth.z);
@@ -147,10 +183,10 @@ MouthShape SpokenHead::shape(const std::vector<std::pair<std::string, float>>& v
   }
   shape.lip_gap = kMillimeters * *std::max_element(std::begin(gaps), std::end(gaps));
   shape.lip_to_teeth = 1e9;
-  for (const uint32_t lip : lower_lip_) {
+  for (const auto& [a, b, c] : lower_lip_) {
     for (const uint32_t tooth : upper_teeth_) {
-      shape.lip_to_teeth =
-          std::min(shape.lip_to_teeth, kMillimeters * distance(skin[lip], teeth[tooth]));
+      const double apart = distance(teeth[tooth], skin[a], skin[b], skin[c]);
+      shape.lip_to_teeth = std::min(shape.lip_to_teeth, kMillimeters * apart);
     }
   }
   shape.jaw = jaw_of(teeth);

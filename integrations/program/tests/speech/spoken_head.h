@@ -5,6 +5,7 @@
 #include <mien.h>
 #include <mien_author.h>
 
+#include <array>
 #include <map>
 #include <string>
 #include <vector>
@@ -17,8 +18,9 @@ namespace mien::speech {
 /// What a frame of a take does to the mouth.
 struct MouthShape {
   double lip_gap;  // the least distance up from the lower lip to the upper one, near the middle
-  double lip_to_teeth;  // the least distance between the lower lip and the upper front teeth
-  double jaw;           // how far the lower front teeth are from where they rest
+  double
+      lip_to_teeth;  // the least distance of the upper front teeth from the skin of the lower lip
+  double jaw;        // how far the lower front teeth are from where they rest
 };
 
 class SpokenHead {
@@ -50,7 +52,7 @@ class SpokenHead {
   uint32_t skin_ = 0, teeth_ = 0;
   // Positions near the middle that touch in the neutral pose and part when the jaw opens.
   std::vector<uint32_t> upper_contact_, lower_contact_;
-  std::vector<uint32_t> lower_lip_;                  // outside and inside
+  std::vector<std::array<uint32_t, 3>> lower_lip_;   // triangles, outside and inside
   std::vector<uint32_t> upper_teeth_, lower_teeth_;  // of the front
   std::vector<Point> lower_teeth_at_rest_;
 };
