@@ -131,7 +131,7 @@ uint32_t SkinMaker::lid_edge_vertex(uint32_t from, Color color, bool at_ball) {
 void SkinMaker::make_lid_edges() {
   // The rim of the lid is pink; where it meets the ball, tears shine. Roots of lashes darken the upper one.
   const Color skin = form_.person().skin, rim = mix(skin, {206, 126, 118}, 0.50),
-              tears = mix(rim, {232, 204, 198}, 0.45), dark = mix(skin, {50, 26, 24}, 0.65);
+              tears = mix(rim, {228, 196, 190}, 0.30), dark = mix(skin, {50, 26, 24}, 0.65);
   uint32_t ball[kMaxRing], deep[kMaxRing];
   for (uint32_t k = 0; k < ring_size_; ++k) {
     const double roots =

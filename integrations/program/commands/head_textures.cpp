@@ -21,6 +21,7 @@ namespace {
 
 /// Texels of skin are 0.25 mm wide and 0.3 mm high in front. A GLB with them has less than 6 MB.
 constexpr int kSkinWidth = 1152, kSkinHeight = 768, kEyeSize = 512;
+constexpr int kTongueWidth = 192, kTongueHeight = 256;
 
 // Places in the texture, as author/generate/head/skin.h has them.
 float denser(float even) { return even * 1.8f / (1 + 0.8f * std::fabs(even)); }
@@ -147,8 +148,15 @@ void write_head_textures(Dna dna, uint64_t seed, const std::string& path, const 
   outputs.back()->write(render::to_png(eyes.base_color));
   outputs.push_back(std::make_unique<Output>(eye.texture(TextureKind::kNormal)));
   outputs.back()->write(render::to_png(eyes.normal));
+  SurfaceMaterial tongue;
+  tongue.name = "tongue";
+  tongue.roughness = 0.36;
+  tongue.has_roughness = true;
+  tongue.textures[size_t(TextureKind::kNormal)] = out.file("tongue_normal.png");
+  outputs.push_back(std::make_unique<Output>(tongue.texture(TextureKind::kNormal)));
+  outputs.back()->write(render::to_png(render::make_tongue_normals(kTongueWidth, kTongueHeight)));
   Materials materials;
-  materials.list = {skin, eye};
+  materials.list = {skin, eye, tongue};
   const render::HairMap hair = render::make_hair_map();
   const std::string hair_path = out.file("hair.png");
   outputs.push_back(std::make_unique<Output>(hair_path));

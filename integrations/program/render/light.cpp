@@ -12,12 +12,12 @@ struct Lamp {
 };
 
 const Lamp kKey = {normalized(Vec3{-0.52f, 0.58f, 0.74f}, {}), {1.10f, 1.02f, 0.93f}};
-const Lamp kFill = {normalized(Vec3{0.85f, 0.05f, 0.62f}, {}), {0.27f, 0.27f, 0.275f}};
+const Lamp kFill = {normalized(Vec3{0.85f, 0.05f, 0.62f}, {}), {0.285f, 0.265f, 0.255f}};
 const Lamp kRims[kRimCount] = {
     {normalized(Vec3{0.82f, 0.42f, -0.62f}, {}), {0.82f, 0.93f, 1.08f}},
     {normalized(Vec3{-0.80f, 0.30f, -0.75f}, {}), {0.42f, 0.46f, 0.52f}}};
-constexpr Vec3 kSkyAbove = {0.355f, 0.355f, 0.37f};
-constexpr Vec3 kSkyBelow = {0.235f, 0.175f, 0.145f};
+constexpr Vec3 kSkyAbove = {0.365f, 0.350f, 0.355f};
+constexpr Vec3 kSkyBelow = {0.260f, 0.168f, 0.130f};
 
 // Of skin, in 1 / mm, and times its own curvature.
 constexpr float kLeastBend = 0.25f, kMoreBend = 6;
@@ -166,8 +166,8 @@ Vec3 light(const Fragment& f, float openness, const Arriving& arriving) {
   const float seen = std::max(arriving.key, 1 - smooth_step(-0.25f, 0.25f, smooth));
   // Light goes under the border of a shadow, too.
   const float under = soft * seen * (1 - seen);
-  const Vec3 around = {falloff.at(spread(2.4f), bend).x * (seen + 1.1f * under),
-                       falloff.at(spread(1.6f), bend).y * (seen + 0.25f * under),
+  const Vec3 around = {falloff.at(spread(2.4f), bend).x * (seen + 1.5f * under),
+                       falloff.at(spread(1.6f), bend).y * (seen + 0.3f * under),
                        falloff.at(spread(1.2f), bend).z * (seen + 0.1f * under)};
   Vec3 diffuse = kKey.color * around * mix(open, {1, 1, 1}, 0.6f);
   diffuse += kFill.color * open * wrap(dot(f.normal, kFill.direction), 0.5f);

@@ -255,4 +255,30 @@ SkinMaps make_skin_maps(const Surface& surface, const SkinLayout& layout, int wi
   return SkinMap(surface, layout, width, height).make();
 }
 
+Image make_tongue_normals(int width, int height) {
+  // Half around it is about 3 cm, along it 6 cm.
+  const auto surface = [&](int x, int y) {
+    const float u = (float(x) + 0.5f) / float(width), v = 1 - (float(y) + 0.5f) / float(height);
+    const float around = 2 * std::fabs(u - 0.5f);
+    const Vec3 p = {around * 3, v * 6, 0};
+    const float above = eased(0.45f, 0.60f, around);
+    // Most are pointed and close to each other; a few larger ones are round.
+    return above * (0.012f * spots(p * 11, 0.5f, 0.9f) + 0.016f * spots(p * 4, 0.3f, 0.5f)) +
+           0.008f * noise(p * 3);
+  };
+  Image normals(width, height, {});
+  const float across = 12.0f / float(width), along = 12.0f / float(height);  // of two texels, cm
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const float slope_u =
+          (surface((x + 1) % width, y) - surface((x + width - 1) % width, y)) / across;
+      const float slope_v = (surface(x, y - 1) - surface(x, y + 1)) / along;
+      const Vec3 n = normalized(Vec3{-slope_u, -slope_v, 1}, {0, 0, 1}) + Vec3{1, 1, 1};
+      const auto byte = [](float value) { return uint8_t(std::lround(127.5f * value)); };
+      normals.set(x, y, {byte(n.x), byte(n.y), byte(n.z)});
+    }
+  }
+  return normals;
+}
+
 }  // namespace mien::render

@@ -44,4 +44,8 @@ struct SkinMaps {
 /// texture than of the surface are left out. Width and height are even. The same numbers for the same mesh. Throws std::bad_alloc.
 SkinMaps make_skin_maps(const Surface& surface, const SkinLayout& layout, int width, int height);
 
+/// Papillae of the tongue of the generated head. u is 1/2 along the middle below, 0 and 1 along the middle above; v goes
+/// from the root to the tip.
+Image make_tongue_normals(int width, int height);
+
 }  // namespace mien::render

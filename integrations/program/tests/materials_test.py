@@ -73,16 +73,17 @@ class GeneratedHead(MaterialsTest):
     def test_textures_of_the_skin(self):
         self.ok("demo-head", "-o", path("made.dna"), "--textures", path("made"), "-q")
         sidecar = json.loads(read("made.materials.json"))
-        parts = {"head": "skin", "eyeLeft": "eyes", "eyeRight": "eyes", "hair": "hair", "brows": "brows",
-                 "lashes": "lashes"}
+        parts = {"head": "skin", "eyeLeft": "eyes", "eyeRight": "eyes", "tongue": "tongue", "hair": "hair",
+                 "brows": "brows", "lashes": "lashes"}
         self.assertEqual(sidecar["meshes"],
                          {"%s_lod%d_mesh" % (part, lod): name for part, name in parts.items() for lod in range(8)})
-        skin, eyes, *hairs = sidecar["materials"]
+        skin, eyes, tongue, *hairs = sidecar["materials"]
         self.assertEqual(skin["textures"], {"base_color": "made/skin_basecolor.png", "normal": "made/skin_normal.png",
                                             "roughness": "made/skin_roughness.png"})
         for kind, size in (("basecolor", (1152, 768)), ("normal", (1152, 768)), ("roughness", (576, 384))):
             self.assertEqual(struct.unpack(">II", read("made/skin_%s.png" % kind)[16:24]), size)
         self.assertEqual(eyes["textures"], {"base_color": "made/eyes_basecolor.png", "normal": "made/eyes_normal.png"})
+        self.assertEqual(tongue["textures"], {"normal": "made/tongue_normal.png"})
         # The iris has the color that the eyes have without a texture: blue, while the white is not.
         iris = Picture(read("made/eyes_basecolor.png"))
         below, white = iris.at(256, 256 + 62), iris.at(256 + 120, 256)
@@ -106,6 +107,9 @@ class GeneratedHead(MaterialsTest):
         material, attributes = self.material(glb, "head_lod4_mesh")
         self.assertEqual(self.image(glb, material, "normalTexture"), read("made/skin_normal.png"))
         self.assertNotIn("COLOR_0", attributes)
+        material, attributes = self.material(glb, "tongue_lod4_mesh")
+        self.assertEqual(self.image(glb, material, "normalTexture"), read("made/tongue_normal.png"))
+        self.assertIn("COLOR_0", attributes)
         # Hair, brows and lashes share an image of gray and alpha, each with the color of its hairs, and are cut out.
         self.assertEqual(struct.unpack(">IIBB", read("made/hair.png")[16:26]), (512, 640, 8, 4))
         for hair in hairs:
