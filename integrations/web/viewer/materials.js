@@ -7,8 +7,10 @@ import {
 // What each texture of the file is to three.js.
 const MAPS = { base_color: "map", normal: "normalMap", roughness: "roughnessMap" };
 
-/** Cards of hair get edges as smooth as those of triangles. */
-export function smoothCutEdges(material) {
+/** Draws details that are smaller than pixels as well as they can be: textures seen from the side, edges of hair cards. */
+export function refine(material) {
+  for (const slot of Object.values(MAPS)) if (material[slot]) material[slot].anisotropy = 8; // pores and seams
+  if (!(material.alphaTest > 0)) return;
   material.alphaToCoverage = true;
   // What is drawn stays opaque where something opaque is behind it: the page shines through the canvas.
   Object.assign(material, {
@@ -59,7 +61,6 @@ export class Materials {
     if (given.alpha_cutoff > 0) { // cards of hair
       made.alphaTest = given.alpha_cutoff;
       made.side = DoubleSide;
-      smoothCutEdges(made);
     }
     for (const [kind, slot] of Object.entries(MAPS)) {
       const image = this.#textures.get(given.textures?.[kind]);
@@ -68,13 +69,13 @@ export class Materials {
       texture.flipY = false; // the image is
       texture.wrapS = texture.wrapT = RepeatWrapping;
       texture.colorSpace = kind === "base_color" ? SRGBColorSpace : LinearSRGBColorSpace;
-      texture.anisotropy = 8; // pores seen from the side would shimmer
       texture.needsUpdate = true;
       made[slot] = texture;
       this.#made.push(texture);
     }
     // A texture is the roughness itself, unless the file scales it.
     if (typeof given.roughness === "number" || made.roughnessMap) made.roughness = given.roughness ?? 1;
+    refine(made);
     // Colors of vertices stand for a material where none is given.
     made.userData.hasColor = Array.isArray(color) || made.map !== null;
     return made;

@@ -3,7 +3,7 @@
 import { Isa, Kind } from "mien";
 import { FaceObject, defaultMaterial } from "mien/three";
 import { ArkitControls } from "./arkit.js";
-import { smoothCutEdges } from "./materials.js";
+import { refine } from "./materials.js";
 import { asSkin } from "./skin.js";
 
 /** A rig of a DNA file or a baked file. */
@@ -183,7 +183,7 @@ export class GlbModel {
     this.targets = new Map();
     scene.traverse((mesh) => {
       mesh.frustumCulled = false;
-      if (mesh.material?.alphaTest > 0) smoothCutEdges(mesh.material);
+      if (mesh.isMesh) refine(mesh.material);
       if (mesh.material?.name === "skin") asSkin(mesh.material);
       for (const [name, target] of Object.entries(mesh.morphTargetDictionary ?? {})) {
         if (!this.targets.has(name)) this.targets.set(name, []);
