@@ -89,8 +89,7 @@ class Takes {
     const auto add_part = [&](const std::string& layer, const ClipScript& clip, bool from_begin) {
       if (clip.path.empty() || !known.insert(clip.path).second) return;
       if (!clip.speech) {
-        serve(std::filesystem::path(clip.path).filename().string(),
-              read_any_bytes((folder / clip.path).string(), kCannotView));
+        serve_clip((folder / clip.path).string());
         return;
       }
       const size_t number = ++said[layer];
@@ -105,6 +104,17 @@ class Takes {
         add_part(script.layers[event.target].name, event.clip, event.time == 0);
       }
     }
+  }
+
+  /// Only a clip: a scene from elsewhere may name any file of the user.
+  void serve_clip(const std::string& path) {
+    std::string bytes = read_any_bytes(path, kCannotView);
+    auto error = sized<MienError>();
+    MienClip* opened = nullptr;
+    check(mien_clip_open_memory(bytes.data(), bytes.size(), nullptr, &opened, &error), &error,
+          kCannotView, shown_name(path));
+    const Clip clip(opened);
+    serve(std::filesystem::path(path).filename().string(), std::move(bytes));
   }
 
   void speak(speech::SpeechSource source, const std::filesystem::path& folder,

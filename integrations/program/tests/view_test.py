@@ -286,6 +286,8 @@ class View(ProgramTest):
         self.fails(FILE, *page, path("missing.clip"), says="missing.clip")
         self.fails(INVALID, *page, write("scene.json", '{"layers": [{"name": "a"}]}'), says="scene.json")
         self.fails(FILE, *page, write("scene.json", '{"layers": [{"name": "a", "source": {"clip": "none.clip"}}]}'), says="none.clip")
+        # Scenes may be from elsewhere: of what they name, only clips are served.
+        self.fails(INVALID, *page, write("scene.json", '{"layers": [{"name": "a", "source": {"clip": "secret.js"}}]}'), says="secret.js")
         self.fails(INVALID, "view", "--page", path("page"), "--no-open", path("scene.json"), says="name a rig first")
 
     def test_live_data_are_sent_to_the_page(self):
