@@ -19,6 +19,7 @@ switches.push("--use-fake-device-for-media-stream", "--use-fake-ui-for-media-str
 
 test("a GLB opens as the first file", options, async () => {
   await open(join(work, "head.glb"));
+  assert.match(await page.run(() => [document.getElementById("idle").disabled, document.getElementById("idle").parentElement.title].join()), /^true,A GLB/);
   assert.match(await text("facts"), /\d+ morph targets/);
   assert.deepEqual(page.errors, []);
 });

@@ -39,7 +39,10 @@ export class Attention {
     this.#idle?.dispose();
     this.#idle = null;
     this.#rig = model.rig ?? null;
-    $("idle").disabled = $("follow").disabled = !this.#rig;
+    for (const id of ["idle", "follow"]) {
+      $(id).disabled = !this.#rig;
+      $(id).parentElement.title = this.#rig ? "" : "A GLB has no controls to mix: open a DNA file or a baked rig";
+    }
     this.motion = null;
   }
 
