@@ -19,9 +19,9 @@ inline HairLane hair_lane(double left, double width, double root, double tip) {
   return {left + kTexel, left + width - kTexel, root + kTexel, tip - kTexel};
 }
 inline HairLane lock_lane(uint32_t number) { return hair_lane(number % 5 / 8.0, 0.125, 0.6, 1); }
-inline HairLane dense_lane() { return hair_lane(5 / 8.0, 0.125, 0.6, 1); }
+inline HairLane line_lane() { return hair_lane(5 / 8.0, 0.125, 0.6, 1); }
 inline HairLane thin_lane() { return hair_lane(6 / 8.0, 0.125, 0.6, 1); }
-inline HairLane short_lock_lane() { return hair_lane(7 / 8.0, 0.125, 0.6, 1); }
+inline HairLane loose_lane() { return hair_lane(7 / 8.0, 0.125, 0.6, 1); }
 inline HairLane curl_lane(uint32_t number) {
   return hair_lane(0.5 + number % 4 / 8.0, 0.125, 0.2, 0.6);
 }
@@ -38,11 +38,12 @@ struct CardRow {
   Vec3 half;
 };
 
-constexpr uint32_t kMaxCardRows = 10;
+constexpr uint32_t kMaxCardRows = 14;
 
 /// At most kMaxCardRows rows from root to tip; counter-clockwise if `half` points to the right as seen from outside
-/// with the tip above.
-inline void add_card(const CardRow* rows, uint32_t count, const HairLane& lane, HalfMesh& out) {
+/// with the tip above. `round`: how far the normals of its sides lean apart, as those of a lock do.
+inline void add_card(const CardRow* rows, uint32_t count, const HairLane& lane, HalfMesh& out,
+                     double round = 0) {
   const uint32_t first = out.vertices.count();
   for (uint32_t i = 0; i < count; ++i) {
     for (const double side : {-1.0, 1.0}) {
@@ -50,6 +51,7 @@ inline void add_card(const CardRow* rows, uint32_t count, const HairLane& lane, 
       const Vec3 step = rows[i].half * side;
       v.position = v.position + step;
       v.closed = v.closed + step;
+      if (round > 0) v.normal = v.normal + unit(step) * round;
       v.u = side < 0 ? lane.left : lane.right;
       v.v = author::mix(lane.root, lane.tip, static_cast<double>(i) / (count - 1));
       out.vertices.add(v);

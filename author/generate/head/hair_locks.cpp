@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Long hair, combed from a parting to both sides: a sheet on each side under layers of locks. Hairs run along the
-// sheets: f tells where on the parting one begins, 0 at the forehead, 1 at the crown, and s how far along it a place is.
-//
-//     parting  f=1 --------- s --------> nape
-//        |     f=0.5 ------------------> behind the ear
-//     forehead f=0 --------------------> along the hair line to the sideburn
+// Locks: cards that grow all over the scalp and follow the way that hairs are combed, those from above over those below;
+// more at the hair line of the forehead, and thin hairs along all of the line. The ways of hairs are found on a map of
+// the scalp as seen from above, with the crown in the middle and the border of the hair at distance 1.
 #include <algorithm>
 
 #include "author/generate/head/scalp.h"
@@ -12,7 +9,6 @@
 namespace mien::head {
 
 using author::clamp01;
-using author::exact_pow;
 using author::exact_sine;
 using author::exact_sine_cosine;
 using author::kPi;
@@ -21,183 +17,328 @@ using author::smooth_step;
 
 namespace {
 
-constexpr double kPart = 0.42;  // angle of the parting
+/// Hanging hair is cut, and its roots are as short as those of other hair; tufts are the tips of locks.
+HairLane hanging(HairLane lane) {
+  lane.root += 0.055;
+  lane.tip -= 0.09;
+  return lane;
+}
+HairLane tuft(HairLane lane) {
+  lane.root += 0.16;
+  return lane;
+}
+
+struct MapPlace {
+  double x, z;  // to the left and to the front
+  double far() const { return std::sqrt(x * x + z * z); }
+  double around() const { return author::exact_atan2(x, z); }
+};
+
+struct Lock {
+  MapPlace root;
+  double length, half_width;  // cm
+  double from, over;          // height of root and rest, of the thickness of the hair
+  double rise;                // the way over which it gets there, cm
+  double turn = 0;            // angle by which it leaves the way that others lie
+  double reach = 1;           // distance on the map where it ends
+  uint32_t number;
+  HairLane lane;
+  uint32_t rows;
+};
+
+/// Fewer than of other hairs at coarse LODs, where shells do.
+uint32_t locks_at(uint32_t full, uint32_t least, uint32_t lod) {
+  return at_lod(full, least, lod < 2 ? 2 * lod : std::min(lod + 2, kLodCount - 1));
+}
 
 class LockMaker {
  public:
   LockMaker(const Scalp& scalp, uint32_t lod, HalfMesh& out)
-      : scalp_(scalp), shape_(scalp.shape()), lod_(lod), out_(out), hangs_(shape_.hang < 0),
-        hair_(scalp.person().hair) {}
+      : scalp_(scalp), shape_(scalp.shape()), lod_(lod), out_(out), hangs_(shape_.hang < 0) {}
 
   void make() {
-    for (const double side : {1.0, -1.0}) {
-      add_sheet(side);
-      add_layers(side);
+    // Shells do for short hair, and for all of it from afar.
+    if (lod_ < (shape_.shells > 1 ? 3 : 4)) {
+      add_all_over();
+      add_front();
+      if (shape_.parting > 0) add_parting();
     }
-    add_baby_hairs();
+    add_thin_hairs();
+    if (lod_ == 0 && shape_.top > 3) add_loose_hairs();
   }
 
  private:
-  struct Place {
-    double around, t;
-  };
-  Place place(double side, double f, double s) const;
-  double height(const Place& at, const Scalp::Root& root, double f, double s) const;
-  /// On the outside of the sheet, `raise` above it.
-  Vertex vertex(double side, double f, double s, double raise, Color color) const {
-    const Place at = place(side, f, s);
-    const Scalp::Root root = scalp_.root(at.around, at.t);
-    return scalp_.above(root, height(at, root, f, s) + raise, color);
+  MapPlace way(MapPlace at, double turn) const;
+  bool grows(const Lock& lock, Scalp::Root* roots, MapPlace* places, double& size) const;
+  void add(const Lock& lock);
+  MapPlace place(double around, double t) const {
+    const auto [sine, cosine] = exact_sine_cosine(around);
+    return {(1 - t) * sine, (1 - t) * cosine};
   }
-  /// The same on all layers, so that without a texture they are one body with locks.
-  Color shaded(double f, double s) const {
-    const double lock = exact_sine(46 * f + 4 * s) + 0.5 * exact_sine(101 * f - 3 * s);
-    return mix(hair_, {14, 10, 9}, clamp01(0.16 + 0.07 * lock + 0.26 * smooth_step(0.15, 0, s)));
+  double length_at(double row) const {
+    return mix(shape_.sides, shape_.top, smooth_step(2.0, 7.5, row));
   }
-  void add_sheet(double side);
-  void add_layers(double side);
-  void add_baby_hairs();
+  void add_all_over();
+  void add_front();
+  void add_parting();
+  void add_thin_hairs();
+  void add_loose_hairs();
 
   const Scalp& scalp_;
   const HairShape& shape_;
   const uint32_t lod_;
   HalfMesh& out_;
   const bool hangs_;
-  const Color hair_;
 };
 
-/// Seen from above the crown, with 1 - t as the distance from it: hairs of the forehead run around it along the line,
-/// those of the crown straight away from it.
-LockMaker::Place LockMaker::place(double side, double f, double s) const {
-  const double inner = clamp01(f), left = 1 - s;
-  const double front = hangs_ ? 0.375 : 0.455;  // where the first hairs end, of pi
-  const double end = side * kPi * mix(front, 1.0, exact_pow(inner, 0.8));
-  const double from = 1 - (f < 0 ? f : 0.97 * inner);
-  const double turned = hangs_ ? 1 - left * std::abs(left) : s;
-  const double arc_angle = mix(kPart, end, turned), arc_far = mix(from, 1, s);
-  const auto [sine, cosine] = exact_sine_cosine(arc_angle);
-  const auto [start_x, start_z] = exact_sine_cosine(kPart);
-  const auto [end_x, end_z] = exact_sine_cosine(end);
-  const double straight = smooth_step(0.05, 0.75, inner);
-  const double x = mix(arc_far * sine, mix(from * start_x, end_x, s), straight);
-  const double z = mix(arc_far * cosine, mix(from * start_z, end_z, s), straight);
-  const double far = std::sqrt(x * x + z * z);
-  // Hairs of the forehead lie above the line for most of their way.
-  const double lift = 0.05 * exact_sine(kPi * clamp01(s)) * (1 - inner);
-  return {author::exact_atan2(x, z), std::min(1 - far + lift, 0.99)};
+/// Down on the sides and behind, over the crown back; over the forehead away from the parting, and back.
+MapPlace LockMaker::way(MapPlace at, double turn) const {
+  const double far = std::max(at.far(), 1e-3), share = std::abs(at.around()) / kPi;
+  const auto [sine, cosine] = exact_sine_cosine(kParting);
+  const double side = at.x * cosine - at.z * sine > 0 ? 1 : -1;
+  const double crown = smooth_step(10.9, 12.4, scalp_.row_of(at.around(), 1 - far));
+  const double front = smooth_step(0.52, 0.20, share) * (1 - crown);
+  const MapPlace out = {at.x / far, at.z / far},
+                 down = {out.x * (1 - crown), mix(out.z, -1, crown)};
+  const double aside = front * side * (1 - 0.5 * shape_.swept), back = shape_.swept;
+  MapPlace d = {aside * cosine + (1 - front) * down.x,
+                -aside * sine - front * back + (1 - front) * (down.z - 0.35 * back)};
+  if (hangs_) {
+    // Along the line of the forehead, not across it.
+    const double across = d.x * out.x + d.z * out.z;
+    const double held =
+        std::max(0.0, across) * smooth_step(0.80, 0.97, far) * smooth_step(0.37, 0.27, share);
+    d = {d.x - held * out.x, d.z - held * out.z};
+  }
+  const auto [s, c] = exact_sine_cosine(turn);
+  d = {c * d.x + s * d.z, c * d.z - s * d.x};
+  const double size = std::max(std::sqrt(d.x * d.x + d.z * d.z), 1e-6);
+  return {d.x / size, d.z / size};
 }
 
-double LockMaker::height(const Place& at, const Scalp::Root& root, double f, double s) const {
-  const double share = std::abs(at.around) / kPi;
-  double body = mix(shape_.low, shape_.high, smooth_step(0.05, 0.6, at.t));
-  // A wave over the forehead.
-  const double front = smooth_step(0.42, 0.05, share);
-  body += 0.75 * shape_.sweep * front * bump(f, s, 0.20, 0.30, 0.20, 0.30);
-  if (root.below > 0) {
-    body += 0.65 * smooth_step(0, 2.5, root.below) - 0.75 * smooth_step(4.2, 6.4, root.below);
-  }
-  if (hangs_) body += 0.8 * bump(share, root.skin.y, 0.52, 0.5, 0.10, 3);
-  // Flat at the parting, at the hair line and, unless it hangs, where it ends.
-  body *= mix(0.10, 1, smooth_step(-0.02, 0.16, s));
-  const double inside = hangs_ ? smooth_step(-0.02, 0.10, f + 0.25 * smooth_step(0.3, 0.6, s))
-                               : smooth_step(-0.02, 0.13, f);
-  body = mix(-0.05, body, inside);
-  return hangs_ ? body : mix(body, 0.10 * inside, smooth_step(0.70, 1.0, s));
-}
-
-void LockMaker::add_sheet(double side) {
-  const uint32_t rows = at_lod(15, 6, lod_) + 1, columns = at_lod(16, 8, lod_) + 1;
-  const uint32_t first = out_.vertices.count();
-  const HairLane lane = dense_lane();
-  for (uint32_t row = 0; row < rows; ++row) {
-    const double even = static_cast<double>(row) / (rows - 1),
-                 f = mix(lod_ < 5 ? 0.045 : 0.0, 1, even * mix(0.7, 1, even));
-    for (uint32_t k = 0; k < columns; ++k) {
-      const double s = (hangs_ ? 0.96 : 0.92) * k / (columns - 1);
-      Vertex v = vertex(side, f, s, -0.04, shaded(f, s));
-      if (row == 0) v.color = mix(hair_, scalp_.person().skin, 0.4);
-      v.u = row % 2 == 0 ? lane.left : lane.right;
-      v.v = mix(lane.root, lane.tip, static_cast<double>(k) / (columns - 1));
-      out_.vertices.add(v);
-    }
-  }
-  // Rows go up; on the left of the head, columns go to the right as seen from outside.
-  for (uint32_t row = 0; row + 1 < rows; ++row) {
-    for (uint32_t k = 0; k + 1 < columns; ++k) {
-      const uint32_t at = first + row * columns + k, above = at + columns;
-      side > 0 ? out_.quad(at, at + 1, above + 1, above) : out_.quad(at, above, above + 1, at + 1);
-    }
-  }
-}
-
-/// Locks over the sheet, down to LOD 4. Those of outer layers begin farther from the parting.
-void LockMaker::add_layers(double side) {
-  const uint32_t layers = lod_ < 3 ? 3 : lod_ < 5 ? 2 : 0, count = at_lod(22, 5, lod_);
-  const uint32_t steps = lod_ == 0 ? 9 : lod_ < 3 ? 7 : 5;
-  const double spacing = 1.0 / count;
-  uint32_t number = side > 0 ? 0 : 5000;
-  for (uint32_t layer = 0; layer < layers; ++layer) {
-    for (uint32_t i = 0; i < count; ++i, ++number) {
-      const double f = (i + 0.5 + 0.42 * scatter(number)) * spacing;
-      const double begin = layer == 0   ? 0.0
-                           : layer == 1 ? 0.16 + 0.14 * scatter(number + 100)
-                                        : 0.42 + 0.16 * scatter(number + 200);
-      const double end = 1.0 + (hangs_ ? 0.10 : 0.07) * scatter(number + 300);
-      const double drift = 0.6 * spacing * scatter(number + 400);
-      const double raise = 0.05 + 0.055 * layer + 0.05 * scatter(number + 500);
-      const double shade = scatter(number + 600),
-                   wide = spacing * (0.80 + 0.15 * scatter(number + 700));
-      CardRow rows[kMaxCardRows];
-      for (uint32_t k = 0; k < steps; ++k) {
-        const double along = static_cast<double>(k) / (steps - 1), s = mix(begin, end, along);
-        const double at = std::min(f + drift * along * (1 - along) * 2, 1.03);
-        const double width = wide * mix(0.7, 1, smooth_step(0, 0.25, along)) *
-                             mix(1, 0.55, smooth_step(0.6, 1, along));
-        // Out from under the layer below, over it, and back to it.
-        const double up = raise * smooth_step(0, 0.2, along) - 0.03 * smooth_step(0.15, 0, along) +
-                          0.05 * exact_sine(9 * along + 5 * shade) * smooth_step(0, 0.3, along);
-        const Color c = shaded(at, s);
-        const Vertex low = vertex(side, at - width, s, up, c),
-                     high = vertex(side, at + width, s, up, c);
-        rows[k].middle = vertex(side, at, s, up, c);
-        rows[k].middle.position = (low.position + high.position) * 0.5;
-        rows[k].middle.closed = rows[k].middle.look = rows[k].middle.position;
-        // As seen with the tip above, the crown is on the left of the locks on the left of the head.
-        rows[k].half = (high.position - low.position) * (side > 0 ? -0.5 : 0.5);
+/// Places along a lock, evenly; shorter if it would leave the hair. False if there is no room.
+bool LockMaker::grows(const Lock& lock, Scalp::Root* roots, MapPlace* places, double& size) const {
+  size = lock.length;
+  for (const bool last : {false, true}) {
+    double scale = 0.07;  // map per cm
+    const double step = size / (lock.rows - 1);
+    double reached = size;
+    MapPlace p = places[0] = lock.root;
+    roots[0] = scalp_.root(p.around(), 1 - p.far());
+    for (uint32_t k = 1; k < lock.rows; ++k) {
+      MapPlace next = p;
+      for (int correction = 0; correction < 2; ++correction) {
+        const double far = scale * step;
+        const MapPlace half = way(p, lock.turn);
+        const MapPlace d = way({p.x + 0.5 * far * half.x, p.z + 0.5 * far * half.z}, lock.turn);
+        next = {p.x + far * d.x, p.z + far * d.z};
+        roots[k] = scalp_.root(next.around(), 1 - next.far());
+        const double cm = length(roots[k].skin - roots[k - 1].skin);
+        scale *= std::min(std::max(step / std::max(cm, 1e-6), 0.3), 3.0);
       }
-      add_card(rows, steps, layer == 2 && i % 3 == 0 ? short_lock_lane() : lock_lane(number), out_);
+      if (next.far() > lock.reach && next.far() > p.far()) {
+        const double share = clamp01((lock.reach - p.far()) / (next.far() - p.far()));
+        if (!last) {
+          reached = (k - 1 + share) * step;
+          break;
+        }
+        next = {mix(p.x, next.x, share), mix(p.z, next.z, share)};
+        roots[k] = scalp_.root(next.around(), 1 - next.far());
+      }
+      places[k] = p = next;
     }
+    if (reached == size) return true;
+    size = reached;
+    if (size < 0.55 * lock.length && !hangs_) return false;
+  }
+  return true;
+}
+
+void LockMaker::add(const Lock& lock) {
+  Scalp::Root roots[kMaxCardRows];
+  MapPlace places[kMaxCardRows];
+  double size;
+  if (!grows(lock, roots, places, size)) return;
+  const Color hair = scalp_.person().hair;
+  const double shade = scatter(lock.number + 600);
+  // The sides of a flat card are farther out than its middle.
+  const double flat = lock.half_width * lock.half_width / 16;
+  CardRow rows[kMaxCardRows];
+  for (uint32_t k = 0; k < lock.rows; ++k) {
+    const double s = static_cast<double>(k) / (lock.rows - 1);
+    const double body = scalp_.body(places[k].around(), 1 - places[k].far(), roots[k]);
+    const double height = 0.012 +
+                          body * mix(lock.from, lock.over, smooth_step(0, lock.rise, s * size)) -
+                          flat * (lock.from == 0 ? smooth_step(0.1, 0.4, s) : 1);
+    Color c = mix(hair, {14, 10, 9}, clamp01(0.16 + 0.12 * shade + 0.22 * smooth_step(0.3, 0, s)));
+    // Skin shows between hairs at the line and where they are few, which without a texture the color has to tell.
+    const double few = 0.9 * (1 - scalp_.density(roots[k].row)) + (lock.over < 0.6 ? 0.4 : 0);
+    const double grown = lock.from == 0 ? smooth_step(-0.3, 0.35, s) : 1;
+    c = mix(c, scalp_.person().skin, clamp01(few + 1 - grown));
+    rows[k].middle = scalp_.above(roots[k], height, c);
+  }
+  for (uint32_t k = 0; k < lock.rows; ++k) {
+    const double s = static_cast<double>(k) / (lock.rows - 1);
+    const Vec3 along = rows[std::min(k + 1, lock.rows - 1)].middle.position -
+                       rows[k > 0 ? k - 1 : 0].middle.position;
+    const double wide = mix(0.75, 1, smooth_step(0, 0.25, s)) *
+                        mix(1, hangs_ ? 0.85 : 0.5, smooth_step(0.55, 1, s));
+    rows[k].half = normalized(cross(along, roots[k].normal)) * (lock.half_width * wide);
+  }
+  add_card(rows, lock.rows, lock.lane, out_, 0.3);
+}
+
+/// Evenly over the scalp, in a spiral from the crown.
+void LockMaker::add_all_over() {
+  const uint32_t count = locks_at(2 * shape_.locks, 30, lod_);
+  const double wider = std::sqrt(2.0 * shape_.locks / count);
+  static constexpr uint32_t kRows[2][4] = {{6, 6, 5, 4}, {13, 8, 8, 6}};
+  const uint32_t rows = kRows[hangs_][std::min(lod_, 3u)];
+  constexpr double kTurn = 2.39996322972865332;  // golden
+  for (uint32_t i = 0; i < count; ++i) {
+    // Denser towards the crown, where ways part.
+    const double row = 12.5 - 20 * author::exact_pow((i + 0.5) / count, 1.3);
+    if (row < -6) break;
+    const double turns = kTurn * i / (2 * kPi);
+    const double around = 2 * kPi * (turns - std::floor(turns)) - kPi;
+    if (row < scalp_.line(around) + 0.25) continue;
+    // Short hair is that of the shells.
+    if (length_at(row) < 1.3 || (hangs_ && row < 4.5)) continue;
+    const double dense = scalp_.density(row);
+    Lock lock{};
+    lock.root = place(around, scalp_.share_of(around, row));
+    lock.length = length_at(row) * (1 + 0.18 * scatter(i));
+    lock.half_width = (shape_.curls ? 0.75
+                       : hangs_     ? 0.72
+                                    : std::min(0.60, 0.20 * length_at(row))) *
+                      (1 + 0.2 * scatter(i + 100)) * wider;
+    if (!hangs_) lock.half_width *= mix(0.75, 1, smooth_step(1, 6, row));
+    lock.from = 0.45;
+    // Those from above lie over those from below.
+    lock.over =
+        (hangs_ ? mix(0.55, 1.0, (row - 4.5) / 8) : mix(0.84, 1.05, smooth_step(-6, 13, row))) +
+        0.02 * scatter(i + 200);
+    lock.rise = 0.45 * std::min(lock.length, 3.5);
+    lock.turn = (shape_.curls ? 0.9 : 0.12) * scatter(i + 300);
+    lock.reach = (hangs_ ? 1.0 : 1.01) + 0.025 * scatter(i + 400);
+    lock.number = i;
+    lock.lane = shape_.curls                         ? curl_lane(i)
+                : dense > 0.95                       ? lock_lane(i)
+                : scatter(i + 50) < 10 * dense - 7.5 ? line_lane()
+                                                     : thin_lane();
+    if (hangs_) lock.lane = hanging(lock.lane);
+    if (lock.length < 2.5 && !shape_.curls) lock.lane = tuft(lock.lane);
+    lock.rows = !hangs_ && lock.length < 3.5 ? std::min(rows, 5u) : rows;
+    add(lock);
   }
 }
 
-/// Thin hairs from the hair line of the forehead and the temples, so that it is not an edge.
-void LockMaker::add_baby_hairs() {
-  const uint32_t count = at_lod(72, 9, lod_), steps = 3;
-  const double reach = hangs_ ? 0.29 : 0.45;
+/// From the line of the forehead and the temples up.
+void LockMaker::add_front() {
+  const uint32_t count = at_lod(66, 14, lod_);
+  const double until = hangs_ ? 0.27 : lod_ == 0 ? 0.43 : 0.33;
   for (uint32_t i = 0; i < count; ++i) {
-    const double around = kPi * reach * (2 * (i + 0.5 + 0.4 * scatter(i + 40)) / count - 1);
-    const double side = around > kPart ? 1 : -1;
-    const double shade = scatter(i + 50), size = 0.13 + 0.05 * scatter(i + 60);
-    // Up and away from the parting; in the temples backwards.
-    const double away = side * (0.14 + 0.06 * scatter(i + 70));
-    CardRow rows[3];
-    for (uint32_t k = 0; k < steps; ++k) {
-      const double s = k / 2.0;
-      const double t = -0.02 + 0.014 * scatter(i + 80) + size * (0.75 * s + 0.25 * s * s);
-      const Scalp::Root root = scalp_.root(around + away * s * s, t);
-      const Color c = mix(hair_, scalp_.person().skin, 0.75 - 0.65 * s + 0.1 * shade);
-      rows[k].middle = scalp_.above(root, 0.015 + (0.16 + 0.07 * shade) * s, c);
-      const Vec3 across = scalp_.root(around + away * s * s + 0.02, t).skin - root.skin;
-      rows[k].half =
-          unit(across) * (0.34 * mix(0.8, 1, s) * 72.0 / count * mix(0.6, 1, count / 72.0));
-    }
-    add_card(rows, steps, thin_lane(), out_);
+    const double around = kPi * until * (2 * (i + 0.5 + 0.35 * scatter(i + 40)) / count - 1);
+    Lock lock{};
+    const double temple = smooth_step(0.22, 0.32, std::abs(around) / kPi);
+    lock.root = place(around, 0.015 + 0.02 * temple + 0.03 * scatter(i + 41));
+    lock.length =
+        0.8 * std::min(length_at(scalp_.line(around) + 1), 9.0) * (1 + 0.2 * scatter(i + 42));
+    lock.half_width = mix(0.55, 0.38, temple) * std::sqrt(66.0 / count);
+    lock.from = 0;
+    lock.over = 0.94 + 0.05 * scatter(i + 43);
+    lock.rise = 0.5 * std::min(lock.length, 4.0);
+    lock.turn = 0.15 * scatter(i + 44);
+    lock.reach = 1.05;
+    lock.number = 7000 + i;
+    if (lock.length < 1.4) continue;
+    const bool thin = scatter(i + 45) > 10 * scalp_.density(scalp_.line(around) + 0.5) - 7.5;
+    lock.lane = shape_.curls ? curl_lane(i) : thin ? thin_lane() : line_lane();
+    if (hangs_) lock.lane = hanging(lock.lane);
+    lock.rows = lod_ < 2 ? 5 : 4;
+    add(lock);
+  }
+}
+
+/// Away from both sides of the parting.
+void LockMaker::add_parting() {
+  const uint32_t count = locks_at(56, 12, lod_);
+  const auto [sine, cosine] = exact_sine_cosine(kParting);
+  for (uint32_t i = 0; i < count; ++i) {
+    const double side = i % 2 == 0 ? 1 : -1,
+                 along = mix(hangs_ ? -0.12 : 0.04, 0.97, (i + 0.5) / count);
+    const double off = side * (0.012 + 0.008 * scatter(i + 20));
+    Lock lock{};
+    lock.root = {along * sine + off * cosine, along * cosine - off * sine};
+    lock.length = (hangs_ ? 25 : 6.0) * (1 + 0.15 * scatter(i + 21));
+    lock.half_width = (hangs_ ? 0.8 : 0.6) * std::sqrt(56.0 / count);
+    lock.from = 0.55;
+    lock.over = (hangs_ ? 1.08 : 1.06) + 0.03 * scatter(i + 22);
+    lock.rise = 1.8;
+    lock.turn = 0.1 * scatter(i + 23);
+    lock.reach = (hangs_ ? 1.0 : 1.01) + 0.025 * scatter(i + 24);
+    lock.number = 6000 + i;
+    lock.lane = lock_lane(i);
+    if (hangs_) lock.lane = hanging(lock.lane);
+    lock.rows = hangs_ ? (lod_ == 0 ? 14 : 7) : lod_ < 3 ? 6 : 4;
+    add(lock);
+  }
+}
+
+/// Short thin hairs along the line, so that it is not an edge.
+void LockMaker::add_thin_hairs() {
+  const uint32_t count = locks_at(120, 22, lod_);
+  const double until = hangs_ ? 0.29 : 1;
+  for (uint32_t i = 0; i < count; ++i) {
+    const double around = kPi * until * (2 * (i + 0.5 + 0.4 * scatter(i + 60)) / count - 1);
+    const double share = std::abs(around) / kPi;
+    if (share > 0.447 && share < 0.50) continue;  // the ear
+    const MapPlace there = place(around, 0), d = way(there, 0);
+    // Where hairs leave the line they begin above it.
+    const bool leaves = d.x * there.x + d.z * there.z > 0.3;
+    Lock lock{};
+    lock.root = place(around, (leaves ? 0.035 : -0.012) + 0.02 * scatter(i + 61));
+    lock.length = 1.1 + 0.35 * scatter(i + 62);
+    lock.half_width = 0.40 * std::sqrt(120.0 / count);
+    lock.from = 0;
+    lock.over = 0.35 + 0.2 * scatter(i + 63);
+    lock.rise = 1.2;
+    // Elsewhere they stand up rather than along it.
+    const double side = there.z * d.x - there.x * d.z;
+    lock.turn = 0.35 * scatter(i + 64) + (leaves ? 0 : side > 0 ? 0.5 : -0.5);
+    lock.reach = 1.2;
+    lock.number = 8000 + i;
+    lock.lane = thin_lane();
+    lock.rows = 3;
+    add(lock);
+  }
+}
+
+/// A few single hairs above the others.
+void LockMaker::add_loose_hairs() {
+  const uint32_t count = locks_at(28, 4, lod_);
+  for (uint32_t i = 0; i < count; ++i) {
+    const double row = mix(3.5, 12, (i + 0.5) / count), around = kPi * scatter(i + 70);
+    if (row < scalp_.line(around) + 1) continue;
+    Lock lock{};
+    lock.root = place(around, scalp_.share_of(around, row));
+    lock.length = 0.9 * length_at(row);
+    lock.half_width = 0.5;
+    lock.from = 0.9;
+    lock.over = 1.08 + 0.03 * scatter(i + 71);
+    lock.rise = 3;
+    lock.turn = 0.35 * scatter(i + 72);
+    lock.reach = 1.02;
+    lock.number = 9000 + i;
+    lock.lane = loose_lane();
+    lock.rows = hangs_ ? 12 : 6;
+    add(lock);
   }
 }
 
 }  // namespace
 
-void add_long_hair(const Scalp& scalp, uint32_t lod, HalfMesh& out) {
+void add_locks(const Scalp& scalp, uint32_t lod, HalfMesh& out) {
   LockMaker(scalp, lod, out).make();
 }
 

@@ -60,7 +60,7 @@ double importance(const Form& form, const Vertex& v) {
   w += 6 * bump(0, p.y, 0, -14, 1, 2);
   if (p.x > 5) w += 6 * bump(p.z, p.y, -1.2, -0.7, 1.8, 2.6);
   const double hidden = scalp(form, angle_of_u(v.u), p.y);
-  w = (w + 12 * hidden * (1 - hidden)) * (1 - 0.75 * hidden);
+  w = (w + 8 * hidden * (1 - hidden)) * (1 - 0.75 * hidden);
   return w * author::mix(1, 0.7, author::smooth_step(-16, -18, p.y));
 }
 

@@ -119,7 +119,7 @@ Person make_person(uint64_t seed) {
     };
     skin = pick(6);
     // Hair and eyes are mostly dark where skin is: tones 2, 3 and 4.
-    static constexpr uint32_t kDarkHairs[] = {1, 4, 1, 4, 0, 1}, kDarkIrises[] = {1, 4, 4, 1, 5, 4};
+    static constexpr uint32_t kDarkHairs[] = {1, 4, 1, 4, 4, 1}, kDarkIrises[] = {1, 4, 4, 1, 5, 4};
     const bool dark = skin >= 2 && skin <= 4;
     hair = pick(6);
     iris = pick(6);

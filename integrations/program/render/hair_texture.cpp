@@ -39,6 +39,7 @@ struct Strand {
   float full = 0.35f;   // where along it begins to taper
   float soft_root = 0;  // how much of it fades in from the root
   float shade = 1;      // gray, of 1
+  float dark_root = 0;  // how much darker it is at its root
   float opacity = 1;
 };
 
@@ -47,22 +48,11 @@ class HairPainter {
   HairPainter() : gray_(size_t{kHairWide} * kHairHigh, 0.78f), alpha_(gray_.size(), 0.0f) {}
 
   void draw(const Lane& lane, const Strand& s);
-  void fill(const Lane& lane, float shade);
   HairMap finish() const;
 
  private:
   std::vector<float> gray_, alpha_;  // rows from below
 };
-
-void HairPainter::fill(const Lane& lane, float shade) {
-  for (int y = int(lane.low); y < int(lane.low + lane.height); ++y) {
-    for (int x = int(lane.left); x < int(lane.left + lane.width); ++x) {
-      const size_t at = size_t(y) * kHairWide + size_t(x);
-      gray_[at] = shade;
-      alpha_[at] = 1;
-    }
-  }
-}
 
 /// Row by row: hairs run rather upwards than across. What leaves the lane is cut off.
 void HairPainter::draw(const Lane& lane, const Strand& s) {
@@ -88,7 +78,8 @@ void HairPainter::draw(const Lane& lane, const Strand& s) {
           s.opacity;
       if (cover <= 0) continue;
       // A round hair is darker at its sides.
-      const float round = half > 0.6f ? 1 - 0.22f * std::min(from_middle / (half + 0.5f), 1.0f) : 1;
+      float round = half > 0.6f ? 1 - 0.22f * std::min(from_middle / (half + 0.5f), 1.0f) : 1;
+      round *= 1 - s.dark_root * std::max(1 - 2.5f * t, 0.0f);
       const size_t at =
           (size_t(lane.low) + size_t(y)) * kHairWide + size_t(lane.left) + size_t(column);
       gray_[at] += (s.shade * round - gray_[at]) * (alpha_[at] > 0 ? cover : 1);
@@ -117,61 +108,40 @@ HairMap HairPainter::finish() const {
 
 // Kinds -------------------------------------------------------------------------------------------
 
-/// Hairs that lie over each other, the last ones on top and lighter.
-void paint_lock(HairPainter& out, int number, int hairs, float reach) {
+/// How the hairs of a lane lie.
+struct LockStyle {
+  int hairs;
+  float roots;  // part of the lane in which they begin
+  float tips;   // part of it in which they end
+  float width;
+  float shade;
+};
+
+/// Hairs that lie over each other in strands, the last ones on top and lighter.
+void paint_lock(HairPainter& out, int number, const LockStyle& style) {
   const Lane lane{float(64 * number), 384, 64, 256};
-  for (int i = 0; i < hairs; ++i) {
+  constexpr int kStrands = 7;
+  for (int i = 0; i < style.hairs; ++i) {
     const uint32_t n = uint32_t(1000 * number + 10 * i);
-    const float share = float(i) / float(hairs);
-    Strand s{};
-    s.from_x = 32 + 26 * hair_scatter(n);
-    s.from_y = 2 + 10 * std::fabs(hair_scatter(n + 1));
-    // The outer ones end early, and towards the middle.
-    const float out_by = (s.from_x - 32) / 26;
-    s.to_x = 32 + 20 * out_by + 9 * hair_scatter(n + 2);
-    s.to_y = 252 - (1 - reach) * 250 * std::fabs(hair_scatter(n + 3)) - 60 * out_by * out_by;
-    s.bend = 6 * hair_scatter(n + 4);
-    s.width = 1.5f + 0.5f * hair_scatter(n + 5);
-    s.full = 0.5f;
-    s.shade = 0.62f + 0.24f * share + 0.13f * hair_scatter(n + 6);
-    out.draw(lane, s);
-  }
-}
-
-void paint_dense(HairPainter& out) {
-  const Lane lane{320, 384, 64, 256};
-  out.fill(lane, 0.60f);
-  for (int i = 0; i < 90; ++i) {
-    const uint32_t n = uint32_t(20000 + 10 * i);
-    Strand s{};
-    s.from_x = 32 + 34 * hair_scatter(n);
-    s.from_y = -80 + 160 * std::fabs(hair_scatter(n + 1));
-    s.to_x = s.from_x + 8 * hair_scatter(n + 2);
-    s.to_y = s.from_y + 190 + 60 * hair_scatter(n + 3);
-    s.bend = 3 * hair_scatter(n + 4);
-    s.width = 1.3f + 0.4f * hair_scatter(n + 5);
-    s.root = 0;
-    s.full = 0.5f;
-    s.shade = 0.72f + 0.17f * hair_scatter(n + 6);
-    out.draw(lane, s);
-  }
-}
-
-void paint_thin(HairPainter& out) {
-  const Lane lane{384, 384, 64, 256};
-  for (int i = 0; i < 15; ++i) {
-    const uint32_t n = uint32_t(30000 + 10 * i);
+    const uint32_t strand = uint32_t(100 + 50 * number + i * 5 % kStrands);
+    const float share = float(i) / float(style.hairs);
     Strand s{};
     s.from_x = 32 + 27 * hair_scatter(n);
-    s.from_y = 2 + 60 * std::fabs(hair_scatter(n + 1));
-    s.to_x = s.from_x + 14 * hair_scatter(n + 2);
-    s.to_y = 252 - 90 * std::fabs(hair_scatter(n + 3));
-    s.bend = 7 * hair_scatter(n + 4);
-    s.width = 0.95f + 0.2f * hair_scatter(n + 5);
-    s.root = 0.3f;
+    const float out_by = (s.from_x - 32) / 27;
+    const float late = std::fabs(hair_scatter(n + 1));
+    s.from_y = 2 + 250 * style.roots * (0.55f * late + 0.45f * out_by * out_by);
+    // Hairs of a strand come together. The outer ones end early.
+    const float gathered = 32 + 24 * hair_scatter(strand);
+    s.to_x = 0.55f * (32 + 24 * out_by) + 0.45f * gathered + 3 * hair_scatter(n + 2);
+    const float early = std::fabs(hair_scatter(n + 3));
+    s.to_y = 252 - 250 * style.tips * (0.6f * early + 0.4f * out_by * out_by);
+    s.bend = 4 * hair_scatter(strand + 7) + 2 * hair_scatter(n + 4);
+    s.width = style.width * (1 + 0.3f * hair_scatter(n + 5));
+    s.root = 0.2f;
     s.full = 0.4f;
-    s.soft_root = 0.12f;
-    s.shade = 0.76f + 0.1f * hair_scatter(n + 6);
+    s.shade = style.shade * (0.70f + 0.18f * share + 0.11f * hair_scatter(n + 6) +
+                             0.09f * hair_scatter(strand + 3));
+    s.dark_root = 0.14f;
     out.draw(lane, s);
   }
 }
@@ -179,17 +149,17 @@ void paint_thin(HairPainter& out) {
 /// Hairs of a few millimeters, all over: what leaves the tile on one side is mirrored there.
 void paint_short(HairPainter& out) {
   const Lane lane{0, 128, 256, 256};
-  for (int i = 0; i < 1700; ++i) {
+  for (int i = 0; i < 2900; ++i) {
     const uint32_t n = uint32_t(40000 + 10 * i);
     Strand s{};
     s.from_x = 128 + 128 * hair_scatter(n);
     s.from_y = 118 + 138 * hair_scatter(n + 1);
-    if (s.from_y < 110 * std::fabs(hair_scatter(n + 7))) continue;
+    if (s.from_y < 110 * std::sqrt(std::fabs(hair_scatter(n + 7)))) continue;
     s.to_x = s.from_x + 9 * hair_scatter(n + 2);
     s.to_y = s.from_y + 30 + 10 * hair_scatter(n + 3);
     s.bend = 2 * hair_scatter(n + 4);
-    s.width = 1.0f + 0.25f * hair_scatter(n + 5);
-    s.shade = 0.56f + 0.32f * float(i) / 1700 + 0.12f * hair_scatter(n + 6);
+    s.width = 0.8f + 0.2f * hair_scatter(n + 5);
+    s.shade = 0.56f + 0.32f * float(i) / 2900 + 0.12f * hair_scatter(n + 6);
     out.draw(lane, s);
   }
 }
@@ -258,10 +228,13 @@ void paint_lash(HairPainter& out, int number) {
 
 HairMap make_hair_map() {
   HairPainter painter;
-  for (int lane = 0; lane < 5; ++lane) paint_lock(painter, lane, 44 - 3 * lane, 0.75f);
-  paint_dense(painter);
-  paint_thin(painter);
-  paint_lock(painter, 7, 30, 0.35f);
+  static constexpr float kTones[] = {0.99f, 1.06f, 0.94f, 1.03f, 0.97f};
+  for (int lane = 0; lane < 5; ++lane) {
+    paint_lock(painter, lane, {78 - 5 * lane, 0.20f, 0.38f, 1.15f, kTones[lane]});
+  }
+  paint_lock(painter, 5, {46, 0.40f, 0.35f, 0.95f, 1.0f});  // of the line
+  paint_lock(painter, 6, {14, 0.40f, 0.60f, 0.72f, 1.0f});  // thin
+  paint_lock(painter, 7, {7, 0.30f, 0.45f, 0.85f, 1.05f});  // loose
   paint_short(painter);
   for (int lane = 0; lane < 4; ++lane) {
     paint_curl(painter, lane);

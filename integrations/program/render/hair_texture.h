@@ -3,8 +3,8 @@
 // the hair, with an alpha. Where each kind is, from the lower left corner, as author/generate/head/cards.h has it:
 //
 //     v 1.0  +-----+-----+-----+-----+-----+-----+-----+-----+
-//            | five lanes of locks         |dense|thin |short|
-//            | roots below, tips above     |     |hairs|locks|
+//            | five lanes of locks         |line |thin |loose|
+//            | roots below, tips above     |     |hairs|hairs|
 //     v 0.6  +-----+-----+-----+-----+-----+-----+-----+-----+
 //            | short hair, to be mirrored | four lanes of    |
 //            | at its borders; thin below | curls            |

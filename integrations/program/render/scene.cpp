@@ -213,8 +213,11 @@ Fragment Scene::fragment(uint32_t number, Vec3 ray) const {
   f.to_eye = normalized(-f.place, kTowardsViewer);
   const Vec3 flat = normalized(cross(p[1] - p[0], p[2] - p[0]) * on.facing, kTowardsViewer);
   normal = normalized(camera_.turn(normal), flat);
-  // Seen from behind, the other side is what takes the light.
-  if (dot(flat, f.to_eye) < 0) normal = -normal;
+  // Seen from behind, the other side is what takes the light. Cards of hair are lit as the body that their normals are
+  // of, which looks from behind its edge as it does before it.
+  const bool card = on.surface.normals && !on.hides_all();
+  if (dot(flat, f.to_eye) < 0 && !card) normal = -normal;
+  if (card) normal = normal - f.to_eye * (2 * std::min(dot(normal, f.to_eye), 0.0f));
   // A smooth normal may look away where its triangle does not.
   const float away = dot(normal, f.to_eye);
   if (away < 0.02f) normal = normalized(normal + f.to_eye * (0.02f - away), f.to_eye);

@@ -118,6 +118,11 @@ void SkinMap::spread() {
     const Texel* above = row - width_;
     for (int x = 0; x < width_; ++x) take(row[x], above[x]);
   }
+  int top = 0;
+  while (top + 1 < height_ && !texels_[size_t(top) * size_t(width_)].covered) ++top;
+  const Texel* first = &texels_[size_t(top) * size_t(width_)];
+  for (size_t i = 0; i < size_t(top) * size_t(width_); ++i)
+    take(texels_[i], first[i % size_t(width_)]);
 }
 
 float redness(Vec3 color) { return color.x / std::max(color.y, 1.0f); }

@@ -11,6 +11,7 @@
 #include "integrations/program/render/light.h"
 #include "integrations/program/render/occlusion.h"
 #include "integrations/program/render/scene.h"
+#include "integrations/program/render/texture.h"
 
 namespace mien::render {
 namespace {
@@ -295,6 +296,25 @@ TEST(Render, HollowsAreDarker) {
   options.width = options.height = 96;
   const Image image = render_image({mesh.surface()}, camera_of(mesh, 96), options);
   EXPECT_LT(image.at(48, 48).g, image.at(20, 48).g * 0.75);
+}
+
+/// Beyond the edge of a ball of hair the cards are seen from behind, their normals turned away.
+TEST(Render, CardsSeenFromBehindAreLitAsTheBodyTheyArePartOf) {
+  Mesh card;
+  card.positions = {-1, -1, -5, 1, -1, -5, 1, 1, -5, -1, 1, -5};
+  card.triangles = {0, 2, 1, 0, 3, 2};  // faces away
+  for (int i = 0; i < 4; ++i) card.normals.insert(card.normals.end(), {0, 0.8f, -0.6f});
+  const std::vector<float> coordinates(8, 0.5f);
+  const Texture opaque(Image(1, 1, {255, 255, 255})), cut(Image(1, 1, {255, 255, 255}), {200});
+  const auto normal_with = [&](const Texture& texture) {
+    Surface surface = card.surface();
+    surface.texture_coordinates = coordinates.data();
+    surface.color_texture = &texture;
+    return Scene({surface}, Camera{}, 0.01f).fragment(1, {0.1f, 0.1f, -1}).normal;
+  };
+  EXPECT_LT(normal_with(opaque).y, -0.7f) << "the other side";
+  EXPECT_GT(normal_with(cut).y, 0.6f);
+  EXPECT_GT(normal_with(cut).z, 0.4f);
 }
 
 /// The brightest pixel of the ball's right border: what the rim light from behind makes of it.

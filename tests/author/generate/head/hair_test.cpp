@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// Styles of hair of the generated head, at every LOD.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "author/generate/head/mesh.h"
+
+namespace mien::head {
+namespace {
+
+constexpr HairStyle kStyles[] = {HairStyle::kParted, HairStyle::kCropped, HairStyle::kCurly,
+                                 HairStyle::kReceding, HairStyle::kBob};
+
+struct Hair {
+  Arena arena{default_allocator()};
+  HalfMesh mesh{arena};
+
+  Hair(HairStyle style, uint32_t lod) {
+    Person person;
+    person.style = style;
+    person.hair = {40, 30, 20}, person.skin = {200, 160, 140};
+    EXPECT_TRUE(make_hairs(Form(person), Part::kHair, lod, mesh));
+  }
+
+  /// Height of the lowest vertex at an angle from the front, on both sides.
+  double lowest(double from, double to) const {
+    double low = 100;
+    for (const Vertex& v : mesh.vertices.span()) {
+      const double angle = std::abs(std::atan2(v.position.x, v.position.z + 0.4)) * 180 / 3.14159;
+      if (angle >= from && angle <= to) low = std::min(low, v.position.y);
+    }
+    return low;
+  }
+};
+
+TEST(Hair, KeepsItsLineDownToTheCoarsestLod) {
+  for (const HairStyle style : kStyles) {
+    const Hair fine(style, 0);
+    for (uint32_t lod = 0; lod < kLodCount; ++lod) {
+      const Hair hair(style, lod);
+      const int number = static_cast<int>(style);
+      const double forehead = hair.lowest(0, 12);
+      EXPECT_NEAR(forehead, fine.lowest(0, 12), 0.6) << number << " LOD " << lod;
+      EXPECT_GT(forehead, 5.6) << number << " LOD " << lod << ": over the brows";
+      // Down to the sideburns and the nape.
+      EXPECT_LT(hair.lowest(70, 95), 0.5) << number << " LOD " << lod;
+      EXPECT_LT(hair.lowest(160, 180), -4.5) << number << " LOD " << lod;
+      EXPECT_GT(hair.lowest(160, 180), -9) << number << " LOD " << lod;
+    }
+  }
+}
+
+TEST(Hair, StylesAreWhatTheirNamesSay) {
+  const Hair parted(HairStyle::kParted, 0), cropped(HairStyle::kCropped, 0),
+      curly(HairStyle::kCurly, 0), receding(HairStyle::kReceding, 0), bob(HairStyle::kBob, 0);
+  // Temples that are bare, and a line that is higher.
+  EXPECT_GT(receding.lowest(32, 40), cropped.lowest(32, 40) + 1.2);
+  EXPECT_GT(receding.lowest(0, 12), cropped.lowest(0, 12) + 0.4);
+  // Over the ears down to the jaw.
+  EXPECT_LT(bob.lowest(85, 110), -6);
+  EXPECT_GT(cropped.lowest(92, 110), -1.5);
+  const auto top = [](const Hair& hair) {
+    double y = 0;
+    for (const Vertex& v : hair.mesh.vertices.span()) y = std::max(y, v.position.y);
+    return y;
+  };
+  EXPECT_GT(top(parted), top(cropped));
+  EXPECT_GT(top(curly), top(cropped) + 0.3);
+  EXPECT_GT(top(cropped), top(receding) + 0.2);
+}
+
+/// Roots at the skin, the body above it, and nothing that stands off.
+TEST(Hair, LiesOnTheSkull) {
+  for (const HairStyle style : kStyles) {
+    for (const uint32_t lod : {0u, 3u, 7u}) {
+      const Hair hair(style, lod);
+      for (const Vertex& v : hair.mesh.vertices.span()) {
+        const Vec3 p = v.position;
+        ASSERT_TRUE(std::isfinite(p.x + p.y + p.z) && std::isfinite(v.normal.x));
+        ASSERT_TRUE(v.u >= 0 && v.u <= 1 && v.v >= 0.2 && v.v <= 1) << v.u << " " << v.v;
+        const double x = p.x / 8.0, y = (p.y - 2.5) / 10.2, z = (p.z + 0.6) / 9.6;
+        EXPECT_TRUE(p.y < 0 || x * x + y * y + z * z < 1.75) << static_cast<int>(style);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace mien::head
