@@ -284,6 +284,8 @@ void MeshMaker::find_offsets(uint32_t shape, Span<Vec3> out) const {
     const Vertex& v = half_.vertices[i];
     const double share = shares_[i];
     if (share < kLeastShare) continue;
+    // Lids are turned by their joints alone, or those that are shut would open where a pair is moderated.
+    if (shapes.is_moderation(shape) && v.lid != 0) continue;
     if (half_.on_plane(i) && twin < shape) {  // the mirror image of offsets found already
       out[i] = mirrored(offsets_of(twin)[i]);
       continue;

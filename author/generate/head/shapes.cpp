@@ -130,12 +130,12 @@ Vec3 Shapes::one_side(Motion motion, Vec3 look, const Vertex& v) const {
       break;
     case Motion::kWide: add(w.at(3.2, 3.0, 2.2, 1.0), {0, 0.16, 0}); break;
     case Motion::kSquint:
-      add(w.at(3.6, -1.8, 1.8, 1.0), {0, 0.46, 0.30});
+      add(w.at(3.6, -1.8, 1.8, 1.0), {0, 0.42, 0.30});
       add(w.at(5.4, 0.4, 0.9, 1.2), {-0.18, 0, 0.05});
       add(w.at(3.0, 2.8, 2.0, 0.8), {-0.04, -0.16, 0});
       break;
     case Motion::kCheekSquint:
-      add(w.at(3.8, -1.9, 1.7, 1.1), {0.02, 0.55, 0.32});
+      add(w.at(3.8, -2.2, 1.7, 1.1), {0.02, 0.48, 0.36});
       add(w.at(5.5, 0.2, 0.9, 1.2), {-0.10, 0.08, 0.05});
       break;
     case Motion::kLookUp: add(w.at(3.2, 3.0, 2.2, 1.0), {0, 0.10, 0}); break;
@@ -161,17 +161,17 @@ Vec3 Shapes::one_side(Motion motion, Vec3 look, const Vertex& v) const {
       break;
     case Motion::kFrown:
       add(corner, {0.14, -0.66, -0.12});
-      add(w.at(2.7, -6.9, 0.9, 0.8), {0.06, -0.26, 0.06});
+      add(w.at(2.8, -7.0, 1.1, 0.9), {0.06, -0.22, 0.03});
       add(w.at(0.0, -6.3, 1.4, 0.9), {0, 0.10, 0.06});
       add(w.at(0.9, -8.9, 1.2, 1.0), {0, 0.22, 0.10});
       break;
     case Motion::kDimple:
       add(w.at(2.7, -6.0, 1.1, 1.0), {0.60, 0.16, -0.62});
-      add(w.at(3.6, -5.8, 0.55, 0.75), {0, 0, -0.42});
+      add(w.at(3.6, -5.8, 0.70, 0.85), {0, 0, -0.34});
       add(w.at(4.6, -4.6, 1.2, 1.3), {0.10, 0.06, 0.16});
       break;
     case Motion::kStretch:
-      add(w.at(2.7, -6.1, 1.5, 1.3), {0.88, -0.26, -0.52});
+      add(w.at(2.7, -6.1, 1.5, 1.3), {0.88, -0.26, -0.46});
       add(w.at(1.8, -7.4, 1.4, 1.0), {0.25, -0.18, -0.08});
       add(w.at(3.0, -12.0, 1.6, 2.0), {0.28, 0, 0.18});
       break;
@@ -192,7 +192,10 @@ Vec3 Shapes::one_side(Motion motion, Vec3 look, const Vertex& v) const {
       break;
     case Motion::kBrowDown:
       add(w.at(2.5, 3.05, 2.3, 1.15), {-0.18, -0.74, 0.16});
-      add(w.at(1.2, 2.6, 0.9, 0.9), {-0.08, -0.14, 0.18});
+      // Skin between the brows is pushed together: a furrow on each side, and it slides down the root of the nose.
+      add(w.at(1.15, 2.7, 0.55, 0.9), {-0.14, -0.10, 0.14});
+      add(w.at(0.42, 2.75, 0.24, 0.80), {0, 0, -0.18});
+      add(w.at(0.3, 1.9, 1.0, 0.9), {0, -0.12, 0});
       break;
     case Motion::kBrowOuterUp:
       add(w.at(4.1, 3.2, 2.2, 1.45), {0.02, 0.84, 0.04});
@@ -207,7 +210,7 @@ Vec3 Shapes::one_side(Motion motion, Vec3 look, const Vertex& v) const {
       add(fold.roll, {0, 0.10, 0.14});
       // The lip is pulled up from above; its edge hardly leaves the other one.
       if (above) {
-        add(bump(look.x, line, 1.5, 1.0, 1.3, 1.0) * mix(0.12, 1, smooth_step(0, 0.8, line)),
+        add(bump(look.x, line, 1.2, 1.0, 1.5, 1.0) * mix(0.12, 1, smooth_step(0, 0.8, line)),
             {0.05, 0.42, 0.10});
       }
       break;
