@@ -188,7 +188,7 @@ Vec3 Shapes::one_side(Motion motion, Vec3 look, const Vertex& v) const {
     case Motion::kUpperUp:
       add(w.at(1.35, -3.4, 0.8, 0.8), {0.02, 0.22, 0.05});
       if (!above) break;
-      add(bump(look.x, line, 1.25, 0.2, 1.25, 1.25) * std::sqrt(apart), {0.06, 0.70, 0.10});
+      add(bump(look.x, line, 1.0, 0.2, 1.35, 1.25) * std::sqrt(apart), {0.06, 0.66, 0.10});
       break;
     case Motion::kBrowDown:
       add(w.at(2.5, 3.05, 2.3, 1.15), {-0.18, -0.74, 0.16});
@@ -342,14 +342,15 @@ Vec3 Shapes::both_sides(Motion motion, const Vertex& v) const {
       break;
     case Motion::kRollLower:
       if (above) break;
-      add(bump(look.x, line, 0, -0.28, 2.1, 0.50), {0, 0.26, -0.52});
-      add(bump(look.x, line, 0, -1.0, 2.0, 0.55), {0, 0.42, -0.10});
+      // What is around the red comes to the line between the lips, which stays where it is.
+      add(bump(look.x, line, 0, -0.28, 2.1, 0.60), {0, -0.62 * line, -0.52});
+      add(bump(look.x, line, 0, -1.0, 2.0, 0.55), {0, 0.24, -0.10});
       add(w.at(0, -8.9, 1.6, 1.0), {0, 0.14, 0.06});
       break;
     case Motion::kRollUpper:
       if (!above) break;
-      add(bump(look.x, line, 0, 0.22, 2.1, 0.45), {0, -0.18, -0.56});
-      add(bump(look.x, line, 0, 0.8, 2.0, 0.50), {0, -0.36, -0.08});
+      add(bump(look.x, line, 0, 0.22, 2.1, 0.55), {0, -0.62 * line, -0.56});
+      add(bump(look.x, line, 0, 0.8, 2.0, 0.50), {0, -0.20, -0.08});
       break;
     case Motion::kShrugLower:
       add(bump(look.x, line, 0, 0, 2.2, 1.1), {0, 0.42, 0.16});
@@ -361,7 +362,7 @@ Vec3 Shapes::both_sides(Motion motion, const Vertex& v) const {
       if (above) {
         add(bump(look.x, line, 0, 0.25, 2.1, 1.0) * std::sqrt(apart), {0, 0.48, 0.34});
       } else {
-        add(bump(look.x, line, 0, -0.1, 2.0, 0.9) * std::sqrt(apart), {0, 0.26, 0.12});
+        add(bump(look.x, line, 0, -0.1, 2.0, 0.9) * std::sqrt(apart), {0, 0.38, 0.16});
       }
       break;
     case Motion::kBrowInnerUp:
