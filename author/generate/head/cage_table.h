@@ -105,12 +105,12 @@ inline constexpr At kNodes[kNodeCount] = {
     {4.95, -1.15},         // kOuterLow
     {5.65, 0.35},          // kOuter
     {5.15, 1.95},          // kOuterHigh
-    around(0.47, 4.3),     // kTempleHigh
-    around(0.465, 2.1),    // kTemple
-    around(0.46, -1.6),    // kTempleLow
-    around(0.470, -4.0),   // kLobe
-    around(0.495, -3.8),   // kEarFrontLow
-    around(0.495, 2.2),    // kEarFrontHigh
+    around(0.455, 4.3),    // kTempleHigh
+    around(0.435, 2.1),    // kTemple
+    around(0.418, -1.6),   // kTempleLow
+    around(0.450, -4.0),   // kLobe
+    around(0.470, -3.8),   // kEarFrontLow
+    around(0.468, 2.2),    // kEarFrontHigh
     around(0.585, -3.6),   // kEarBackLow
     around(0.600, 2.2),    // kEarBackHigh
     around(1, kCrownRow),  // kCrownBack
@@ -189,7 +189,7 @@ inline constexpr Curve kCurves[] = {
     {kColumella, kNostrilLowIn, kOne},
     {kNostrilLowIn, kNostrilLowOut, kNostrilColumns, 1, {{0.90, -4.50}}},
     {kNostrilLowOut, kWingLow, kOne},
-    {kNostrilLowOut, kNostrilHighOut, kWingRows, 1, {{1.60, -3.75}}},
+    {kNostrilLowOut, kNostrilHighOut, kWingRows, 1, {{1.68, -3.70}}, kHeld},
     {kNostrilHighOut, kWingHigh, kOne},
     {kNostrilHighIn, kNostrilHighOut, kNostrilColumns, 1, {{0.92, -3.10}}},
     {kTip, kNostrilHighIn, kOne},
@@ -231,7 +231,7 @@ inline constexpr Curve kCurves[] = {
     {kTemple, kEarFrontHigh, kBeforeEar},
     {kEarFrontHigh, kEarBackHigh, kEar},
     {kEarBackHigh, kBack, kBehindEar},
-    {kEarFrontLow, kEarFrontHigh, kEarRows},
+    {kEarFrontLow, kEarFrontHigh, kEarRows, 1, {around(0.445, -0.8)}},
     {kEarBackLow, kEarBackHigh, kEarRows},
     {kNape, kBack, kEarRows},
     {kBack, kBackHigh, kOuterHighRows},

@@ -39,27 +39,48 @@ Place SkinMaker::ear_place(uint32_t k, bool inner) const {
 
 namespace {
 
+struct FlatPoint {
+  double back, up;
+};
+
+/// 1 on a line through points, less beside it.
+template <int N>
+double along(const FlatPoint (&line)[N], FlatPoint at, double wide) {
+  double nearest = 1e9;
+  for (int i = 0; i + 1 < N; ++i) {
+    const double x = line[i + 1].back - line[i].back, y = line[i + 1].up - line[i].up;
+    const double u = at.back - line[i].back, v = at.up - line[i].up;
+    const double t = author::clamp01((u * x + v * y) / (x * x + y * y));
+    const double dx = u - t * x, dy = v - t * y;
+    nearest = std::min(nearest, dx * dx + dy * dy);
+  }
+  return bump(std::sqrt(nearest), 0, 0, 0, wide, 1);
+}
+
 /// Height of the inside of the ear above its plane; `back` and `up` from its origin, at size 1.
 double inside_ear(double back, double up) {
   struct Part {
     double amount, back, up, wide, high;
   };
   static constexpr Part kParts[] = {
-      {-0.60, -0.02, -0.50, 0.50, 0.72},  // concha
-      {-0.22, 0.00, 0.42, 0.36, 0.34},    // its upper part, the cymba
-      {0.32, 0.66, -0.35, 0.17, 0.80},    // antihelix
-      {0.24, 0.46, 0.75, 0.20, 0.34},     // where it parts
-      {0.20, 0.55, 1.30, 0.16, 0.36},     // its upper leg
-      {0.20, 0.10, 0.98, 0.40, 0.13},     // its lower leg
-      {-0.18, 0.18, 1.42, 0.24, 0.30},    // the fossa between them
-      {0.26, -0.46, 0.06, 0.46, 0.11},    // crus of the helix
-      {0.32, -0.66, -0.46, 0.20, 0.34},   // tragus
-      {-0.20, -0.42, -1.02, 0.14, 0.22},  // the notch below it
-      {0.24, 0.02, -1.16, 0.26, 0.17},    // antitragus
+      {-0.60, 0.06, -0.46, 0.50, 0.70},   // concha
+      {-0.26, 0.20, 0.50, 0.42, 0.28},    // its upper part, the cymba
+      {-0.16, 0.46, 1.36, 0.18, 0.26},    // the fossa between the legs of the antihelix
+      {-0.10, 1.30, 0.50, 0.14, 1.00},    // between antihelix and helix
+      {0.40, -0.46, -0.50, 0.22, 0.34},   // tragus
+      {-0.20, -0.22, -1.06, 0.15, 0.20},  // the notch below it
+      {0.24, 0.14, -1.22, 0.24, 0.17},    // antitragus
+      {0.10, 0.20, -1.75, 0.50, 0.30},    // lobe
   };
+  static constexpr FlatPoint kAntihelix[] = {{0.30, -1.22}, {0.72, -0.90}, {0.98, -0.30},
+                                             {1.00, 0.35},  {0.86, 0.95},  {0.72, 1.60}},
+                             kLowerLeg[] = {{0.95, 0.65}, {0.55, 0.98}, {0.05, 1.02}},
+                             kCrus[] = {{-0.70, 0.66}, {-0.36, 0.26}, {0.20, 0.06}};
   double height = 0.06;
   for (const Part& p : kParts) height += p.amount * bump(back, up, p.back, p.up, p.wide, p.high);
-  return height;
+  const FlatPoint at = {back, up};
+  height += std::max(0.30 * along(kAntihelix, at, 0.17), 0.22 * along(kLowerLeg, at, 0.14));
+  return height + 0.28 * along(kCrus, at, 0.15);
 }
 
 }  // namespace
@@ -68,11 +89,12 @@ void SkinMaker::make_ear() {
   // Share of the outline's radius, height above the plane of the ear, and minimum height above the head where
   // the ear grows out of it: from the back, over the rim, into the bowl. Inside the rim, heights
   // are those of inside_ear().
-  constexpr uint32_t rings = 12;
+  constexpr uint32_t rings = 15;
   static constexpr double kPath[rings][3] = {
-      {0.90, -0.34, 0.04}, {1.00, -0.16, 0.08}, {1.04, 0.05, 0.13}, {1.00, 0.25, 0.19},
-      {0.94, 0.27, 0.19},  {0.88, 0.12, 0.11},  {0.81, 0, 0.03},    {0.72, 0, -0.04},
-      {0.62, 0, -0.10},    {0.51, 0, -0.20},    {0.37, 0, -0.36},   {0.19, 0, -0.42}};
+      {0.90, -0.34, 0.04}, {1.00, -0.16, 0.08}, {1.045, 0.05, 0.13}, {1.02, 0.24, 0.19},
+      {0.96, 0.30, 0.19},  {0.90, 0.20, 0.11},  {0.84, 0, 0.03},     {0.78, 0, 0},
+      {0.72, 0, -0.04},    {0.66, 0, -0.08},    {0.60, 0, -0.12},    {0.52, 0, -0.20},
+      {0.42, 0, -0.30},    {0.31, 0, -0.38},    {0.17, 0, -0.42}};
   const auto turn = [&](uint32_t k) { return exact_sine_cosine(kPi + 2 * kPi * k / ring_size_); };
   make_rings(ear_ring_, 1, Layout::Hole::kOther,
              [this](uint32_t k, bool inner) { return ear_place(k, inner); });
@@ -92,21 +114,24 @@ void SkinMaker::make_ear() {
     const double low = smooth_step(0.2, -1, s);
     // In front there is no rim: the ear runs on into the cheek.
     const double in_front = smooth_step(-0.1, -0.75, c) * smooth_step(0.75, 0.35, s);
-    const double share = std::min(step[0], mix(step[0], 0.90 - 0.02 * r, in_front));
+    const double share = std::min(step[0], mix(step[0], 0.92 - 0.042 * r, in_front));
     // The bowl is in front of the middle, and low.
     const double inner = 1 - smooth_step(0.25, 0.85, share);
     // The lobe is round.
     const double round = 1 + 0.35 * bump(s, 0, -0.92, 0, 0.25, 1);
     const double p =
         c * (c > 0 ? mix(1.65, 1.05, low) * round : mix(0.95, 0.80, low)) - 0.30 * inner;
-    // In front not beyond the root, over the cheek.
-    const double q = s * mix(s > 0 ? 2.4 : 2.1, 1.62, in_front) - 0.35 * inner;
+    // In front not beyond the root, over the cheek; the lobe is lowest behind its middle.
+    const double q =
+        s * (s > 0 ? mix(2.4, 1.62, in_front) : mix(2.1, 1.62, smooth_step(0.35, -0.75, c))) -
+        0.35 * inner;
     // The rim fades towards the lobe and where the ear grows out of the head.
     const double rim = mix(1, 0.25, std::max(smooth_step(-0.3, -0.9, s), smooth_step(-0.4, -1, c)));
     double height = step[1] * (step[1] > 0 ? rim : 1);
-    const double inside =
-        inside_ear(p * share, q * share) + 0.25 * smooth_step(-0.30, -0.80, p * share);
-    height = mix(height, inside,
+    const double inside = inside_ear(p * share, q * share);
+    // The plane of the ear runs into the head in front.
+    const double sunk = 0.25 * smooth_step(-0.30, -0.80, p * share);
+    height = mix(height, inside + sunk,
                  mix(smooth_step(0.86, 0.83, step[0]), smooth_step(0.99, 0.87, step[0]), in_front));
     const double size = ear_.size;
     const Vertex& from = out_.vertices[root[k]];
@@ -114,6 +139,9 @@ void SkinMaker::make_ear() {
     const Vec3 outward = ear_.outward * (1 - in_front) + Vec3{in_front, 0, 0};
     Vec3 at = ear_.origin + ear_.back * (p * share * size) + ear_.up * (q * share * size) +
               outward * (height * size);
+    const double rise = smooth_step(0.92, 0.62, share);
+    at.x = mix(at.x, from.closed.x + (inside - 0.06) * rise * size,
+               in_front * smooth_step(-0.25, -0.70, p * share));
     const double least = step[2] * (step[2] > 0 ? mix(1, 0.1, in_front) : 1);
     at.x = std::max(at.x, from.closed.x + least * size);
     const double left = 1 - (r + 1.0) / (rings + 1);

@@ -137,7 +137,7 @@ static constexpr Motion kCrowded[][2] = {
     {Motion::kDimple, Motion::kCheekPuff},      {Motion::kCheekPuff, Motion::kNeckStretch},
     {Motion::kSmile, Motion::kStretch},         {Motion::kPucker, Motion::kShrugUpper},
     {Motion::kFrown, Motion::kStretch},         {Motion::kPucker, Motion::kTongueOut},
-    {Motion::kPucker, Motion::kShrugLower},     {Motion::kMouthLeft, Motion::kSneer},
+    {Motion::kPucker, Motion::kShrugLower},     {Motion::kCheekPuff, Motion::kSneer},
     {Motion::kMouthLeft, Motion::kDimple},      {Motion::kCheekPuff, Motion::kTongueOut},
     {Motion::kSmile, Motion::kDimple},          {Motion::kSmile, Motion::kDeepenFold},
     {Motion::kFunnel, Motion::kPucker},         {Motion::kBrowInnerUp, Motion::kBrowOuterUp},

@@ -27,7 +27,8 @@ namespace {
 // Breadths follow the means of young adults that Farkas published ("Anthropometry of the Head and Face", 2nd
 // ed., 1994; women and men of North America), cm: head 14.4 and 15.1 (eu-eu), forehead 11.2 and 11.6 (ft-ft),
 // cheekbones 13.0 and 13.7 (zy-zy), angles of the jaw 9.1 and 9.7 (go-go, on bone). Heights: nose to chin 11.1
-// and 12.1 (n-gn), lower face 6.4 and 7.3 (sn-gn). The eyes are a third larger than life.
+// and 12.1 (n-gn), lower face 6.4 and 7.3 (sn-gn). Eyeballs are a third larger than life, so that lids of the length of
+// people's lie on them; the slit and the iris have the size of people's.
 constexpr int kKnotColumns = 5;
 constexpr double kKnots[][kKnotColumns] = {
     {-22.0, 10.2, 4.6, -7.4, 2.4}, {-21.6, 11.4, 5.4, -8.6, 2.45}, {-20.6, 12.4, 5.6, -9.3, 2.4},
@@ -36,7 +37,7 @@ constexpr double kKnots[][kKnotColumns] = {
     {-12.6, 4.95, 3.9, -6.4, 2.0}, {-11.5, 4.65, 4.95, -6.2, 2.0}, {-10.9, 4.8, 7.0, -6.1, 2.0},
     {-10.3, 5.2, 8.5, -6.1, 1.84}, {-9.2, 5.5, 8.9, -6.2, 1.92},   {-8.0, 5.75, 9.0, -6.4, 2.0},
     {-6.0, 6.05, 8.85, -6.9, 2.1}, {-4.0, 6.5, 9.0, -7.8, 2.2},    {-1.5, 6.95, 9.1, -8.9, 2.25},
-    {0.6, 7.15, 9.25, -9.6, 2.2},  {3.0, 7.45, 9.5, -10.0, 2.16},  {5.0, 7.55, 9.12, -10.1, 2.16},
+    {0.6, 7.15, 9.25, -9.6, 2.2},  {3.0, 7.45, 9.5, -10.0, 2.26},  {5.0, 7.55, 9.12, -10.1, 2.28},
     {7.5, 7.25, 8.15, -9.7, 2.16}, {9.8, 6.2, 6.6, -8.5, 2.15},    {11.4, 4.6, 4.7, -6.6, 2.12},
     {12.25, 2.7, 2.2, -4.0, 2.1},  {12.6, 0.6, -0.3, -1.5, 2.0},
 };
@@ -166,26 +167,29 @@ FrontPlace Form::lid_curve(double along, int which) const {
   return {kEye.x + 1.13 * along * eye_half_width(), kEye.y + height};
 }
 
+// At rest the slit is 28 to 30 by 10 to 11 mm, the edge of the upper lid 4 to 5 mm above the middle of the pupil (MRD1):
+// it covers 1 to 2 mm of the iris, 11.7 mm wide, and the lower lid touches it.
 double Form::upper_opening(double x) const {
   const double s = along_eye(x), inside = std::max(0.0, 1 - s * s);
-  return 0.56 * person_.eyes * exact_pow(inside, 0.62) * (1 + (0.22 * person_.lid_peak - 0.08) * s);
+  return 0.50 * person_.eyes * exact_pow(inside, 0.62) * (1 + (0.22 * person_.lid_peak - 0.08) * s);
 }
 
 double Form::lower_opening(double x) const {
   const double s = along_eye(x), inside = std::max(0.0, 1 - s * s);
-  return -0.21 * person_.lower_lid * exact_pow(inside, 0.80) * (1 + 0.16 * s);
+  return -0.155 * person_.lower_lid * exact_pow(inside, 0.80) * (1 + 0.16 * s);
 }
 
-/// The nose above the face around it: a dome in each row, with steep sides where the wings are.
+/// The nose above the face around it: a dome in each row, and the wings.
 double Form::nose(double x, double y) const {
   const Person& p = person_;
   // y, height of the ridge, half width, steepness of the sides (less is steeper), bluntness
   static constexpr double kRows[][5] = {
-      {-4.9, 0.00, 0.6, 1.20, 0},     {-4.6, 0.24, 0.84, 1.00, 0},   {-4.35, 0.80, 1.12, 0.76, 0},
-      {-4.12, 1.46, 1.38, 0.62, 0},   {-3.85, 2.00, 1.58, 0.62, 0},  {-3.5, 2.32, 1.68, 0.80, 0.2},
-      {-3.1, 2.42, 1.66, 1.50, 0.7},  {-2.7, 2.32, 1.60, 2.00, 0.9}, {-2.2, 2.02, 1.56, 2.00, 0.6},
-      {-1.5, 1.62, 1.38, 1.70, 0.25}, {-0.6, 1.14, 1.28, 1.60, 0},   {0.4, 0.60, 1.24, 1.70, 0},
-      {1.3, 0.26, 1.45, 1.90, 0},     {2.4, 0.22, 2.2, 1.80, 0},     {4.2, 0.00, 2.4, 1.50, 0}};
+      {-4.82, 0.00, 0.6, 1.20, 0},   {-4.62, 0.18, 0.76, 1.10, 0},   {-4.44, 0.56, 0.92, 1.00, 0},
+      {-4.26, 1.14, 1.10, 1.00, 0},  {-4.06, 1.74, 1.30, 1.05, 0},   {-3.83, 2.14, 1.48, 1.20, 0.1},
+      {-3.5, 2.36, 1.60, 1.45, 0.4}, {-3.1, 2.42, 1.66, 1.65, 0.8},  {-2.7, 2.32, 1.60, 2.00, 0.9},
+      {-2.2, 2.02, 1.56, 2.00, 0.6}, {-1.5, 1.62, 1.38, 1.70, 0.25}, {-0.6, 1.12, 1.28, 1.60, 0},
+      {0.4, 0.48, 1.24, 1.70, 0},    {1.2, 0.14, 1.45, 1.90, 0},     {2.4, 0.16, 2.2, 1.80, 0},
+      {4.2, 0.00, 2.4, 1.50, 0}};
   constexpr int kCount = sizeof(kRows) / sizeof(kRows[0]);
   const double at_x = std::abs(x) / p.nose_width;
   // The rim of the nostril is an arch.
@@ -202,14 +206,19 @@ double Form::nose(double x, double y) const {
     const double blunt = 1 + at(4) * std::min(t * t, 1.0);
     z = at(1) * exact_pow(above, at(3)) * blunt * smooth_step(1.4, 1.0, t);
   }
-  // The tip is a ball of its own, as are the wings; a furrow runs around each wing from the tip to the cheek.
+  // The tip is a ball of its own, as are the wings, with steep sides; a furrow runs around each wing from the tip to
+  // the cheek.
   const double ball = 1 + 0.16 * p.tip;
   z += (0.16 + 0.10 * p.tip) * bump(at_x, row, 0, -3.02, 0.62 * ball, 0.55 * ball);
-  const double dx = at_x - 1.30, dy = y + 3.50, apart = std::sqrt(dx * dx + 0.8 * dy * dy) - 0.52;
-  z += (0.36 + 0.10 * p.tip) * bump(dx, dy, 0, 0, 0.33, 0.38);
-  z -= 0.34 * bump(apart, 0, 0, 0, 0.17, 1) * smooth_step(-0.50, 0.05, dy) *
-       smooth_step(0.85, 0.40, dy) * mix(0.25, 1, smooth_step(-0.45, 0.15, dx)) *
-       smooth_step(1.15, 0.70, t);
+  const double dx = (at_x - 1.12) / 0.68, dy = (y + 3.48) / (y > -3.48 ? 0.54 : 0.60),
+               from = std::sqrt(dx * dx + dy * dy), inside = 1 - from * from;
+  const double wing = (1.46 + 0.16 * p.tip) *
+                      exact_pow(0.5 * (inside + std::sqrt(inside * inside + 0.004)),
+                                mix(0.50, 0.75, smooth_step(-0.4, 0.7, dy))) *
+                      smooth_step(1.35, 1.0, from);
+  z = smooth_max(z, wing, 0.50);
+  z -= 0.26 * bump(from, 0, 1.12, 0, 0.14, 1) * smooth_step(0.0, 0.8, dx) *
+       smooth_step(1.0, 0.1, dy);
   return p.nose * z;
 }
 
@@ -223,16 +232,16 @@ double Form::relief(double x, double y) const {
   const Bump bumps[] = {
       {-0.42 - p.sockets, 3.1, 0.25, 1.8, 1.25},              // sockets
       {-0.22 + 0.17 * p.epicanthus, 1.60, 0.35, 0.60, 0.95},  // inner corners of the eyes
-      {0.26, 3.3, 1.45, 1.30, 0.55},                          // below the brow
-      {0.30 + p.hood, 3.8, 1.80, 1.5, 0.75},                  // skin that hangs over the crease
-      {0.20 + p.brow_ridge, 1.9, 2.75, 1.5, 0.75},            // brow ridge, inner half
-      {0.30 + p.brow_ridge, 4.3, 2.85, 1.3, 0.80},     // and above the outer corner of the eye
-      {0.10 + 0.5 * p.brow_ridge, 0, 2.5, 1.1, 0.8},   // glabella
-      {-0.20, 1.80 * wing, -3.6, 0.26, 0.55},          // behind the wing of the nose
-      {0.20 + 0.34 * p.cheek, 4.7, -1.65, 1.7, 1.35},  // cheekbones
+      {0.22, 3.3, 1.30, 1.30, 0.50},                          // below the brow
+      {0.30 + p.hood, 3.8, 1.60, 1.5, 0.70},                  // skin that hangs over the crease
+      {0.24 + p.brow_ridge, 1.9, 2.45, 1.4, 0.70},            // brow ridge, inner half
+      {0.36 + p.brow_ridge, 4.4, 2.45, 1.2, 0.70},     // and above the outer corner of the eye
+      {0.18 + 0.5 * p.brow_ridge, 0, 2.4, 1.0, 0.7},   // glabella
+      {-0.14, 1.90 * wing, -3.7, 0.26, 0.55},          // behind the wing of the nose
+      {0.34 + 0.34 * p.cheek, 4.8, -1.45, 1.4, 1.00},  // cheekbones
       {0.30, 3.2, -2.7, 1.3, 1.2},                     // apple of the cheek
-      {-0.16, 2.7, -0.95, 1.0, 0.35},  // from the inner corner of the eye to the cheek
-      {-0.02 - 0.22 * p.cheek, 4.5, -5.0, 1.4, 1.5},    // hollow of the cheek
+      {-0.20, 2.7, -1.00, 1.0, 0.35},  // from the inner corner of the eye to the cheek
+      {-0.14 - 0.22 * p.cheek, 4.8, -4.5, 1.4, 1.4},    // hollow of the cheek
       {0.50 + 0.74 * p.muzzle, 0, -5.7, 2.6, 1.9},      // muzzle
       {-0.06 - 0.24 * p.age, 2.25, -4.35, 0.30, 0.85},  // from nose to mouth
       {-0.16, 2.60, -6.02, 0.62, 0.80},                 // corners of the mouth, behind the cheek
@@ -253,7 +262,7 @@ double Form::relief(double x, double y) const {
       {-0.16, 2.3, -9.0, 0.7, 1.0},                     // beside it, before the jowl
       {0.22, 1.7, 5.6, 1.7, 1.5},                       // frontal eminences
       {-0.10, 0, 4.3, 1.6, 0.7},                        // between them and the brow ridge
-      {-0.28, 6.0, 2.2, 0.9, 1.6},                      // temples
+      {-0.36, 6.0, 2.4, 0.9, 1.5},                      // temples
   };
   for (const Bump& b : bumps) z += b.amount * bump(std::abs(x), y, b.cx, b.cy, b.sx, b.sy);
   return z;
@@ -266,11 +275,11 @@ double Form::side_relief(double z, double y) const {
   };
   const double lean = 0.5 * person_.cheek;
   const Bump bumps[] = {
-      {0.13 + 0.4 * lean, 2.8, -1.2, 2.3, 1.30},    // arch of the cheekbone
+      {0.18 + 0.4 * lean, 2.8, -1.2, 2.3, 1.20},    // arch of the cheekbone
       {-0.02 - 0.3 * lean, 2.9, -4.3, 2.0, 1.4},    // below it
       {0.24 + person_.angle, 0.5, -7.0, 1.7, 1.9},  // angle of the jaw, with the muscle on it
-      {-0.22, 3.8, 2.5, 1.9, 1.5},                  // temple
-      {0.16, 5.3, 4.4, 1.0, 1.6},  // line from the brow up, where the forehead turns
+      {-0.32, 3.6, 2.6, 1.9, 1.5},                  // temple
+      {0.22, 5.3, 4.4, 0.9, 1.7},  // line from the brow up, where the forehead turns
   };
   double x = 0;
   for (const Bump& b : bumps) x += b.amount * bump(z, y, b.z, b.y, b.sz, b.sy);
@@ -284,11 +293,13 @@ double Form::lips(double x, double y) const {
   if (s >= 1) return 0;
   const int which = d > 0 ? 1 : -1;
   const double height = lip_height(x, which), q = std::abs(d) / height;
-  if (q >= 1) return 0;
   const double end = std::sqrt(1 - s * s);
+  // Beyond the border of the red runs a low roll.
+  const double roll = 0.056 * end * bump(height * (q - 1), 0, 0.07, 0, 0.07, 1);
+  if (q >= 1) return roll;
   return (which > 0 ? 0.30 : 0.40) * (1 - 0.25 * which * person_.lip_share) * person_.lips * end *
              2.6 * std::sqrt(q) * (1 - q) -
-         0.08 * end * (1 - q);
+         0.08 * end * (1 - q) + roll;
 }
 
 // The face --------------------------------------------------------------------------------------
@@ -434,7 +445,7 @@ FacePoint Form::face(double angle, double row, Side side) const {
 }
 
 Form::BrowArch Form::brow_arch(double along) const {
-  const double y = 2.36 + person_.brow_height +
+  const double y = 1.94 + person_.brow_height +
                    (0.66 + person_.brow_arch) * exact_sine(kPi * clamp01(along * 0.66 + 0.12)) -
                    0.4 * person_.brow_arch + person_.brow_slope * (along - 0.4) - 0.10 * along;
   const double half = 0.34 * person_.brow * exact_pow(clamp01((1 - along) * 1.9), 0.75) *

@@ -26,7 +26,7 @@ struct Plan {
   uint32_t triangles[kLodCount - 1];
   double color;
 };
-constexpr Plan kSkinPlan = {{8000, 5400, 3570, 2320, 1570, 1130, 770}, 12};
+constexpr Plan kSkinPlan = {{8000, 5400, 3570, 2320, 1660, 1130, 770}, 12};
 constexpr Plan kTeethPlan = {{1600, 1330, 900, 690, 560, 480, 400}, 5};
 constexpr Plan kTonguePlan = {{360, 190, 120, 80, 60, 50, 40}, 8};
 constexpr Plan kEyePlan = {{1090, 770, 400, 300, 240, 190, 150}, 120};
@@ -47,7 +47,7 @@ double importance(const Form& form, const Vertex& v) {
   switch (v.carrier) {
     case Carrier::kEyeball:
       if (p.z < kEye.z) return 0.05;
-      return 1 + 20 * author::smooth_step(0.86, 0.92, (p.z - kEye.z) / kEyeRadius);
+      return 1 + 20 * author::smooth_step(0.88, 0.94, (p.z - kEye.z) / kEyeRadius);
     case Carrier::kSkin: break;
     default: return 1;
   }

@@ -7,6 +7,7 @@
 namespace mien::head {
 
 using author::clamp01;
+using author::exact_atan2;
 using author::exact_cosine;
 using author::exact_pow;
 using author::exact_sine;
@@ -55,7 +56,7 @@ static double eye_texture_radius(double angle) {
 }
 
 void add_eyeball(const Form& form, HalfMesh& out) {
-  // Angle from the middle of the pupil.
+  // Angle from the middle of the pupil, on a ball of the size of people's; the iris has that size on the larger ball.
   static constexpr double kAngles[] = {0.08, 0.155, 0.172, 0.25, 0.33, 0.39, 0.425, 0.465,
                                        0.55, 0.65,  0.76,  0.9,  1.1,  1.4,  1.9,   2.6};
   constexpr uint32_t rings = 16, around = 48;
@@ -63,10 +64,23 @@ void add_eyeball(const Form& form, HalfMesh& out) {
   const Color iris = form.person().iris;
   const double light = clamp01((iris.r + iris.g + iris.b) / 300);  // dark ones keep dark
   const Vec3 middle = form.eye();
+  const double iris_scale = 0.875 * form.person().iris_size;
+  const auto on_ball = [&](double angle) { return angle < 0.6 ? angle * iris_scale : angle; };
+  // The upper lid shades what is below its edge.
+  const auto shade_at = [&](double angle, uint32_t k) {
+    const auto [sk, ck] = exact_sine_cosine(2 * kPi * k / around);
+    const double across = kEyeRadius * exact_sine(angle), dx = across * ck, x = kEye.x + dx;
+    const double line = form.lid_line(x) - kEye.y;
+    const double lid_z = std::sqrt(std::max(0.04, kLidRadius * kLidRadius - dx * dx - line * line));
+    const double edge = exact_atan2(line, lid_z) + form.upper_opening(x);
+    const double here = exact_atan2(across * sk, kEyeRadius * exact_cosine(angle));
+    return smooth_step(0.26, -0.02, edge - here);
+  };
   const auto color = [&](double angle, uint32_t k) -> Color {
-    const Color pupil = {14, 12, 14}, white = {206, 199, 192};
+    const Color pupil = {14, 12, 14}, white = {196, 188, 180};
     if (angle < 0.16) return pupil;
     const double high = 0.5 + 0.5 * exact_sine(2 * kPi * k / around);  // 1 above the pupil
+    const double shade = shade_at(on_ball(angle), k);
     if (angle < 0.44) {
       // Darker above, in the shadow of the lid and of the limbus, lighter below, where the cornea gathers light;
       // a ring of another shade around the pupil; streaks.
@@ -74,8 +88,8 @@ void add_eyeball(const Form& form, HalfMesh& out) {
                             0.05 * exact_sine(2.0 * kPi * 7 * k / around + 5 * angle);
       Color c = mix(iris, {206, 186, 140}, light * clamp01(0.30 * (1 - high) + streak));
       c = mix(c, {110, 74, 40}, 0.40 * light * smooth_step(0.27, 0.17, angle));
-      c = mix(c, {14, 14, 18}, 0.62 * high * high);
-      return mix(c, {20, 21, 26}, 0.80 * smooth_step(0.32, 0.43, angle));
+      c = mix(c, {20, 21, 26}, 0.80 * smooth_step(0.32, 0.43, angle));
+      return mix(c, {14, 14, 18}, 0.80 * shade);
     }
     // The limbus is soft; the white is shaded by the upper lid, pink towards the corners, and has veins, which
     // end before the iris.
@@ -83,11 +97,11 @@ void add_eyeball(const Form& form, HalfMesh& out) {
     Color c = mix(white, mix(iris, {60, 58, 62}, 0.6), 0.60 * smooth_step(0.58, 0.44, angle));
     c = mix(c, {214, 196, 160},
             0.22 * smooth_step(0.6, 0.9, angle) * (0.5 + 0.5 * exact_sine(3 * turn + 2)));
-    c = mix(c, {112, 84, 78}, 0.55 * smooth_step(0.50, 0.95, high));
     c = mix(c, {168, 128, 118}, 0.30 * smooth_step(0.40, 0.05, high));
     const double vein = exact_sine(11 * turn + 6 * angle) * exact_sine(5 * turn - 9 * angle);
     c = mix(c, {198, 96, 88}, 0.30 * smooth_step(0.62, 0.9, angle) * smooth_step(0.35, 0.9, vein));
-    return mix(c, {190, 116, 106}, 0.72 * smooth_step(0.66, 1.12, angle));
+    c = mix(c, {190, 116, 106}, 0.72 * smooth_step(0.62, 1.08, angle));
+    return mix(c, {70, 44, 40}, 0.75 * shade);
   };
   // The cornea stands out beyond the ball, from the limbus on, as far as the lids leave room.
   const auto bulge = [](double angle) { return 0.06 * smooth_step(0.50, 0.05, angle); };
@@ -95,7 +109,7 @@ void add_eyeball(const Form& form, HalfMesh& out) {
       plain(middle + Vec3{0, 0, kEyeRadius + bulge(0)}, {14, 12, 14}, 0.5, 0.5, Carrier::kEyeball));
   uint32_t before = front;
   for (uint32_t r = 0; r < rings; ++r) {
-    const double angle = kAngles[r] * (kAngles[r] < 0.6 ? form.person().iris_size : 1);
+    const double angle = on_ball(kAngles[r]);
     const auto [s, c] = exact_sine_cosine(angle);
     const uint32_t here = out.vertices.count();
     for (uint32_t k = 0; k < around; ++k) {

@@ -28,7 +28,7 @@ void SkinMaker::make() {
   layout_.fill(mouth_, kMouthRings.outside, 0.90, Hole::kLips,
                [this](uint32_t k) { return lip_place(k, false); });
   ring_size_ = ear_ring_.count;
-  layout_.fill(ear_ring_, 3, 0.95, Hole::kOther,
+  layout_.fill(ear_ring_, 3, 0.72, Hole::kOther,
                [this](uint32_t k) { return ear_place(k, false); });
   nostril_ = layout_.nostril();
   ring_size_ = nostril_.count;
@@ -115,16 +115,16 @@ void SkinMaker::make_eye() {
 uint32_t SkinMaker::lid_edge_vertex(uint32_t from, Color color, bool at_ball) {
   Vertex v = out_.vertices[from];
   const Vec3 out = v.closed - kEye;
-  const double flesh = smooth_step(-0.76, -0.92, form_.along_eye(v.closed.x));
+  const double flesh = smooth_step(-0.80, -0.94, form_.along_eye(v.closed.x));
   const double radius =
       at_ball ? kEyeRadius + mix(0.045, 0.13, flesh) : kEyeRadius + mix(-0.12, 0.04, flesh);
   v.closed = kEye + out * (radius / std::max(length(out), kEyeRadius));
   const double middle = 0.5 * (form_.upper_opening(v.closed.x) + form_.lower_opening(v.closed.x));
   v.lid = mix(v.lid, middle, flesh);
   v.position = turn_lid(v.closed, v.lid);
-  v.color = mix(color, mix({206, 132, 122}, form_.person().skin, 0.35), flesh);
-  const double deep = at_ball ? 0.002 : 0.004;
-  v.v += v.lid < 0 ? deep : -deep;
+  v.color = mix(color, mix({196, 128, 118}, form_.person().skin, 0.5), flesh);
+  // In the texture, edges go towards the middle of the slit, which closes at its corners.
+  v.v = mix(v.v, v_of_row(kEye.y) + kLidV * middle / 0.5, at_ball ? 0.45 : 0.8);
   return out_.vertices.add(v);
 }
 

@@ -131,7 +131,7 @@ class SkinMaker {
   double depth_of(uint32_t ring) const;
 
   // Slits are open in the texture, too: between lids is nothing, between lips the inside of the mouth.
-  static constexpr double kLidV = 0.008, kLipV = 0.013;
+  static constexpr double kLidV = 0.012, kLipV = 0.013;
   /// How far a place is moved up or down in the texture by the slit of the mouth.
   double lip_v(Vec3 look, double y, Side side) const;
 

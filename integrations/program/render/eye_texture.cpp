@@ -49,6 +49,7 @@ Vec3 iris_color(const Gaze& at, Vec3 iris) {
   c = mix(c, {196, 190, 168}, light * 0.16f * saturate(fine + 0.5f * hair) * (1 - inner));
   // The cornea gathers light from above in the lower half; the upper lid shades the other.
   shade *= 1 + 0.24f * -at.y * eased(kPupil, 0.36f, a);
+  shade *= 1 - 0.45f * eased(0.06f, 0.34f, at.y * a);
   c = c * shade;
   c = mix(c, iris * 0.22f + Vec3{8, 9, 12}, 0.82f * eased(0.355f, 0.435f, a));
   const Vec3 pupil = {9, 8, 9};
@@ -73,7 +74,7 @@ Vec3 white_color(const Gaze& at, Vec3 iris) {
   const float veins = 0.50f * vein(at, 2.6f, 0.055f, 4) + 0.34f * vein(at, 5.5f, 0.06f, 31);
   c = mix(c, {176, 62, 54}, veins * eased(0.52f, 0.85f, a) * (0.30f + 0.70f * side));
   // Lashes and the lid shade what is above.
-  c = c * (1 - 0.34f * eased(0.20f, 0.95f, at.y * a / 0.5f));
+  c = c * (1 - 0.40f * eased(0.04f, 0.32f, at.y * a));
   // The border of the cornea is bluish and has no sharp edge.
   return mix(c, mix(iris * 0.30f, {92, 96, 102}, 0.45f), 0.85f * eased(0.520f, 0.425f, a));
 }
