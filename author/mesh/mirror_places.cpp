@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "author/mesh/mirror_places.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "author/base/dna_making.h"
 #include "author/mesh/point_tree.h"
 #include "author/mesh/topology.h"
@@ -10,6 +13,7 @@ namespace mien::author {
 namespace {
 
 constexpr double kNear = 5e-4;    // of the diagonal: how far a mirror image may be from its partner
+constexpr double kAsNear = 0.1;   // of that: what counts as equally near
 constexpr double kPaired = 0.95;  // of the places of a symmetric mesh
 
 /// The middle of the skin.
@@ -68,15 +72,17 @@ bool find_mirror(const AuthorMesh& mesh, Span<const uint32_t> places, Arena& are
   for (uint32_t i = 0; i < count; ++i) {
     const Vec3 p = points[i];
     const Vec3 n = normals[vertices[i]], mirrored = {-n.x, n.y, n.z};
-    // Where lips or shells touch, several are equally near: the one that faces the same way.
+    // Where lips or shells touch, several are about equally near: the one that faces the same way.
     Near found[4];
     const uint32_t found_count = tree.nearest({2 * plane - p.x, p.y, p.z}, 4, found);
-    double best = 0;
+    double best = 0, farthest = near;
     nearest[i] = kNone;
     for (uint32_t k = 0; k < found_count; ++k) {
-      if (found[k].squared_distance > near * near) break;
+      const double distance = std::sqrt(found[k].squared_distance);
+      if (distance > farthest) break;
       const double alike = dot(normals[vertices[found[k].point]], mirrored);
       if (!(alike > best)) continue;
+      if (best == 0) farthest = std::min(near, distance + kAsNear * near);
       best = alike;
       nearest[i] = found[k].point;
     }

@@ -165,7 +165,7 @@ TEST(FitMeshes, SurfacesDrawThePointsOfEach) {
   std::vector<float> raw(meshes.raw_count), found;
   const uint32_t look = meshes.control("eyeLookUpLeft");
   raw[look] = 0.5f;
-  raw[meshes.control("jawOpen")] = 0.2f;
+  raw[meshes.control("jawOpen")] = 0.15f;
   const std::vector<MienSolvePoint> points =
       join(meshes.every(kSkin, 40), meshes.every(kTeeth, 10));
   // One surface of both, with the teeth first.

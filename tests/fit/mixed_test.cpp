@@ -297,7 +297,7 @@ TEST(Mixed, FewLandmarksCountBesideManyVertices) {
   frame.surface = surface.get();
   frame.surface_weights = drawn.data();
   frame.prior_weight = 1e-3f;
-  frame.max_iterations = 40;
+  frame.max_iterations = 100;
   std::vector<float> found;
   const MienFitResult result = mixed.solve(frame, found);
   EXPECT_EQ(result.status, MIEN_FIT_CONVERGED);

@@ -32,8 +32,8 @@ namespace {
 constexpr int kKnotColumns = 5;
 constexpr double kKnots[][kKnotColumns] = {
     {-22.0, 10.2, 4.6, -7.4, 2.4}, {-21.6, 11.4, 5.4, -8.6, 2.45}, {-20.6, 12.4, 5.6, -9.3, 2.4},
-    {-19.4, 12.5, 5.0, -9.3, 2.3}, {-18.3, 11.6, 4.2, -8.9, 2.2},  {-17.4, 9.7, 3.55, -8.4, 2.15},
-    {-16.6, 7.5, 3.2, -7.9, 2.1},  {-15.8, 6.1, 3.2, -7.4, 2.05},  {-14.4, 5.2, 3.45, -6.8, 2.0},
+    {-19.4, 12.5, 5.0, -9.3, 2.3}, {-18.3, 11.6, 4.3, -8.9, 2.2},  {-17.4, 9.7, 3.8, -8.4, 2.15},
+    {-16.6, 7.5, 3.55, -7.9, 2.1}, {-15.8, 6.1, 3.45, -7.4, 2.05}, {-14.4, 5.2, 3.55, -6.8, 2.0},
     {-12.6, 4.95, 3.9, -6.4, 2.0}, {-11.5, 4.65, 4.95, -6.2, 2.0}, {-10.9, 4.8, 7.0, -6.1, 2.0},
     {-10.3, 5.2, 8.5, -6.1, 1.84}, {-9.2, 5.5, 8.9, -6.2, 1.92},   {-8.0, 5.75, 9.0, -6.4, 2.0},
     {-6.0, 6.05, 8.85, -6.9, 2.1}, {-4.0, 6.5, 9.0, -7.8, 2.2},    {-1.5, 6.95, 9.1, -8.9, 2.25},
@@ -83,7 +83,8 @@ double smooth_max(double a, double b, double width) {
 constexpr double kCollarY = -17.5;
 
 double collar_rise(double y, double cosine) {
-  return 1.75 * smooth_step(0.99, -0.05, cosine) * bump(0, y, 0, kCollarY, 1, 2.3);
+  const double front = std::max(cosine, 0.0);
+  return 1.5 * (1 - front * front) * bump(0, y, 0, kCollarY, 1, 2.3);
 }
 
 /// How far a place is inside the jaw, in the view from the side: its border runs from the chin to
@@ -107,8 +108,8 @@ Form::Section Form::section(double y, double cosine) const {
   // The nape has no jaw.
   static constexpr double kNape[][2] = {{-22.0, 10.2}, {-21.6, 11.4}, {-20.6, 12.4}, {-19.4, 12.5},
                                         {-18.3, 11.6}, {-17.4, 10.0}, {-16.6, 8.1},  {-15.6, 6.4},
-                                        {-13.6, 4.95}, {-10.5, 4.9},  {-7.5, 5.3},   {-4.5, 6.1},
-                                        {-1.5, 6.85},  {0.6, 7.15}};
+                                        {-13.6, 5.2},  {-11.8, 4.9},  {-10.5, 4.9},  {-7.5, 5.3},
+                                        {-4.5, 6.1},   {-1.5, 6.85},  {0.6, 7.15}};
   if (y < 0.6)
     s.half_width = mix(s.half_width, interpolate(y, kNape), smooth_step(0.65, -0.45, cosine));
   const Person& p = person_;
@@ -275,11 +276,12 @@ double Form::side_relief(double z, double y) const {
   };
   const double lean = 0.5 * person_.cheek;
   const Bump bumps[] = {
-      {0.18 + 0.4 * lean, 2.8, -1.2, 2.3, 1.20},    // arch of the cheekbone
-      {-0.02 - 0.3 * lean, 2.9, -4.3, 2.0, 1.4},    // below it
-      {0.24 + person_.angle, 0.5, -7.0, 1.7, 1.9},  // angle of the jaw, with the muscle on it
-      {-0.32, 3.6, 2.6, 1.9, 1.5},                  // temple
-      {0.22, 5.3, 4.4, 0.9, 1.7},  // line from the brow up, where the forehead turns
+      {0.18 + 0.4 * lean, 2.8, -1.2, 2.3, 1.20},  // arch of the cheekbone
+      {-0.02 - 0.3 * lean, 2.9, -4.3, 2.0, 1.4},  // below it
+      {0.28 + 0.08 * person_.sex + person_.angle, 0.9, -6.8, 1.7,
+       1.6},                        // angle of the jaw, with the muscle on it
+      {-0.32, 3.6, 2.6, 1.9, 1.5},  // temple
+      {0.22, 5.3, 4.4, 0.9, 1.7},   // line from the brow up, where the forehead turns
   };
   double x = 0;
   for (const Bump& b : bumps) x += b.amount * bump(z, y, b.z, b.y, b.sz, b.sy);
@@ -327,6 +329,52 @@ double Form::angle_of(double x, double y) const {
   return exact_atan2(s, std::sqrt(1 - s * s));
 }
 
+/// The neck below the border of the jaw: the hollow there, the muscles from behind the ears to the breast bone
+/// (sternomastoids), the larynx, clavicles and the hollows beside and above them.
+Vec3 Form::neck_form(Vec3 p, double angle) const {
+  const auto [sine, cosine] = exact_sine_cosine(angle);
+  // The border of the jaw overhangs.
+  if (p.y < 0) {
+    const double below = smooth_step(0.45, -1.15, inside_jaw(p.y, p.z)) *
+                         smooth_step(-2.6, 0.6, p.z) * smooth_step(-3.0, -6.0, p.y) *
+                         smooth_step(-15.5, -11.5, p.y);
+    p.x *= 1 - 0.14 * below;
+  }
+  if (cosine < -0.3 || p.y > -5) return p;
+  // Below the chin fat fills the angle to the neck.
+  double out = 0.9 * std::max(0.0, person_.weight) * bump(p.x, p.y, 0, -11.8, 3.2, 1.3) *
+               smooth_step(0.2, 0.6, cosine);
+  // Lean necks show more.
+  const double lean = mix(1, 0.55, clamp01(0.5 + 0.5 * person_.weight));
+  const double down = (-5.0 - p.y) / 11.2;
+  if (down < 1.15) {
+    // One strap from behind the ear, its front edge the sharper one; its two heads end at the breast bone and on the
+    // clavicle.
+    const double end = smooth_step(1.10, 0.97, down), split = smooth_step(0.45, 0.95, down);
+    const double from = angle - mix(1.78, 0.13, exact_pow(clamp01(down), 0.9));
+    const double width = mix(0.24, 0.072, split) * (from < 0 ? 0.75 : 1.25);
+    out += lean * end * smooth_step(0.10, 0.45, down) *
+           (mix(0.50, 0.66, split) * bump(from, 0, 0, 0, width, 1) +
+            0.34 * split * bump(angle, 0, mix(1.5, 0.42, down), 0, 0.13, 1));
+    // Larynx and the notch above the breast bone.
+    out += (0.26 + 0.16 * person_.sex) * bump(p.x, p.y, 0, -13.1, 0.75, 0.95) -
+           0.40 * bump(p.x, p.y, 0, -16.1, 0.50, 0.55);
+  }
+  p.x += out * sine;
+  p.z += out * cosine;
+  if (cosine > 0 && p.y < -14) {
+    // From the breast bone the clavicles run outwards and a little up, bent to the front near it.
+    const double bone = -16.55 + 0.05 * p.x, beside = smooth_step(0.5, 1.2, p.x);
+    const double ridge =
+        0.42 * beside * smooth_step(8.5, 4.0, p.x) *
+        (bump(p.y, 0, bone, 0, 0.50, 1) + 0.15 * bump(p.x, p.y, 1.3, bone, 0.7, 0.55));
+    const double hollow = 0.36 * lean * bump(p.x, p.y, 4.6, bone + 1.05, 1.3, 0.70);
+    p.z += (ridge - hollow) * smooth_step(0, 0.3, cosine);
+    p.y += 0.25 * ridge;
+  }
+  return p;
+}
+
 FacePoint Form::face(double angle, double row, Side side) const {
   const auto [sine, cosine] = exact_sine_cosine(angle);
   const double y = row + collar_rise(row, cosine);
@@ -357,34 +405,7 @@ FacePoint Form::face(double angle, double row, Side side) const {
   const double standing_out = side_relief(p.z, p.y);
   p.z += front_mask * (relief(p.x, p.y) + lips(p.x, p.y));
   p.x += standing_out * smooth_step(0.35, 0.9, sine);
-  // Below and behind the jaw the neck is narrower.
-  if (p.y < 0) {
-    const double neck = smooth_step(1.3, -2.6, inside_jaw(p.y, p.z)) * smooth_step(-5, -0.5, p.z) *
-                        smooth_step(-1.8, -5.5, p.y) * smooth_step(-15.5, -12.0, p.y);
-    p.x *= 1 - 0.10 * neck;
-  }
-  // Below the chin fat fills the angle to the neck.
-  p.z += 0.9 * std::max(0.0, person_.weight) * bump(p.x, p.y, 0, -11.8, 3.2, 1.3) *
-         smooth_step(0.2, 0.6, cosine);
-  // The muscle from behind the ear to the breast bone, and the larynx.
-  if (cosine > -0.1 && p.y < -8 && p.y > -17) {
-    const double down = (-5.0 - p.y) / 11.2;
-    const double muscle = 0.46 * bump(p.x, 0, mix(5.1, 0.8, down), 0, 0.95, 1) *
-                          smooth_step(0.25, 0.60, down) * smooth_step(1.08, 0.86, down);
-    p.x += muscle * sine;
-    p.z += muscle * cosine + 0.20 * bump(p.x, p.y, 0, -13.3, 0.8, 1.1) -
-           0.30 * bump(p.x, p.y, 0, -15.9, 0.55, 0.55);
-  }
-  // Clavicles from the breast bone to the shoulders, and hollows above them.
-  if (cosine > 0 && p.y < -14) {
-    const double bone = -16.45 + 0.035 * p.x, beside = smooth_step(0.5, 1.3, p.x);
-    const double ridge =
-        0.42 * beside * smooth_step(9.5, 6.5, p.x) *
-        (bump(p.y, 0, bone, 0, 0.42, 1) + 0.2 * bump(p.x, p.y, 1.2, bone, 0.6, 0.5));
-    const double hollow = 0.32 * bump(p.x, p.y, 4.0, bone + 0.85, 2.0, 0.50) * beside;
-    p.z += (ridge - hollow) * smooth_step(0, 0.3, cosine);
-    p.y += 0.4 * ridge;
-  }
+  p = neck_form(p, angle);
   const Vec3 look = p;
   // Long and short noses, their tips turned up or down; broad and narrow mouths.
   const double base = smooth_step(-0.4, -3.3, y) * smooth_step(-5.5, -4.3, y) *

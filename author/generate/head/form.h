@@ -149,6 +149,7 @@ class Form {
   double side_relief(double z, double y) const;
   double nose(double x, double y) const;
   double lips(double x, double y) const;
+  Vec3 neck_form(Vec3 p, double angle) const;
 
   Person person_;
 };

@@ -143,21 +143,25 @@ TEST(FitShapes, GivenMotionsAreImproved) {
 }
 
 TEST(AuthorRig, MotionsThatAllLodsShareDoBetterAtCoarseOnes) {
-  double errors[2][4];
-  for (uint32_t shared : {0u, 1u}) {
-    AuthorSetup head;
-    make_author_head(5, 40, 6, 4, head);
-    Arena arena(default_allocator());
-    RigOptions options;
-    options.fit.shared_rounds = 2 * shared;
-    dna::DnaView view;
-    RigReport report;
-    ASSERT_TRUE(author_rig(head.mesh, head.placement, {&head.weights, 1}, options, arena,
-                           default_allocator(), report, view));
-    for (uint32_t lod = 0; lod < 4; ++lod) errors[shared][lod] = report.lods[lod].joints_error;
+  double ratios[4] = {};  // means over numbers of joints
+  for (const uint32_t joints : {30u, 40u, 50u}) {
+    double errors[2][4];
+    for (uint32_t shared : {0u, 1u}) {
+      AuthorSetup head;
+      make_author_head(5, joints, 6, 4, head);
+      Arena arena(default_allocator());
+      RigOptions options;
+      options.fit.shared_rounds = 2 * shared;
+      dna::DnaView view;
+      RigReport report;
+      ASSERT_TRUE(author_rig(head.mesh, head.placement, {&head.weights, 1}, options, arena,
+                             default_allocator(), report, view));
+      for (uint32_t lod = 0; lod < 4; ++lod) errors[shared][lod] = report.lods[lod].joints_error;
+    }
+    for (uint32_t lod = 0; lod < 4; ++lod) ratios[lod] += errors[1][lod] / errors[0][lod] / 3;
   }
-  EXPECT_LT(errors[1][0], 1.1 * errors[0][0]);
-  for (uint32_t lod = 1; lod < 4; ++lod) EXPECT_LT(errors[1][lod], 0.9 * errors[0][lod]) << lod;
+  EXPECT_LT(ratios[0], 1.3);  // what joints that serve all LODs cost the finest
+  for (uint32_t lod = 1; lod < 4; ++lod) EXPECT_LT(ratios[lod], 0.75) << lod;
 }
 
 }  // namespace
