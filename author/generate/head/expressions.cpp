@@ -138,7 +138,7 @@ static constexpr Motion kCrowded[][2] = {
     {Motion::kSmile, Motion::kStretch},         {Motion::kPucker, Motion::kShrugUpper},
     {Motion::kFrown, Motion::kStretch},         {Motion::kPucker, Motion::kTongueOut},
     {Motion::kPucker, Motion::kShrugLower},     {Motion::kCheekPuff, Motion::kSneer},
-    {Motion::kMouthLeft, Motion::kDimple},      {Motion::kCheekPuff, Motion::kTongueOut},
+    {Motion::kMouthLeft, Motion::kSneer},       {Motion::kCheekPuff, Motion::kTongueOut},
     {Motion::kSmile, Motion::kDimple},          {Motion::kSmile, Motion::kDeepenFold},
     {Motion::kFunnel, Motion::kPucker},         {Motion::kBrowInnerUp, Motion::kBrowOuterUp},
 };

@@ -26,7 +26,7 @@ struct Plan {
   uint32_t triangles[kLodCount - 1];
   double color;
 };
-constexpr Plan kSkinPlan = {{8000, 5400, 3570, 2320, 1660, 1150, 770}, 12};
+constexpr Plan kSkinPlan = {{8000, 5400, 3570, 2320, 1660, 1250, 830}, 12};
 constexpr Plan kTeethPlan = {{1600, 1330, 900, 690, 560, 480, 400}, 5};
 constexpr Plan kTonguePlan = {{360, 190, 120, 80, 60, 50, 40}, 8};
 constexpr Plan kEyePlan = {{1090, 770, 400, 300, 240, 190, 150}, 120};
