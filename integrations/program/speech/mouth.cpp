@@ -37,13 +37,14 @@ constexpr double kShortestPause = 0.04;
 /// Visemes are held poses. Speech opens the jaw less than half as far.
 constexpr float kJawOfSpeech = 0.45f;
 
-// Closures: how long lips take to come together and to part, and at least between two; the jaw,
-// which is slower, and turns around before the lips part; how far open it stays.
-constexpr double kClosing = 0.08, kOpening = 0.07, kQuickest = 0.02, kJawTime = 0.15,
-                 kJawTurn = 0.025, kJawOfClosure = 0.03;
+// Closures: how long lips take to come together and to part, and at least between two; the jaw, which is
+// slower, and turns around before lips or teeth let go; how far open it stays for a lip at the teeth. Lips that
+// close need all of it: they meet where they are at rest.
+constexpr double kClosing = 0.08, kOpening = 0.07, kQuickest = 0.02, kJawTime = 0.16,
+                 kJawTurn = 0.025, kLipTurn = 0.01, kJawOfTeeth = 0.045;
 /// The held pose of f brings the lower lip near the teeth; to touch them it rolls in twice as far.
 constexpr double kRollToTeeth = 2;
-constexpr float kPressToTeeth = 0.5f;  // and is firm
+constexpr float kPressToTeeth = 0.7f;  // and is firm
 /// Of a stop, the last part is its release.
 constexpr double kHeldShare = 0.75;
 
@@ -150,12 +151,13 @@ double dominance(const Pull& pull, Group group, double time) {
                              : static_cast<double>(pull.dominance[group]) * std::exp(-away * away);
 }
 
-/// How far lips or teeth hold the jaw up at a time, 0 to 1. `turn`: how long before a closure ends it may let go, and
+/// How far closures of a kind hold the jaw up at a time, 0 to 1. `turn`: how long before a closure ends it may let go, and
 /// how long after its begin it may arrive.
-double jaw_held_at(const std::vector<ClosedTime>& closures, size_t first, double time,
+double jaw_held_at(const std::vector<ClosedTime>& closures, size_t first, Closure kind, double time,
                    double turn) {
   double most = 0;
   for (size_t i = first; i < closures.size() && closures[i].begin - kJawTime < time; ++i) {
+    if (closures[i].closure != kind) continue;
     const double inset = std::min((closures[i].end - closures[i].begin) / 2, turn);
     const double away =
         std::max({closures[i].begin + inset - time, time - closures[i].end + inset, 0.0});
@@ -298,13 +300,17 @@ void move_mouth(const std::vector<Segment>& segments, const std::vector<float>& 
     const double with_teeth =
         closed_at(lips, first_closure, Closure::kLipToTeeth, time) * (1 - with_lips);
     const double touching = with_lips + with_teeth;
-    const double held = jaw_held_at(lips, first_closure, time, kJawTurn);
-    const double funnel_held = jaw_held_at(lips, first_closure, time, 0);
+    const double by_lips = jaw_held_at(lips, first_closure, Closure::kLips, time, kLipTurn);
+    const double by_teeth = jaw_held_at(lips, first_closure, Closure::kLipToTeeth, time, kJawTurn);
+    const double funnel_held =
+        std::max(jaw_held_at(lips, first_closure, Closure::kLips, time, 0),
+                 jaw_held_at(lips, first_closure, Closure::kLipToTeeth, time, 0));
     for (size_t c = 0; c < count; ++c) {
       const double weight = weights[all.groups[c]];
       double value = weight > 0 ? sums[c] / weight : 0;
       if (c == jaw) {
-        value += held * (std::min(value, kJawOfClosure) - value);
+        value += by_teeth * (std::min(value, kJawOfTeeth) - value);
+        value *= 1 - by_lips;
       } else if (all.groups[c] == kLips) {
         value = value * (1 - touching) + with_lips * static_cast<double>(bilabial[c]) +
                 with_teeth * static_cast<double>(labiodental[c]);
