@@ -160,7 +160,8 @@ TEST_F(AuthorStages, GroupsInDepthAreThoseOfTheCaller) {
   for (int g = 0; g < 3; ++g) sizes[g] = places[g].size();
   counts = "\"counts\":[" + std::to_string(sizes[0]) + "," + std::to_string(sizes[1]) + "," +
            std::to_string(sizes[2]) + "]";
-  EXPECT_NE(report_.find(counts), std::string::npos) << counts;
+  EXPECT_NE(report_.find(counts), std::string::npos)
+      << counts << " is not in " << report_.substr(report_.find("\"counts\""), 40);
   groups[3] = 3;
   expect_refused(MIEN_ERROR_AUTHOR_MESH, "group 3");
 }

@@ -115,14 +115,16 @@ void SkinMaker::make_eye() {
 uint32_t SkinMaker::lid_edge_vertex(uint32_t from, Color color, bool at_ball) {
   Vertex v = out_.vertices[from];
   const Vec3 out = v.closed - kEye;
-  const double flesh = smooth_step(-0.80, -0.94, form_.along_eye(v.closed.x));
+  // The caruncle fills the inner corner between the lids.
+  const double along = form_.along_eye(v.closed.x), flesh = smooth_step(-0.72, -0.88, along);
   const double radius =
-      at_ball ? kEyeRadius + mix(0.045, 0.13, flesh) : kEyeRadius + mix(-0.12, 0.04, flesh);
+      kEyeRadius + (at_ball ? mix(0.045, 0.13, flesh) + 0.05 * bump(along, 0, -0.88, 0, 0.08, 1)
+                            : mix(-0.12, 0.05, flesh));
   v.closed = kEye + out * (radius / std::max(length(out), kEyeRadius));
   const double middle = 0.5 * (form_.upper_opening(v.closed.x) + form_.lower_opening(v.closed.x));
   v.lid = mix(v.lid, middle, flesh);
   v.position = turn_lid(v.closed, v.lid);
-  v.color = mix(color, mix({196, 128, 118}, form_.person().skin, 0.5), flesh);
+  v.color = mix(color, mix({204, 120, 112}, form_.person().skin, 0.35), flesh);
   // In the texture, edges go towards the middle of the slit, which closes at its corners.
   v.v = mix(v.v, v_of_row(kEye.y) + kLidV * middle / 0.5, at_ball ? 0.45 : 0.8);
   return out_.vertices.add(v);
