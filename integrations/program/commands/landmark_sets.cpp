@@ -37,7 +37,7 @@ struct HalfLandmark {
 constexpr LandmarkRay::Lip kUpper = LandmarkRay::kUpper, kLower = LandmarkRay::kLower;
 constexpr HalfLandmark kHalfOf68[] = {
     // the outline, from the ear to the chin
-    {16, 0, {0, 0.3, 82}},
+    {16, 0, {0, 0.3, 78}},
     {15, 1, {0, -1.9, 80}},
     {14, 2, {0, -4.1, 76}},
     {13, 3, {0, -6.1, 68}},
