@@ -109,7 +109,7 @@ JointTurns turns_of(Motion motion) {
     case Motion::kFunnel: t.jaw_open = 8; break;
     case Motion::kJawForward: t.jaw_shift = {0, -0.08, 0.95}; break;
     case Motion::kJawLeft: t.jaw_shift = {1.0, -0.05, -0.05}; break;
-    case Motion::kTongueOut: t.jaw_open = 7, t.tongue = 1; break;
+    case Motion::kTongueOut: t.jaw_open = 10, t.tongue = 1; break;
     default: break;
   }
   return t;

@@ -36,11 +36,11 @@ void set_designed(const Shapes& shapes, const Skeleton& skeleton, const JointDel
           delta_of({}, {t.lower_lid * skeleton.lower_lid_angle, 0, 0});
     }
     out.at(s, skeleton.tongue[0]) =
-        delta_of(Vec3{0, 0.35, 1.5} * left.tongue, {-4 * left.tongue, 0, 0});
+        delta_of(Vec3{0, 0.75, 1.5} * left.tongue, {-6 * left.tongue, 0, 0});
     out.at(s, skeleton.tongue[1]) =
-        delta_of(Vec3{0, 0.10, 1.5} * left.tongue, {10 * left.tongue, 0, 0});
+        delta_of(Vec3{0, 0.10, 1.5} * left.tongue, {7 * left.tongue, 0, 0});
     out.at(s, skeleton.tongue[2]) =
-        delta_of(Vec3{0, 0, 1.3} * left.tongue, {26 * left.tongue, 0, 0});
+        delta_of(Vec3{0, 0, 1.3} * left.tongue, {15 * left.tongue, 0, 0});
   }
 }
 

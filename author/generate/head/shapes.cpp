@@ -375,7 +375,7 @@ Vec3 Shapes::both_sides(Motion motion, const Vertex& v) const {
       add(w.at(1.4, -7.6, 1.3, 0.8), {0.05, 0, 0.22});
       add(bump(look.x, line, 0, 0, 2.2, 0.7), {-0.06 * look.x, -0.15 * line, 0.08});
       break;
-    case Motion::kTongueOut: add(lips * apart, {0, above ? 0.16 : -0.30, 0.12}); break;
+    case Motion::kTongueOut: add(lips * apart, {0, above ? 0.20 : -0.34, 0.12}); break;
     default: break;
   }
   // The middle does not move sideways; motions that scale x keep it there anyway.
