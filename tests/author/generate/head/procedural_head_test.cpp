@@ -791,6 +791,30 @@ TEST(ProceduralHead, TongueComesOut) {
   }
 }
 
+/// Where the tongue comes from behind the skin to its front, it is above the edge of the lower lip, not in it.
+TEST(ProceduralHead, TongueGoesOutOverTheLowerLip) {
+  Head& head = the_head();
+  const auto lips = Half(0).edges(false);
+  for (const float value : {0.3f, 0.5f, 0.75f, 1.0f}) {
+    const Points skin = head.pose(Part::kHead, 0, {{"tongueOut", value}});
+    const Points tongue = head.pose(Part::kTongue, 0);
+    double lip = -1e9;
+    for (const auto& [lower, upper] : lips) {
+      if (std::abs(skin[lower].x) < 0.3) lip = std::max(lip, skin[lower].y);
+    }
+    const auto over_tongue = near_lines(skin, head.triangles_of(Part::kHead, 0), tongue);
+    std::vector<double> before;  // how far before the skin
+    for (const Vec3& p : tongue) before.push_back(p.z - front_at(skin, over_tongue, p.x, p.y));
+    for (const Triangle& t : head.triangles_of(Part::kTongue, 0)) {
+      for (int i = 0; i < 3; ++i) {
+        const uint32_t behind = t[i], out = t[(i + 1) % 3];
+        if (before[behind] > -0.05 || before[out] < 0.05) continue;
+        EXPECT_GT(tongue[out].y, lip - 0.15) << value << " at " << tongue[out].x;
+      }
+    }
+  }
+}
+
 // Motion ----------------------------------------------------------------------------------------
 
 TEST(ProceduralHead, EveryControlMovesSomethingAtEveryLod) {
