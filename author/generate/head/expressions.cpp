@@ -123,7 +123,7 @@ bool moves_jaw(Motion m) {
 }
 
 /// Pairs that press or stretch the same skin: the worst of all, as tests/author/generate/head/combinations_test.cpp
-/// measures them, and one that is common. Of those with a side, left with left and right with right.
+/// measures them, and two that are common. Of those with a side, left with left and right with right.
 static constexpr Motion kCrowded[][2] = {
     {Motion::kMouthLeft, Motion::kCheekPuff},     {Motion::kMouthLeft, Motion::kStretch},
     {Motion::kStretch, Motion::kCheekPuff},       {Motion::kStretch, Motion::kNeckStretch},
