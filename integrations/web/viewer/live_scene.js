@@ -32,10 +32,15 @@ export class LiveTake {
     this.#isNew = true;
   }
 
-  /** To another time, without live data, which are not kept. */
+  /** To another time. Live data are not kept: they go on only if it is the next moment, as when a sound is followed. */
   seek(seconds) {
-    this.scene.start();
     const end = ticks(Math.min(seconds, this.duration));
+    const ahead = end - this.scene.now;
+    if (ahead >= 0 && ahead < ticks(0.25)) {
+      if (ahead > 0) this.#goOn(end);
+      return;
+    }
+    this.scene.start();
     for (let tick = 0; tick < end; tick += STEP) this.scene.rowAt(tick);
     this.row = this.scene.rowAt(end);
   }
@@ -48,10 +53,14 @@ export class LiveTake {
       scene.start();
       tick = 0;
     }
-    if (this.#isNew) scene.mixer.push(this.layer, tick, this.values);
-    this.#isNew = false;
-    this.row = scene.rowAt(tick);
+    this.#goOn(tick);
     return isOver;
+  }
+
+  #goOn(tick) {
+    if (this.#isNew) this.scene.mixer.push(this.layer, tick, this.values);
+    this.#isNew = false;
+    this.row = this.scene.rowAt(tick);
   }
 
   apply({ face, hasGui }) {

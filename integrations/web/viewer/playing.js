@@ -94,6 +94,7 @@ export class Player {
     $("mute").addEventListener("change", () => {
       if (this.sound) this.sound.isMuted = $("mute").checked;
     });
+    for (const event of ["pointerup", "keydown"]) addEventListener(event, () => this.#hear());
   }
 
   /** Takes over a take, and plays it. */
@@ -120,8 +121,8 @@ export class Player {
     this.isPlaying = true;
     this.#last = 0;
     $("play").textContent = "Pause";
-    // Browsers play no sound before a button of the page is pressed. The face moves all the same.
-    this.sound?.play(this.take.time).catch(() => this.said(`${this.sound.name}: press Pause, then Play, to hear it`));
+    // Browsers play no sound before the page is used. The face moves all the same.
+    this.sound?.play(this.take.time).catch(() => this.said(`${this.sound.name}: press a key, or the page, to hear it`));
     this.requested();
   }
 
@@ -141,9 +142,16 @@ export class Player {
   seek(seconds) {
     this.stop();
     this.take.seek(seconds);
-    this.sound?.seek(seconds);
+    this.sound?.scrub(seconds);
     this.sampled();
     this.requested();
+  }
+
+  /** The page is used: a sound that waited for this joins in. */
+  #hear() {
+    const { sound } = this;
+    if (!this.isPlaying || !sound?.isWaiting) return;
+    sound.play(this.take.time).then(() => this.said(`${sound.name}: ${sound.duration.toFixed(1)} s of sound`), () => {});
   }
 
   /** To the time of a frame, in milliseconds. */
@@ -154,7 +162,7 @@ export class Player {
     const heard = sound?.time ?? null;
     if (heard !== null && heard < take.duration) take.seek(heard);
     // From the beginning again, with its sound.
-    else if (take.advance(seconds)) sound?.play(0).catch(() => {});
+    else if (take.advance(seconds) && sound && !sound.isWaiting) sound.play(0).catch(() => {});
     this.sampled();
   }
 
