@@ -17,9 +17,15 @@ process.env.MIEN_ISA = "scalar";
 // A microphone that beeps once a second, and is allowed.
 switches.push("--use-fake-device-for-media-stream", "--use-fake-ui-for-media-stream");
 
+/** Which check boxes can be used, and what is said below them. */
+const lifeSwitches = () => page.run(() => {
+  const [idle, follow, note] = ["idle", "follow", "life-note"].map((id) => document.getElementById(id));
+  return { idle: !idle.disabled, follow: !follow.disabled, note: note.hidden ? "" : note.textContent };
+});
+
 test("a GLB opens as the first file", options, async () => {
   await open(join(work, "head.glb"));
-  assert.match(await page.run(() => [document.getElementById("idle").disabled, document.getElementById("idle").parentElement.title].join()), /^true,A GLB/);
+  assert.deepEqual(await lifeSwitches(), { idle: true, follow: true, note: "" });
   assert.match(await text("facts"), /\d+ morph targets/);
   assert.deepEqual(page.errors, []);
 });
@@ -71,18 +77,20 @@ test("idle life blinks and looks around; the sliders and their numbers stay", op
   assert.deepEqual(page.errors, []);
 });
 
+/** The eyes when the cursor is at a part of the width: how far they look to the left, and how the head turns. */
+const lookFrom = (part) => page.run((across) => {
+  const { attention, model, stage } = window.viewer;
+  const { left, top, width, height } = stage.canvas.getBoundingClientRect();
+  stage.canvas.dispatchEvent(new PointerEvent("pointermove", { clientX: left + across * width, clientY: top + height / 2 }));
+  for (let i = 0, time = performance.now(); i < 90; ++i) model.update(attention.step(time += 1000 / 60, false));
+  const { eyeLookOutLeft, eyeLookInLeft, eyeLookDownRight } = attention.idle.face.controls;
+  return { side: eyeLookOutLeft - eyeLookInLeft, down: eyeLookDownRight, turn: attention.idle.motion.left };
+}, part);
+
 test("the eyes look at the cursor, and not while a take plays", options, async () => {
   await open(baked);
   await choose("follow", true);
   await page.until("() => window.viewer.attention.idle", "looks");
-  const lookFrom = (part) => page.run((across) => {
-    const { attention, model, stage } = window.viewer;
-    const { left, top, width, height } = stage.canvas.getBoundingClientRect();
-    stage.canvas.dispatchEvent(new PointerEvent("pointermove", { clientX: left + across * width, clientY: top + height / 2 }));
-    for (let i = 0, time = performance.now(); i < 90; ++i) attention.step(time += 1000 / 60, model.face, false);
-    const { eyeLookOutLeft, eyeLookInLeft, eyeBlinkLeft } = attention.idle.face.controls;
-    return { side: eyeLookOutLeft - eyeLookInLeft, eyeBlinkLeft, turn: attention.idle.motion.left };
-  }, part);
   const [right, left] = [await lookFrom(0.02), await lookFrom(0.98)];
   assert.ok(right.side < -0.1 && left.side > 0.1, `${right.side} ${left.side}`);
   assert.ok(left.turn > right.turn, "the head turns with them");
@@ -94,6 +102,173 @@ test("the eyes look at the cursor, and not while a take plays", options, async (
     [true, true]);
   await choose("follow", false);
   await open(baked);
+  assert.deepEqual(page.errors, []);
+});
+
+/** The weight that a target of the GLB has on its first mesh. */
+const weightOf = (name) => page.run((of) => window.viewer.model.targets.get(of).map(([mesh, target]) => mesh.morphTargetInfluences[target])[0], name);
+
+/** Writes a copy of a GLB in which words of its JSON are others, no longer than before. */
+function renamed(glb, copy, words) {
+  const bytes = readFileSync(glb);
+  for (const [from, to] of words) {
+    for (let at = bytes.indexOf(`"${from}"`); at >= 0; at = bytes.indexOf(`"${from}"`)) bytes.write(`"${to}"`.padEnd(from.length + 2), at);
+  }
+  writeFileSync(copy, bytes);
+}
+
+test("a GLB blinks and looks at the cursor by its morph targets, as the rig that it is of", options, async () => {
+  const glb = join(work, "head.glb");
+  // Steps of their own, so that the small movements of both are at the same time.
+  const looks = () => page.run(async () => {
+    const { Idle } = await import("./idle.js");
+    const { model } = window.viewer;
+    const idle = new Idle(model.lifeRig, model.face);
+    const found = [[-0.3, 0.1, 0.6], [0, 0, 0.3], [0.1, 0.2, 0.5], [0.6, -0.2, 0.5]].map(([x, y, z]) => {
+      idle.lookAt({ x, y, z });
+      for (let i = 0; i < 90; ++i) idle.step(1 / 60, model.face);
+      const { controls } = idle.face;
+      return [...["Up", "Down", "In", "Out"].flatMap((way) => [controls[`eyeLook${way}Left`], controls[`eyeLook${way}Right`]]),
+        idle.motion.left, idle.motion.up];
+    });
+    idle.dispose();
+    return found.flat();
+  });
+  await open(baked);
+  const rig = await looks();
+  await open(glb);
+  const most = (await looks()).reduce((worst, value, i) => Math.max(worst, Math.abs(value - rig[i])), 0);
+  assert.ok(most < 0.002 && rig.filter((value) => value > 0.2).length > 5, `${most} of ${rig}`);
+  await choose("follow", true);
+  await page.until("() => window.viewer.attention.idle", "looks");
+  const [right, left] = [await lookFrom(0.02), await lookFrom(0.98)];
+  assert.ok(right.side < -0.3 && left.side > 0.5 && left.turn > right.turn, JSON.stringify([right, left]));
+  assert.ok(Math.abs(await weightOf("eyeLookOutLeft") - left.side) < 0.2, "it is seen");
+  await page.run(() => window.viewer.stage.canvas.dispatchEvent(new PointerEvent("pointerleave")));
+  await choose("follow", false);
+  await frames();
+  assert.equal(await weightOf("eyeLookOutLeft"), 0, "the eyes are back");
+
+  await slide("mouthSmileLeft", 0.75);
+  await page.prefer({ motion: true });
+  await page.until("() => window.viewer.attention.motion", "alive");
+  await frames();
+  const seen = await page.run(() => {
+    const { attention, model } = window.viewer;
+    const [most, smiles] = [{ eyeBlinkLeft: 0, eyeLookInLeft: 0 }, new Set()];
+    const weight = (name) => model.targets.get(name).map(([mesh, target]) => mesh.morphTargetInfluences[target])[0];
+    for (let i = 0; i < 1200; ++i) {
+      attention.idle.step(1 / 60, model.face);
+      model.update(attention.idle.face);
+      for (const name of Object.keys(most)) most[name] = Math.max(most[name], weight(name));
+      smiles.add(weight("mouthSmileLeft"));
+    }
+    return { ...most, smiles: [...smiles], pose: model.pose(), rise: attention.idle.motion.rise };
+  });
+  assert.ok(seen.eyeBlinkLeft > 0.95 && seen.eyeLookInLeft > 0.01 && seen.eyeLookInLeft < 0.3, JSON.stringify(seen));
+  assert.deepEqual([seen.smiles, seen.pose], [[0.75], { mouthSmileLeft: 0.75 }], "the sliders stay");
+  assert.ok(seen.rise > 0, "it breathes");
+  // A target that is set stays as it is set.
+  await slide("eyeBlinkLeft", 0.25);
+  const blinks = await page.run(() => {
+    const { attention, model } = window.viewer;
+    const found = new Set();
+    for (let i = 0; i < 1200; ++i) {
+      attention.idle.step(1 / 60, model.face);
+      model.update(attention.idle.face);
+      if (i > 30) found.add(model.targets.get("eyeBlinkLeft").map(([mesh, target]) => mesh.morphTargetInfluences[target])[0]);
+    }
+    return [...found];
+  });
+  assert.deepEqual(blinks, [0.25]);
+  await page.prefer();
+  await page.until("() => !document.getElementById('idle').checked", "still again");
+  await frames();
+  assert.deepEqual([await weightOf("eyeBlinkLeft"), await weightOf("eyeLookInLeft")], [0.25, 0]);
+  assert.deepEqual(page.errors, []);
+});
+
+test("a GLB says which morph targets its idle life lacks", options, async () => {
+  const [glb, copy] = [join(work, "head.glb"), join(work, "lacks.glb")];
+  // In the style of another tool.
+  renamed(glb, copy, [["eyeBlinkLeft", "eyeBlink_L"], ["eyeBlinkRight", "eyeBlink_R"], ["eyeLookOutLeft", "eyeLookOut_L"]]);
+  await open(copy);
+  assert.deepEqual(await lifeSwitches(), { idle: true, follow: true, note: "" });
+  renamed(glb, copy, [["eyeBlinkRight", "shutRight"], ["eyeLookUpLeft", "upLeft"], ["eyeLookInLeft", "inLeft"]]);
+  await open(copy);
+  assert.deepEqual(await lifeSwitches(), { idle: true, follow: true,
+    note: "This GLB has no morph targets eyeBlinkRight, eyeLookUpLeft, eyeLookInLeft: it moves without them." });
+  await choose("follow", true);
+  await page.until("() => window.viewer.attention.idle", "looks");
+  assert.ok((await lookFrom(0.98)).side > 0.5, "with the targets that there are");
+  await choose("follow", false);
+  renamed(glb, copy, ["Up", "Down", "In", "Out"].flatMap((way) => ["Left", "Right"].map((side) => [`eyeLook${way}${side}`, `${way}${side}`])));
+  await open(copy);
+  const { note, ...can } = await lifeSwitches();
+  assert.deepEqual(can, { idle: true, follow: false });
+  assert.match(note, /eyeLookUpLeft, eyeLookUpRight, eyeLookDownLeft,/);
+  // Joints, and what they do not do: no whole expressions.
+  mien(["export", dna, "-o", copy, "--lod", "6", "--skeleton", "--force", "--quiet"]);
+  await open(copy);
+  const none = await lifeSwitches();
+  assert.deepEqual([none.idle, none.follow], [false, false]);
+  assert.match(none.note, /no morph targets by the names of ARKit, such as eyeBlinkLeft/);
+  await page.prefer({ motion: true });
+  await frames(3);
+  assert.equal(await page.run(() => window.viewer.attention.idle), null);
+  await page.prefer();
+  await open(baked);
+  assert.deepEqual(await lifeSwitches(), { idle: true, follow: true, note: "" });
+  assert.deepEqual(page.errors, []);
+});
+
+test("eyes that do not turn like a body, and one eye alone, look by usual angles", options, async () => {
+  await open(baked); // which loads the module
+  const found = await page.run(async () => {
+    const [{ StandIn }, { BufferAttribute, BufferGeometry, Mesh }] = await Promise.all([import("./stand_in.js"), import("three")]);
+    const { mien } = window.viewer;
+    // A patch at an eye's place; its targets shift it, as lids are shifted.
+    const geometry = new BufferGeometry();
+    geometry.setAttribute("position", new BufferAttribute(new Float32Array([0.03, 0, 0.08, 0.04, 0, 0.08, 0.03, 0.01, 0.08]), 3));
+    geometry.morphTargetsRelative = true;
+    geometry.morphAttributes.position = [new BufferAttribute(new Float32Array([0.002, 0, 0, 0.002, 0, 0, 0.002, 0, 0]), 3)];
+    const mesh = new Mesh(geometry);
+    const standIn = StandIn.of(mien, (name) => (name === "eyeLookOutLeft" ? [[mesh, 0]] : []));
+    const { face, rig, names, missing } = standIn;
+    const turned = ["eyeLookOutLeft", "eyeLookOutRight"].map((name) => {
+      face.reset();
+      face.rawControls[names.indexOf(name)] = 1;
+      face.evaluate(0);
+      return [...face.joints].filter((value) => value !== 0);
+    });
+    const gaze = rig.deformer.gaze();
+    const { leftEye, rightEye } = gaze.info;
+    for (const object of [gaze, standIn]) object.dispose();
+    return { turned, missing: missing.length, left: leftEye.left, right: rightEye.left, influence: mesh.morphTargetInfluences[0],
+      none: StandIn.of(mien, () => []) };
+  });
+  assert.ok(Math.abs(found.left - 33.3) < 0.1 && Math.abs(found.left + found.right) < 1e-3, JSON.stringify(found));
+  assert.deepEqual([found.turned, found.missing, found.influence, found.none], [[[26], [-26]], 9, 0, null]);
+});
+
+test("reopening a GLB takes no more memory", options, async () => {
+  const glb = join(work, "coarse.glb");
+  mien(["export", dna, "-o", glb, "--lod", "6", "--quiet"]);
+  await open(glb);
+  await page.prefer({ motion: true });
+  const [before, after] = await page.run(async (bytes) => {
+    const open = async (count) => {
+      for (let i = 0; i < count; ++i) {
+        await window.viewer.openBytes("coarse.glb", Uint8Array.from(bytes));
+        window.viewer.attention.step(performance.now(), false);
+      }
+      return window.viewer.mien.memoryBytes;
+    };
+    return [await open(2), await open(8)];
+  }, [...readFileSync(glb)]);
+  assert.equal(after, before);
+  assert.notEqual(await page.run(() => window.viewer.attention.idle), null);
+  await page.prefer();
   assert.deepEqual(page.errors, []);
 });
 
@@ -340,6 +515,23 @@ test("the animation of a GLB plays and can be scrubbed", options, async () => {
     const { take } = window.viewer.player;
     return [take.advance(0.05), Math.round(take.time * 100)];
   }), [true, 5]);
+  // Idle life goes on over a take that does not play, and is no part of it.
+  await page.prefer({ motion: true });
+  await page.until("() => window.viewer.attention.idle", "alive");
+  const [closed, kept, open0] = await page.run(() => {
+    const { attention, model, player } = window.viewer;
+    const weight = () => model.targets.get("eyeBlinkLeft").map(([mesh, target]) => mesh.morphTargetInfluences[target])[0];
+    for (let i = 0; i < 1200 && weight() < 0.5; ++i) {
+      attention.idle.step(1 / 60, model.face);
+      model.update(attention.idle.face);
+    }
+    const before = weight();
+    player.seek(0.1);
+    return [before, model.values()[model.list.indexOf("eyeBlinkLeft")], weight()];
+  });
+  assert.ok(closed >= 0.5, String(closed));
+  assert.deepEqual([kept, open0], [0, 0]);
+  await page.prefer();
   await slide("jawOpen", 0.4);
   await frames();
   assert.equal((await jawAtRest())[0], Math.fround(0.4));

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Idle life and looking at the cursor: the check boxes, where the cursor is, and the motion of the head.
 import { Plane, Raycaster, Vector2, Vector3 } from "three";
-import { Idle } from "./idle.js";
+import { BLINKS, Idle, LOOKS } from "./idle.js";
 
 const $ = (id) => document.getElementById(id);
 
 export class Attention {
   #stage;
   #idle = null;
-  #rig = null;
+  #model = null;
   #cursor = null; // in the coordinates of the camera
   #last = 0;
   #ray = new Raycaster();
@@ -38,25 +38,29 @@ export class Attention {
   show(model) {
     this.#idle?.dispose();
     this.#idle = null;
-    this.#rig = model.rig ?? null;
-    for (const id of ["idle", "follow"]) {
-      $(id).disabled = !this.#rig;
-      $(id).parentElement.title = this.#rig ? "" : "A GLB has no controls to mix: open a DNA file or a baked rig";
-    }
+    this.#model = model;
+    const missing = model.rig ? [] : model.standIn?.missing ?? [...BLINKS, ...LOOKS];
+    $("idle").disabled = !model.lifeRig;
+    $("follow").disabled = !model.lifeRig || LOOKS.every((name) => missing.includes(name));
+    $("life-note").hidden = missing.length === 0;
+    $("life-note").textContent = !missing.length ? "" : model.lifeRig ? `This GLB has no morph targets ${missing.join(", ")}: it moves without them.`
+      : `This GLB has no morph targets by the names of ARKit, such as ${BLINKS[0]} and ${LOOKS[0]}: it has no idle life.`;
     this.motion = null;
   }
 
-  /** Before a frame: the instance that shows `face` alive at a time in milliseconds, or null if nothing moves by itself. */
-  step(time, face, isStill) {
+  /** Before a frame: the instance that shows the model alive at a time in milliseconds, or null if nothing moves by
+   * itself. */
+  step(time, isStill) {
     const seconds = this.#last ? Math.min(0.1, (time - this.#last) / 1000) : 0;
     this.#last = time;
-    const [isAlive, looks] = [$("idle").checked, $("follow").checked];
-    if (!this.#rig || isStill || !(isAlive || looks)) {
+    const [isAlive, looks] = ["idle", "follow"].map((id) => $(id).checked && !$(id).disabled);
+    if (isStill || !(isAlive || looks)) {
       this.#last = 0;
       this.motion = null;
       return null;
     }
-    this.#idle ??= new Idle(this.#rig, face);
+    const { face, lifeRig } = this.#model;
+    this.#idle ??= new Idle(lifeRig, face);
     this.#idle.lookAt(looks ? this.#target() : null);
     this.#idle.step(seconds, face, { isAlive, looks });
     this.motion = this.#idle.motion;

@@ -3,9 +3,9 @@
 // over the pose of the sliders, on an instance of its own, so the pose itself stays as it is.
 import { BlendMode, Generator, Kind, MixLayer, ticks } from "mien";
 
-const BLINKS = ["eyeBlinkLeft", "eyeBlinkRight"];
-const LOOKS = ["Up", "Down", "In", "Out"].flatMap((way) => [`eyeLook${way}Left`, `eyeLook${way}Right`]);
-const NOSTRILS = ["noseNostrilDilateL", "noseNostrilDilateR"];
+export const BLINKS = ["eyeBlinkLeft", "eyeBlinkRight"];
+export const LOOKS = ["Up", "Down", "In", "Out"].flatMap((way) => [`eyeLook${way}Left`, `eyeLook${way}Right`]);
+export const NOSTRILS = ["noseNostrilDilateL", "noseNostrilDilateR"];
 const VARIABLES = ["gaze.x", "gaze.y", "gaze.z", "head.left", "head.up", "breath"];
 /** Where the eyes look if there is nothing to look at: meters in front of them. */
 const AHEAD = 1;

@@ -5,6 +5,7 @@ import { FaceObject, defaultMaterial } from "mien/three";
 import { ArkitControls } from "./arkit.js";
 import { refine } from "./materials.js";
 import { asSkin } from "./skin.js";
+import { StandIn } from "./stand_in.js";
 
 /** A rig of a DNA file or a baked file. */
 export class RigModel {
@@ -20,7 +21,7 @@ export class RigModel {
   }
 
   constructor(mien, rig, options) {
-    this.rig = rig;
+    this.rig = this.lifeRig = rig; // the latter is what idle life is mixed on
     const { materials, ...shown } = options;
     this.materials = materials;
     const material = (kind, name) => {
@@ -199,6 +200,17 @@ export class GlbModel {
       return mesh.morphTargetInfluences[target];
     });
     this.kinds = [["raw", "Morph targets"]];
+    scene.updateMatrixWorld(true);
+    this.standIn = StandIn.of(mien, (name) => this.targets.get(this.list[this.#indexOf(name)]) ?? []);
+    this.lifeRig = this.standIn?.rig ?? null;
+    this.lifeTargets = this.standIn?.names.map((name) => this.#indexOf(name)) ?? []; // of each of its controls, or -1
+  }
+
+  /** The stand-in for idle life, in the pose of the targets. */
+  get face() {
+    const { face } = this.standIn;
+    this.lifeTargets.forEach((index, control) => { if (index >= 0) face.rawControls[control] = this.current[index]; });
+    return face;
   }
 
   names() {
@@ -256,9 +268,12 @@ export class GlbModel {
     });
   }
 
-  update() {
+  /** Shows the weights of the targets, or where idle life moves some, those of an instance of the stand-in. */
+  update(shown = null) {
+    const weights = this.current.slice();
+    if (shown) this.lifeTargets.forEach((index, control) => { if (index >= 0) weights[index] = shown.rawControls[control]; });
     this.list.forEach((name, i) => {
-      for (const [mesh, target] of this.targets.get(name)) mesh.morphTargetInfluences[target] = this.current[i];
+      for (const [mesh, target] of this.targets.get(name)) mesh.morphTargetInfluences[target] = weights[i];
     });
   }
 
@@ -269,6 +284,7 @@ export class GlbModel {
   }
 
   dispose() {
+    this.standIn?.dispose();
     this.object.traverse((mesh) => {
       mesh.geometry?.dispose();
       mesh.material?.dispose?.();

@@ -66,6 +66,7 @@ export class AnimationTake {
   }
 
   apply(model) {
+    model.update(); // without what idle life has added
     // The end of a loop is its beginning, but people who drag the slider to the end want to see the end.
     this.mixer.setTime(Math.min(this.time, this.duration * (1 - 1e-6)));
     model.readTargets();

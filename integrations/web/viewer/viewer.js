@@ -276,7 +276,7 @@ stage.beforeDraw = (time) => {
     const lod = model.object.lodOf(stage.camera);
     if (lod !== model.object.lod) setLod(lod);
   }
-  const alive = attention.step(time, model.face, player.isPlaying || colorsDistances());
+  const alive = attention.step(time, player.isPlaying || colorsDistances());
   stage.moveHead(sum(attention.motion, player.motion));
   if (dirty || alive || wasAlive) {
     model.update(alive ?? undefined);
