@@ -142,6 +142,9 @@ void write_head_textures(Dna dna, uint64_t seed, const std::string& path, const 
   eye.name = "eyes";
   eye.roughness = 0.12;
   eye.has_roughness = true;
+  // The height of a cornea of 11.8 mm above the iris is 2.6 mm (Kwok 1984, "Calculation and application of the anterior
+  // surface area of a model human cornea", Journal of Theoretical Biology 108).
+  eye.cornea_depth = 0.44, eye.cornea_iris = 0.158;
   eye.textures[size_t(TextureKind::kBaseColor)] = out.file("eyes_basecolor.png");
   eye.textures[size_t(TextureKind::kNormal)] = out.file("eyes_normal.png");
   outputs.push_back(std::make_unique<Output>(eye.texture(TextureKind::kBaseColor)));

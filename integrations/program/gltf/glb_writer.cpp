@@ -606,6 +606,9 @@ json material_json(const Material& material) {
     result["alphaMode"] = "BLEND";
   }
   if (material.double_sided) result["doubleSided"] = true;
+  if (material.cornea_depth > 0) {
+    result["extras"]["cornea"] = {{"depth", material.cornea_depth}, {"iris", material.cornea_iris}};
+  }
   return result;
 }
 

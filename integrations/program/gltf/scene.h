@@ -95,6 +95,7 @@ struct Material {
   bool see_through = false;  // by the alpha of its texture
   double alpha_cutoff =
       0;  // where that is at least this, it hides all, elsewhere nothing; 0: it blends
+  double cornea_depth = 0, cornea_iris = 0;  // as in materials.h
   uint32_t color_image = kNone, normal_image = kNone, roughness_image = kNone;
 
   bool has_textures() const {

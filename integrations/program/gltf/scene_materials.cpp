@@ -51,6 +51,7 @@ uint32_t image_number(const std::string& path, const ImageOptions& options, Know
 bool same(const Material& a, const Material& b) {
   return a.color == b.color && a.roughness == b.roughness && a.double_sided == b.double_sided &&
          a.see_through == b.see_through && a.alpha_cutoff == b.alpha_cutoff &&
+         a.cornea_depth == b.cornea_depth && a.cornea_iris == b.cornea_iris &&
          a.color_image == b.color_image && a.normal_image == b.normal_image &&
          a.roughness_image == b.roughness_image;
 }
@@ -102,6 +103,7 @@ std::vector<std::string> apply_materials(const cli::Materials& materials,
       material.color_image = image(cli::TextureKind::kBaseColor);
       material.normal_image = image(cli::TextureKind::kNormal);
       material.roughness_image = image(cli::TextureKind::kRoughness);
+      material.cornea_depth = from->cornea_depth, material.cornea_iris = from->cornea_iris;
       // The textures say it alone, unless something was given to multiply them by.
       if (material.color_image != kNone) {
         if (!from->has_color) material.color = {1, 1, 1, 1};

@@ -69,6 +69,18 @@ void read_textures(const Json& object, const std::string& where, const fs::path&
   }
 }
 
+void read_cornea(const Json& object, const std::string& where, SurfaceMaterial& material) {
+  for (const auto& [key, value] : object_of(object, where).items()) {
+    const std::string place = where + "." + one_line(key);
+    if (key != "depth" && key != "iris") wrong_materials(place, "a cornea has depth and iris");
+    const double number = share_of(value, place);
+    (key == "depth" ? material.cornea_depth : material.cornea_iris) = number;
+  }
+  if (material.cornea_depth == 0 || material.cornea_iris == 0 || material.cornea_iris > 0.5) {
+    wrong_materials(where, "expected depth, more than 0, and iris, more than 0 and up to 0.5");
+  }
+}
+
 SurfaceMaterial material_of(const Json& object, const std::string& where, const fs::path& folder) {
   SurfaceMaterial material;
   for (const auto& [key, value] : object_of(object, where).items()) {
@@ -84,11 +96,14 @@ SurfaceMaterial material_of(const Json& object, const std::string& where, const 
       material.has_roughness = true;
     } else if (key == "alpha_cutoff") {
       material.alpha_cutoff = share_of(value, place);
+    } else if (key == "cornea") {
+      read_cornea(value, place, material);
     } else if (key == "textures") {
       read_textures(value, place, folder, material);
     } else {
       wrong_materials(place,
-                      "a material has name, base_color, roughness, alpha_cutoff and textures");
+                      "a material has name, base_color, roughness, alpha_cutoff, cornea and "
+                      "textures");
     }
   }
   if (material.name.empty()) wrong_materials(where, "it has no name");
@@ -182,6 +197,9 @@ std::string materials_json(const Materials& materials, const std::string& folder
     if (material.has_color) object["base_color"] = material.color;
     if (material.has_roughness) object["roughness"] = material.roughness;
     if (material.alpha_cutoff > 0) object["alpha_cutoff"] = material.alpha_cutoff;
+    if (material.cornea_depth > 0) {
+      object["cornea"] = {{"depth", material.cornea_depth}, {"iris", material.cornea_iris}};
+    }
     for (const TextureKind kind : kKinds) {
       const std::string& path = material.texture(kind);
       if (!path.empty()) object["textures"][texture_kind_name(kind)] = relative_path(path, folder);

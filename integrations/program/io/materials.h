@@ -10,7 +10,9 @@
 // Paths of textures are relative to this file. Colors are linear red, green, blue, alpha; colors and roughness are
 // multiplied by their textures, of which base colors are sRGB. A texture with alpha is transparent; with an
 // alpha_cutoff, as cards of hair have it, it hides all where its alpha is at least that, and nothing elsewhere, and the
-// mesh is seen from both sides. Everything but the name may be left out.
+// mesh is seen from both sides. "cornea": {"depth": 0.44, "iris": 0.158} of the material of an eye says that the iris is
+// seen through the surface: it has that radius around the middle of the base color, 0.5 at most, and lies that many times
+// its radius behind the apex. Everything but the name may be left out.
 #pragma once
 
 #include <array>
@@ -33,6 +35,7 @@ struct SurfaceMaterial {
   double roughness = 0.5;
   double alpha_cutoff = 0;                          // 0: the alpha of a texture blends
   bool has_color = false, has_roughness = false;    // were given; else the mesh's own hold
+  double cornea_depth = 0, cornea_iris = 0;         // 0: no cornea
   std::array<std::string, kTextureKinds> textures;  // paths by kind, from here; empty: none
 
   const std::string& texture(TextureKind kind) const { return textures[size_t(kind)]; }

@@ -47,8 +47,9 @@ Vec3 iris_color(const Gaze& at, Vec3 iris) {
   shade -= 0.20f * eased(0.35f, 0.80f, crypt) * (1 - inner);
   Vec3 c = mix(iris, Vec3{124, 84, 44} * (0.35f + 0.65f * light), 0.50f * inner);
   c = mix(c, {196, 190, 168}, light * 0.16f * saturate(fine + 0.5f * hair) * (1 - inner));
-  // The cornea gathers light from above in the lower half; the upper lid shades the other.
-  shade *= 1 + 0.24f * -at.y * eased(kPupil, 0.36f, a);
+  // The cornea gathers light from above in the lower half, for programs that do not refract it; the upper lid shades the
+  // other.
+  shade *= 1 + 0.12f * -at.y * eased(kPupil, 0.36f, a);
   shade *= 1 - 0.45f * eased(0.06f, 0.34f, at.y * a);
   c = c * shade;
   c = mix(c, iris * 0.22f + Vec3{8, 9, 12}, 0.82f * eased(0.355f, 0.435f, a));

@@ -29,6 +29,14 @@ struct Material {
   float alpha = 1;  // how much of what is behind it the surface hides
 };
 
+/// The clear front of an eye, before an iris that the color texture shows around its middle, as it is seen from the
+/// front.
+struct Cornea {
+  float depth =
+      0;           // from the apex to the plane of the iris, in radii of the iris; 0: there is none
+  float iris = 0;  // radius of the iris in the texture
+};
+
 /// Triangles as a deformer gives them. The arrays stay the caller's.
 struct Surface {
   const float* positions = nullptr;  // x y z each
@@ -48,6 +56,7 @@ struct Surface {
   // green, takes the place of the material's; normals are tangent space, green towards larger v.
   const Texture *color_texture = nullptr, *normal_texture = nullptr, *roughness_texture = nullptr;
   Material material;
+  Cornea cornea;
 };
 
 struct Backdrop {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "integrations/program/render/scene.h"
 
+#include "integrations/program/render/light.h"
 #include "integrations/program/render/texture.h"
 
 namespace mien::render {
@@ -95,22 +96,45 @@ Vec3 linear(Vec3 stored) {
                          uint8_t(std::lround(stored.z * 255))});
 }
 
-/// Colors, roughness and normal of the textures.
-void paint(const Surface& s, const Painted& at, Fragment& f) {
-  const auto look_up = [&](const Texture& texture) {
-    const float size = std::sqrt(float(texture.width()) * float(texture.height()));
-    return texture.at(at.u, at.v, at.texels * size);
-  };
-  if (s.color_texture) f.color = linear(look_up(*s.color_texture)) * to_linear(s.material.color);
-  if (s.roughness_texture) f.roughness = std::max(look_up(*s.roughness_texture).y, 0.05f);
-  if (!s.normal_texture) return;
-  const Vec3 stored = look_up(*s.normal_texture);
+Vec3 look_up(const Texture& texture, float u, float v, float texels) {
+  const float size = std::sqrt(float(texture.width()) * float(texture.height()));
+  return texture.at(u, v, texels * size);
+}
+
+/// Turns the normal as a texture says there.
+void turn_normal(Vec3 stored, const Painted& at, Fragment& f) {
   // Perpendicular to the smooth normal. Without an image on the triangle there is no direction.
   const Vec3 u = normalized(at.along_u - f.normal * dot(at.along_u, f.normal), {});
   const Vec3 v = normalized(at.along_v - f.normal * dot(at.along_v, f.normal), {});
   const Vec3 turned = u * (2 * stored.x - 1) + v * (2 * stored.y - 1) +
                       f.normal * std::max(2 * stored.z - 1, 0.05f);
   f.normal = normalized(turned, f.normal);
+}
+
+/// Where the surface is a clear cornea, the iris behind it, which lies in its plane.
+void see_through(const PlacedSurface& on, const Painted& at, Fragment& f) {
+  const float clear = on.iris.radius > 0 ? clearness(on.iris, at.u, at.v) : 0;
+  if (clear == 0) return;
+  const Surface& s = on.surface;
+  const SeenIris seen = seen_iris(on.iris, f.place, f.normal, f.to_eye, key_direction());
+  const Vec3 color = linear(look_up(*s.color_texture, seen.u, seen.v, at.texels)) *
+                     to_linear(s.material.color) * seen.light;
+  f.color = mix(f.color, color, clear);
+  f.smooth = normalized(mix(f.smooth, on.iris.axis, clear), f.smooth);
+}
+
+/// Colors, roughness and normal of the textures.
+void paint(const PlacedSurface& on, const Painted& at, Fragment& f) {
+  const Surface& s = on.surface;
+  const auto look_up_here = [&](const Texture& texture) {
+    return look_up(texture, at.u, at.v, at.texels);
+  };
+  if (s.color_texture) {
+    f.color = linear(look_up_here(*s.color_texture)) * to_linear(s.material.color);
+  }
+  if (s.roughness_texture) f.roughness = std::max(look_up_here(*s.roughness_texture).y, 0.05f);
+  if (s.normal_texture) turn_normal(look_up_here(*s.normal_texture), at, f);
+  see_through(on, at, f);
 }
 
 /// Weights of the corners where a ray meets a triangle: volumes between the ray and each edge, which hold for corners
@@ -148,7 +172,7 @@ Scene::Scene(const std::vector<Surface>& surfaces, const Camera& camera, float p
   Box box;
   uint32_t number = 1;
   for (const Surface& s : surfaces) {
-    PlacedSurface placed{s, {}, {}, {}, {}, to_linear(s.material.color), 1, number};
+    PlacedSurface placed{s, {}, {}, {}, {}, {}, to_linear(s.material.color), 1, number};
     number += uint32_t(s.triangle_count);
     placed.places.resize(s.position_count);
     std::vector<Vec3> positions;
@@ -177,6 +201,7 @@ Scene::Scene(const std::vector<Surface>& surfaces, const Camera& camera, float p
       agreed += dot(area, camera.turn(placed.normal(s.triangles[3 * t]))) >= 0 ? 1 : -1;
     }
     placed.facing = agreed >= 0 ? 1.0f : -1.0f;
+    placed.iris = find_iris(s, placed.places);
     surfaces_.push_back(std::move(placed));
   }
   if (!box.empty()) scale_ = std::max(length(box.size()), 1e-20f);
@@ -233,7 +258,7 @@ Fragment Scene::fragment(uint32_t number, Vec3 ray) const {
   f.roughness = s.material.roughness;
   if (s.texture_coordinates && (s.color_texture || s.normal_texture || s.roughness_texture)) {
     const float slope = std::max(std::fabs(dot(flat, f.to_eye)), 0.1f);
-    paint(s, find_paint(s, corners, p, w, pixel_ * length(f.place) / slope), f);
+    paint(on, find_paint(s, corners, p, w, pixel_ * length(f.place) / slope), f);
   }
   if (!on.colors.empty() && !s.color_texture) {
     f.color = {};

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "integrations/program/render/cornea.h"
 #include "integrations/program/render/render.h"
 #include "integrations/program/render/visibility.h"
 
@@ -15,6 +16,7 @@ struct PlacedSurface {
   std::vector<math::Vec3> own_normals;  // of each position, in model space, if the surface has none
   std::vector<math::Vec3> colors;       // linear, of each position; empty: one for all
   std::vector<float> bends;             // of each position, as in Fragment; empty: 0
+  IrisPlane iris;
   math::Vec3 color;
   float facing;  // 1 or -1: times the winding's normal it is on the side of the normals
   uint32_t first_number;

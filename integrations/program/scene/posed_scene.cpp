@@ -77,6 +77,7 @@ void take_material(PosedScene& scene, SceneMesh& mesh, const Session& session) {
     // A plain color would take the iris from an eye.
     if (has_image || mesh.mesh_class != MeshClass::kEye) mesh.colors.clear();
   }
+  mesh.cornea = {float(from->cornea_depth), float(from->cornea_iris)};
   if (from->has_roughness) mesh.material.roughness = std::max(float(from->roughness), 0.05f);
 }
 
@@ -179,6 +180,7 @@ std::vector<render::Surface> PosedScene::surfaces() const {
     if (!mesh.colors.empty()) surface.colors = mesh.colors.data();
     if (!mesh.inner_edges.empty()) surface.inner_edges = mesh.inner_edges.data();
     surface.material = mesh.material;
+    surface.cornea = mesh.cornea;
     surface.texture_coordinates = mesh.texture_coordinates.data();
     surface.color_texture = mesh.textures[size_t(TextureKind::kBaseColor)];
     surface.normal_texture = mesh.textures[size_t(TextureKind::kNormal)];

@@ -30,6 +30,7 @@ struct SceneMesh {
   std::vector<uint8_t> colors;             // r g b of each position, or empty
   std::vector<uint8_t> inner_edges;        // of each triangle, for wireframes
   render::Material material;
+  render::Cornea cornea;
   std::array<const render::Texture*, kTextureKinds> textures;  // of the scene; null: none
 };
 

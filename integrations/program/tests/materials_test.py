@@ -83,6 +83,7 @@ class GeneratedHead(MaterialsTest):
         for kind, size in (("basecolor", (1152, 768)), ("normal", (1152, 768)), ("roughness", (576, 384))):
             self.assertEqual(struct.unpack(">II", read("made/skin_%s.png" % kind)[16:24]), size)
         self.assertEqual(eyes["textures"], {"base_color": "made/eyes_basecolor.png", "normal": "made/eyes_normal.png"})
+        self.assertEqual(set(eyes["cornea"]), {"depth", "iris"})
         self.assertEqual(tongue["textures"], {"normal": "made/tongue_normal.png"})
         # The iris has the color that the eyes have without a texture: blue, while the white is not.
         iris = Picture(read("made/eyes_basecolor.png"))
@@ -107,6 +108,8 @@ class GeneratedHead(MaterialsTest):
         material, attributes = self.material(glb, "head_lod4_mesh")
         self.assertEqual(self.image(glb, material, "normalTexture"), read("made/skin_normal.png"))
         self.assertNotIn("COLOR_0", attributes)
+        self.assertEqual(self.material(glb, "eyeLeft_lod4_mesh")[0]["extras"]["cornea"], eyes["cornea"])
+        self.assertNotIn("extras", material)
         material, attributes = self.material(glb, "tongue_lod4_mesh")
         self.assertEqual(self.image(glb, material, "normalTexture"), read("made/tongue_normal.png"))
         self.assertIn("COLOR_0", attributes)
@@ -278,6 +281,12 @@ class Sidecar(MaterialsTest):
                  ({"materials": [{"name": "a", "base_color": [1, 1, 1, 2]}]}, "0 to 1"),
                  ({"materials": [{"name": "a", "roughness": "x"}]}, "0 to 1"),
                  ({"materials": [{"name": "a", "alpha_cutoff": 2}]}, "0 to 1"),
+                 ({"materials": [{"name": "a", "cornea": 0.4}]}, "object"),
+                 ({"materials": [{"name": "a", "cornea": {"depth": 0.4, "index": 1}}]}, "index"),
+                 ({"materials": [{"name": "a", "cornea": {"depth": 0.4}}]}, "depth"),
+                 ({"materials": [{"name": "a", "cornea": {"depth": 0, "iris": 0.2}}]}, "more than 0"),
+                 ({"materials": [{"name": "a", "cornea": {"depth": 0.4, "iris": 0.6}}]}, "0.5"),
+                 ({"materials": [{"name": "a", "cornea": {"depth": 2, "iris": 0.2}}]}, "0 to 1"),
                  ({"materials": [{"name": "a", "textures": {"gloss": "x"}}]}, "gloss"),
                  ({"materials": [{"name": "a", "textures": {"normal": "x" * 4096}}]}, "4095"),
                  ({"materials": [{"name": "a"}], "meshes": {MESH: "b"}}, "no such material"),
