@@ -425,7 +425,7 @@ test("the sound of a take is its clock", options, async () => {
   assert.match(await text("file"), /voice\.wav: 4\.0 s of sound/);
   await page.until("() => window.viewer.player.sound.time > 0.3", "heard");
   // The level that the context gives away when a frame is made tells what is heard after the latency.
-  const apart = await page.run(async (rise) => {
+  const [apart, ahead] = await page.run(async (rise) => {
     const { player } = window.viewer;
     const { context, output } = player.sound;
     const analyser = new AnalyserNode(context, { fftSize: 32 });
@@ -436,19 +436,24 @@ test("the sound of a take is its clock", options, async () => {
       const { currentTime } = context;
       advance(time);
       analyser.getFloatTimeDomainData(samples);
-      const isHeard = player.sound.time !== null && player.take.time < 3.7;
+      wrapped ||= player.take.time < last;
+      last = player.take.time;
+      if (player.sound.time !== null) ahead = Math.max(ahead, player.take.time - player.sound.time);
+      const isHeard = player.sound.time > 0.1 && player.sound.time < 3.7;
       // Between two blocks of samples, and not while the next one was made.
       if (isHeard && context.currentTime === currentTime) found.push(samples[31] / rise - context.outputLatency - player.take.time);
     };
+    let [last, wrapped, ahead] = [0, false, 0];
     const begin = performance.now();
-    while (found.length < 12 && performance.now() < begin + 60000) await new Promise(requestAnimationFrame);
+    while ((found.length < 12 || !wrapped) && performance.now() < begin + 60000) await new Promise(requestAnimationFrame);
     delete player.advance;
     output.disconnect(analyser);
-    return found.sort((a, b) => Math.abs(a) - Math.abs(b)).map((value) => 1000 * value);
+    return [found.sort((a, b) => Math.abs(a) - Math.abs(b)).map((value) => 1000 * value), 1000 * ahead];
   }, RISE);
   if (process.env.MIEN_SHOTS) console.log(`sound and face apart: ${apart.map((value) => value.toFixed(1)).join(", ")} ms`);
   // ITU-R BT.1359-1: sound that is 45 ms early is noticed.
-  assert.ok(apart.length === 12 && Math.abs(apart[6]) < 5 && Math.abs(apart[11]) < 45, String(apart));
+  assert.ok(apart.length >= 12 && Math.abs(apart[apart.length >> 1]) < 5 && Math.abs(apart.at(-1)) < 45, String(apart));
+  assert.ok(ahead < 5, `the face does not wait where both begin again: ${ahead} ms`);
   // However long a frame takes: what is shown is the time of the sound, here of one that stands still for three frames.
   const shown = await page.run(async () => {
     const { sound } = window.viewer.player;
@@ -487,10 +492,15 @@ test("a sound pauses, is heard in parts where the slider passes, and goes on fro
       time.value = "2.5";
       time.dispatchEvent(new Event("input"));
     }
-    await new Promise((resolve) => setTimeout(resolve, 300));
-    analyser.getFloatTimeDomainData(samples);
+    let [most, since] = [0, performance.now()];
+    for (const end = since + 20000; performance.now() < (most > 0 ? since + 500 : end); ) {
+      await new Promise((resolve) => setTimeout(resolve, 20));
+      analyser.getFloatTimeDomainData(samples);
+      const level = Math.max(...samples);
+      if (level > most) [most, since] = [level, performance.now()];
+    }
     output.disconnect(analyser);
-    return Math.max(...samples);
+    return most;
   });
   assert.ok(Math.abs(loudest / RISE - 2.55) < 0.06, `${loudest / RISE} s`);
   assert.deepEqual([await isPlaying(), await page.run(() => window.viewer.player.take.time)], [false, 2.5]);
@@ -513,7 +523,10 @@ test("sounds are released, and what is no sound or too long says so", options, a
       seen.push(player.sound);
     }
     window.viewerSound = player.sound;
-    await new Promise((resolve) => setTimeout(resolve, 100));
+    const end = performance.now() + 10000;
+    while (performance.now() < end && seen.slice(0, -1).some(({ context }) => context.state !== "closed")) {
+      await new Promise((resolve) => setTimeout(resolve, 20));
+    }
     return seen.map(({ context }) => context.state);
   }, [...rising(0.5)]);
   assert.deepEqual([states.length, new Set(states.slice(0, -1)), states.at(-1) === "closed"], [13, new Set(["closed"]), false]);

@@ -162,8 +162,11 @@ export class Player {
     this.#last = time;
     const heard = sound?.time ?? null;
     if (heard !== null && heard < take.duration) take.seek(heard);
-    // From the beginning again, with its sound.
-    else if (take.advance(seconds) && sound && !sound.isWaiting) sound.play(0).catch(() => {});
+    else if (take.advance(seconds) && sound && !sound.isWaiting) {
+      // Both from the beginning again, however far the frame went past the end.
+      take.seek(0);
+      sound.play(0).catch(() => {});
+    }
     this.sampled();
   }
 
