@@ -82,6 +82,14 @@ void add_lashes(const Form& form, uint32_t lod, HalfMesh& out) {
                1000, mix(hair, form.person().skin, 0.12), out);
 }
 
+/// Where in the brow a share of its hairs ends, counted from the inner end: there they are few, and more and more over
+/// the first 5 mm.
+static double along_brow(double share) {
+  constexpr double kBegin = -0.02, kFade = 0.13, kHairs = 0.5 * kFade / (1 - kBegin - 0.5 * kFade);
+  return share < kHairs ? kBegin + kFade * std::sqrt(share / kHairs)
+                        : mix(kBegin + kFade, 1, (share - kHairs) / (1 - kHairs));
+}
+
 /// Rows of cards that lie on the skin, denser in the middle of the brow.
 void add_brow(const Form& form, uint32_t lod, HalfMesh& out) {
   const Person& person = form.person();
@@ -93,24 +101,26 @@ void add_brow(const Form& form, uint32_t lod, HalfMesh& out) {
     v.normal = out_of_face * 1.5;  // the cards are shaded like the skin
     return v;
   };
-  const uint32_t count = at_lod(124, 9, lod), steps = lod < 4 ? 3 : 2;
-  const double wider = std::sqrt(124.0 / count);
+  const uint32_t count = at_lod(122, 9, lod), steps = lod < 4 ? 3 : 2;
+  const double wider = std::sqrt(122.0 / count);
   for (uint32_t i = 0; i < count; ++i) {
-    // The inner hairs stand up, those of the middle lean outwards, those of the tail lie flat and down. Upper and
-    // lower ones lean towards the middle.
-    const double t = clamp01((i + 0.5) / count + 0.012 * scatter(i + 300));
+    // The inner hairs stand up and fan out, those of the middle lean outwards, those of the tail lie flat and down. Upper
+    // and lower ones lean towards the middle.
+    const double t = along_brow((i + 0.5) / count) + 0.012 * scatter(i + 300);
+    const double inner = smooth_step(0.16, -0.03, t);
     const double edge = scatter(i);
     const double across = edge * mix(0.45, 0.95, std::abs(edge));
     const Form::BrowArch at = form.brow_arch(t);
-    const double size = (0.50 + 0.12 * scatter(i + 500)) * mix(0.9, 1, smooth_step(0, 0.2, t)) *
+    const double size = (0.50 + 0.12 * scatter(i + 500)) * mix(1, 0.8, inner) *
                         mix(1, 0.75, smooth_step(0.7, 1, t)) * std::sqrt(wider);
-    const double lean = mix(1.15, 0.30, smooth_step(-0.02, 0.30, t)) -
-                        0.55 * smooth_step(0.35, 0.95, t) - 0.55 * across + 0.22 * scatter(i + 600);
+    const double lean = mix(1.05, 0.30, smooth_step(0, 0.30, t)) + 0.45 * inner -
+                        0.55 * smooth_step(0.35, 0.95, t) - 0.55 * across +
+                        mix(0.22, 0.34, inner) * scatter(i + 600);
     const auto [s, c] = exact_sine_cosine(lean);
     const double x = at.x - 0.35 * size * c, y = at.y + across * at.half * 0.9 - 0.28 * size * s;
-    const Color color = mix(person.brow_hair, person.skin, 0.22 + 0.12 * scatter(i + 700));
-    const double wide =
-        0.105 * wider * mix(0.8, 1, smooth_step(0, 0.15, t)) * mix(1, 0.7, smooth_step(0.8, 1, t));
+    const Color color =
+        mix(person.brow_hair, person.skin, 0.22 + 0.12 * scatter(i + 700) + 0.15 * inner);
+    const double wide = 0.105 * wider * mix(1, 0.75, inner) * mix(1, 0.7, smooth_step(0.8, 1, t));
     CardRow rows[3];
     for (uint32_t k = 0; k < steps; ++k) {
       static constexpr double kRaise[] = {0.006, 0.045, 0.04}, kWidth[] = {0.7, 1, 0.35};

@@ -494,7 +494,7 @@ Color Form::skin_color(Vec3 p, double row, double lid) const {
   if (in_front > 0 && along > -0.1 && along < 1) {
     const BrowArch brow = brow_arch(clamp01(along));
     const double inside = smooth_step(1.25, 0.35, std::abs(p.y - brow.y) / brow.half) *
-                          smooth_step(-0.06, 0.10, along) * smooth_step(1.0, 0.75, along);
+                          smooth_step(-0.04, 0.18, along) * smooth_step(1.0, 0.75, along);
     c = mix(c, mix(person_.brow_hair, mix(skin, {0, 0, 0}, 0.4), 0.5), 0.65 * inside);
   }
   // Lips.

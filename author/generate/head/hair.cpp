@@ -16,7 +16,8 @@ using author::smooth_step;
 
 namespace {
 
-constexpr double kSkull = -1.0;  // height below which hair hangs
+/// Height below which hair hangs: that of the ears, and the back of the head.
+double skull_end(double share) { return mix(-1.0, 1.6, smooth_step(0.58, 0.85, share)); }
 
 HairShape shape_of(const Person& person) {
   // Temples of men recede, those of women hardly.
@@ -29,7 +30,7 @@ HairShape shape_of(const Person& person) {
     case HairStyle::kReceding:
       return {0.10, 0.22, 0, 0.9, 2.3, 0, 0.9, 2.6, 1, 0, 0.60, 2, 480, false};
     case HairStyle::kBob:
-      return {0.45, 1.15, 0.25, 0, 0.6 * temple, -6.8, 30, 30, 0.1, 0.8, 0, 1, 200, false};
+      return {0.12, 1.05, 0.25, 0, 0.6 * temple, -6.8, 30, 30, 0.1, 0.8, 0, 1, 0, false};
     default: return {0.16, 1.10, 0.85, 0, temple, 0, 2.6, 6.0, 0.6, 0.8, 0, 1, 190, false};
   }
 }
@@ -57,7 +58,7 @@ double line_of(const HairShape& shape, double share, bool even) {
 }
 
 double density_of(const HairShape& shape, double row) {
-  return 1 - shape.thin * smooth_step(2.5, 12.0, row);
+  return 1 - shape.thin * smooth_step(0.5, 12.0, row);
 }
 
 }  // namespace
@@ -92,23 +93,35 @@ Scalp::Root Scalp::root(double around, double t) const {
   const bool hangs = shape_.hang < 0;
   Root root;
   root.row = y;
-  root.skin = form_.face(std::abs(around), std::max(y, hangs ? kSkull : y), Side::kAbove).closed;
-  root.below = hangs ? std::max(0.0, kSkull - y) : 0.0;
+  const double share = std::abs(around) / kPi, end = hangs ? skull_end(share) : -1.0;
+  root.skin = form_.face(std::abs(around), hangs ? std::max(y, end) : y, Side::kAbove).closed;
+  root.below = hangs ? std::max(0.0, end - y) : 0.0;
   root.skin.y -= root.below;
   if (around < 0) root.skin.x = -root.skin.x;
   const Vec3 p = root.skin;
-  root.normal = unit({p.x / (7.8 * 7.8), (std::max(p.y, kSkull) - 2.5) / (10.2 * 10.2),
-                      (p.z + 0.4) / (9.7 * 9.7)});
+  root.normal = unit(
+      {p.x / (7.8 * 7.8), (std::max(p.y, end) - 2.5) / (10.2 * 10.2), (p.z + 0.4) / (9.7 * 9.7)});
+  if (hangs) {
+    // The hem turns in, to the jaw and more so to the nape.
+    const double in =
+        mix(0.18, 0.22, smooth_step(0.45, 0.8, share)) * smooth_step(0, 7.0, root.below);
+    root.skin.x *= 1 - in;
+    root.skin.z -= in * (root.skin.z + 1.5);
+  }
   return root;
 }
 
 double Scalp::body(double around, double t, const Root& root) const {
   const double share = std::abs(around) / kPi;
-  double body = mix(shape_.low, shape_.high, smooth_step(0.03, 0.55, t));
+  // Low where it begins: not at the hem.
+  const double near = smooth_step(0.03, 0.55, t);
+  double body = mix(shape_.low, shape_.high,
+                    shape_.hang < 0 ? mix(near, 1, smooth_step(0.29, 0.40, share)) : near);
   body += shape_.wave * smooth_step(0.42, 0.08, share) * bump(t, 0, 0.26, 0, 0.22, 1);
   if (shape_.hang < 0) {
-    body += 0.65 * smooth_step(0, 2.5, root.below) - 0.75 * smooth_step(4.2, 6.4, root.below);
-    body += 1.3 * bump(share, root.row, 0.52, 0.3, 0.09, 3.2);  // over the ear
+    // From above the ears on, where they hold it off, it falls straight. Behind it has volume.
+    body += 1.15 * bump(share, 0, 0.55, 0, 0.25, 1) * smooth_step(6.5, -1.0, root.row);
+    body += 0.45 * smooth_step(0.5, 0.8, share) * bump(0, root.row, 0, 6.5, 1, 6);
   }
   const auto [sine, cosine] = exact_sine_cosine(around - kParting);
   const double far = 1 - t;
@@ -136,6 +149,8 @@ void add_hair(const Form& form, uint32_t lod, HalfMesh& out) {
   out.mirrored = false;  // parted on the left
   const Scalp scalp(form);
   add_shells(scalp, lod, out);
+  // Shells do from afar.
+  if (scalp.shape().hang < 0 && lod < 4) add_sheet(scalp, lod, out);
   add_locks(scalp, lod, out);
   if (out.vertices.count() > 0) out.vertices[0].color = form.person().hair;
 }

@@ -17,22 +17,11 @@ using author::smooth_step;
 
 namespace {
 
-/// Hanging hair is cut, and its roots are as short as those of other hair; tufts are the tips of locks.
-HairLane hanging(HairLane lane) {
-  lane.root += 0.055;
-  lane.tip -= 0.09;
-  return lane;
-}
+/// Tufts are the tips of locks.
 HairLane tuft(HairLane lane) {
   lane.root += 0.16;
   return lane;
 }
-
-struct MapPlace {
-  double x, z;  // to the left and to the front
-  double far() const { return std::sqrt(x * x + z * z); }
-  double around() const { return author::exact_atan2(x, z); }
-};
 
 struct Lock {
   MapPlace root;
@@ -58,17 +47,16 @@ class LockMaker {
 
   void make() {
     // Shells do for short hair, and for all of it from afar.
-    if (lod_ < (shape_.shells > 1 ? 3 : 4)) {
+    if (!hangs_ && lod_ < (shape_.shells > 1 ? 3 : 4)) {
       add_all_over();
       add_front();
       if (shape_.parting > 0) add_parting();
     }
     add_thin_hairs();
-    if (lod_ == 0 && shape_.top > 3) add_loose_hairs();
+    if (lod_ == 0 && shape_.top > 3 && !hangs_) add_loose_hairs();
   }
 
  private:
-  MapPlace way(MapPlace at, double turn) const;
   bool grows(const Lock& lock, Scalp::Root* roots, MapPlace* places, double& size) const;
   void add(const Lock& lock);
   MapPlace place(double around, double t) const {
@@ -91,31 +79,6 @@ class LockMaker {
   const bool hangs_;
 };
 
-/// Down on the sides and behind, over the crown back; over the forehead away from the parting, and back.
-MapPlace LockMaker::way(MapPlace at, double turn) const {
-  const double far = std::max(at.far(), 1e-3), share = std::abs(at.around()) / kPi;
-  const auto [sine, cosine] = exact_sine_cosine(kParting);
-  const double side = at.x * cosine - at.z * sine > 0 ? 1 : -1;
-  const double crown = smooth_step(10.9, 12.4, scalp_.row_of(at.around(), 1 - far));
-  const double front = smooth_step(0.52, 0.20, share) * (1 - crown);
-  const MapPlace out = {at.x / far, at.z / far},
-                 down = {out.x * (1 - crown), mix(out.z, -1, crown)};
-  const double aside = front * side * (1 - 0.5 * shape_.swept), back = shape_.swept;
-  MapPlace d = {aside * cosine + (1 - front) * down.x,
-                -aside * sine - front * back + (1 - front) * (down.z - 0.35 * back)};
-  if (hangs_) {
-    // Along the line of the forehead, not across it.
-    const double across = d.x * out.x + d.z * out.z;
-    const double held =
-        std::max(0.0, across) * smooth_step(0.80, 0.97, far) * smooth_step(0.37, 0.27, share);
-    d = {d.x - held * out.x, d.z - held * out.z};
-  }
-  const auto [s, c] = exact_sine_cosine(turn);
-  d = {c * d.x + s * d.z, c * d.z - s * d.x};
-  const double size = std::max(std::sqrt(d.x * d.x + d.z * d.z), 1e-6);
-  return {d.x / size, d.z / size};
-}
-
 /// Places along a lock, evenly; shorter if it would leave the hair. False if there is no room.
 bool LockMaker::grows(const Lock& lock, Scalp::Root* roots, MapPlace* places, double& size) const {
   size = lock.length;
@@ -129,8 +92,9 @@ bool LockMaker::grows(const Lock& lock, Scalp::Root* roots, MapPlace* places, do
       MapPlace next = p;
       for (int correction = 0; correction < 2; ++correction) {
         const double far = scale * step;
-        const MapPlace half = way(p, lock.turn);
-        const MapPlace d = way({p.x + 0.5 * far * half.x, p.z + 0.5 * far * half.z}, lock.turn);
+        const MapPlace half = combed(scalp_, p, lock.turn);
+        const MapPlace d =
+            combed(scalp_, {p.x + 0.5 * far * half.x, p.z + 0.5 * far * half.z}, lock.turn);
         next = {p.x + far * d.x, p.z + far * d.z};
         roots[k] = scalp_.root(next.around(), 1 - next.far());
         const double cm = length(roots[k].skin - roots[k - 1].skin);
@@ -149,7 +113,7 @@ bool LockMaker::grows(const Lock& lock, Scalp::Root* roots, MapPlace* places, do
     }
     if (reached == size) return true;
     size = reached;
-    if (size < 0.55 * lock.length && !hangs_) return false;
+    if (size < 0.55 * lock.length) return false;
   }
   return true;
 }
@@ -181,8 +145,8 @@ void LockMaker::add(const Lock& lock) {
     const double s = static_cast<double>(k) / (lock.rows - 1);
     const Vec3 along = rows[std::min(k + 1, lock.rows - 1)].middle.position -
                        rows[k > 0 ? k - 1 : 0].middle.position;
-    const double wide = mix(0.75, 1, smooth_step(0, 0.25, s)) *
-                        mix(1, hangs_ ? 0.85 : 0.5, smooth_step(0.55, 1, s));
+    const double wide =
+        mix(0.75, 1, smooth_step(0, 0.25, s)) * mix(1, 0.5, smooth_step(0.55, 1, s));
     rows[k].half = normalized(cross(along, roots[k].normal)) * (lock.half_width * wide);
   }
   add_card(rows, lock.rows, lock.lane, out_, 0.3);
@@ -192,8 +156,8 @@ void LockMaker::add(const Lock& lock) {
 void LockMaker::add_all_over() {
   const uint32_t count = locks_at(2 * shape_.locks, 30, lod_);
   const double wider = std::sqrt(2.0 * shape_.locks / count);
-  static constexpr uint32_t kRows[2][4] = {{6, 6, 5, 4}, {13, 8, 8, 6}};
-  const uint32_t rows = kRows[hangs_][std::min(lod_, 3u)];
+  static constexpr uint32_t kRows[] = {6, 6, 5, 4};
+  const uint32_t rows = kRows[std::min(lod_, 3u)];
   constexpr double kTurn = 2.39996322972865332;  // golden
   for (uint32_t i = 0; i < count; ++i) {
     // Denser towards the crown, where ways part.
@@ -203,32 +167,27 @@ void LockMaker::add_all_over() {
     const double around = 2 * kPi * (turns - std::floor(turns)) - kPi;
     if (row < scalp_.line(around) + 0.25) continue;
     // Short hair is that of the shells.
-    if (length_at(row) < 1.3 || (hangs_ && row < 4.5)) continue;
+    if (length_at(row) < 1.3) continue;
     const double dense = scalp_.density(row);
     Lock lock{};
     lock.root = place(around, scalp_.share_of(around, row));
     lock.length = length_at(row) * (1 + 0.18 * scatter(i));
-    lock.half_width = (shape_.curls ? 0.75
-                       : hangs_     ? 0.72
-                                    : std::min(0.60, 0.20 * length_at(row))) *
+    lock.half_width = (shape_.curls ? 0.75 : std::min(0.60, 0.20 * length_at(row))) *
                       (1 + 0.2 * scatter(i + 100)) * wider;
-    if (!hangs_) lock.half_width *= mix(0.75, 1, smooth_step(1, 6, row));
+    lock.half_width *= mix(0.75, 1, smooth_step(1, 6, row));
     lock.from = 0.45;
     // Those from above lie over those from below.
-    lock.over =
-        (hangs_ ? mix(0.55, 1.0, (row - 4.5) / 8) : mix(0.84, 1.05, smooth_step(-6, 13, row))) +
-        0.02 * scatter(i + 200);
+    lock.over = mix(0.84, 1.05, smooth_step(-6, 13, row)) + 0.02 * scatter(i + 200);
     lock.rise = 0.45 * std::min(lock.length, 3.5);
     lock.turn = (shape_.curls ? 0.9 : 0.12) * scatter(i + 300);
-    lock.reach = (hangs_ ? 1.0 : 1.01) + 0.025 * scatter(i + 400);
+    lock.reach = 1.01 + 0.025 * scatter(i + 400);
     lock.number = i;
-    lock.lane = shape_.curls                         ? curl_lane(i)
-                : dense > 0.95                       ? lock_lane(i)
-                : scatter(i + 50) < 10 * dense - 7.5 ? line_lane()
-                                                     : thin_lane();
-    if (hangs_) lock.lane = hanging(lock.lane);
+    lock.lane = shape_.curls                        ? curl_lane(i)
+                : dense > 0.95                      ? lock_lane(i)
+                : scatter(i + 50) < 5 * dense - 3.4 ? line_lane()
+                                                    : thin_lane();
     if (lock.length < 2.5 && !shape_.curls) lock.lane = tuft(lock.lane);
-    lock.rows = !hangs_ && lock.length < 3.5 ? std::min(rows, 5u) : rows;
+    lock.rows = lock.length < 3.5 ? std::min(rows, 5u) : rows;
     add(lock);
   }
 }
@@ -236,7 +195,7 @@ void LockMaker::add_all_over() {
 /// From the line of the forehead and the temples up.
 void LockMaker::add_front() {
   const uint32_t count = at_lod(66, 14, lod_);
-  const double until = hangs_ ? 0.27 : lod_ == 0 ? 0.43 : 0.33;
+  const double until = lod_ == 0 ? 0.43 : 0.33;
   for (uint32_t i = 0; i < count; ++i) {
     const double around = kPi * until * (2 * (i + 0.5 + 0.35 * scatter(i + 40)) / count - 1);
     Lock lock{};
@@ -254,7 +213,6 @@ void LockMaker::add_front() {
     if (lock.length < 1.4) continue;
     const bool thin = scatter(i + 45) > 10 * scalp_.density(scalp_.line(around) + 0.5) - 7.5;
     lock.lane = shape_.curls ? curl_lane(i) : thin ? thin_lane() : line_lane();
-    if (hangs_) lock.lane = hanging(lock.lane);
     lock.rows = lod_ < 2 ? 5 : 4;
     add(lock);
   }
@@ -265,22 +223,20 @@ void LockMaker::add_parting() {
   const uint32_t count = locks_at(56, 12, lod_);
   const auto [sine, cosine] = exact_sine_cosine(kParting);
   for (uint32_t i = 0; i < count; ++i) {
-    const double side = i % 2 == 0 ? 1 : -1,
-                 along = mix(hangs_ ? -0.12 : 0.04, 0.97, (i + 0.5) / count);
+    const double side = i % 2 == 0 ? 1 : -1, along = mix(0.04, 0.97, (i + 0.5) / count);
     const double off = side * (0.012 + 0.008 * scatter(i + 20));
     Lock lock{};
     lock.root = {along * sine + off * cosine, along * cosine - off * sine};
-    lock.length = (hangs_ ? 25 : 6.0) * (1 + 0.15 * scatter(i + 21));
-    lock.half_width = (hangs_ ? 0.8 : 0.6) * std::sqrt(56.0 / count);
+    lock.length = 6.0 * (1 + 0.15 * scatter(i + 21));
+    lock.half_width = 0.6 * std::sqrt(56.0 / count);
     lock.from = 0.55;
-    lock.over = (hangs_ ? 1.08 : 1.06) + 0.03 * scatter(i + 22);
+    lock.over = 1.06 + 0.03 * scatter(i + 22);
     lock.rise = 1.8;
     lock.turn = 0.1 * scatter(i + 23);
-    lock.reach = (hangs_ ? 1.0 : 1.01) + 0.025 * scatter(i + 24);
+    lock.reach = 1.01 + 0.025 * scatter(i + 24);
     lock.number = 6000 + i;
     lock.lane = lock_lane(i);
-    if (hangs_) lock.lane = hanging(lock.lane);
-    lock.rows = hangs_ ? (lod_ == 0 ? 14 : 7) : lod_ < 3 ? 6 : 4;
+    lock.rows = lod_ < 3 ? 6 : 4;
     add(lock);
   }
 }
@@ -293,11 +249,11 @@ void LockMaker::add_thin_hairs() {
     const double around = kPi * until * (2 * (i + 0.5 + 0.4 * scatter(i + 60)) / count - 1);
     const double share = std::abs(around) / kPi;
     if (share > 0.447 && share < 0.50) continue;  // the ear
-    const MapPlace there = place(around, 0), d = way(there, 0);
+    const MapPlace there = place(around, 0), d = combed(scalp_, there, 0);
     // Where hairs leave the line they begin above it.
     const bool leaves = d.x * there.x + d.z * there.z > 0.3;
     Lock lock{};
-    lock.root = place(around, (leaves ? 0.035 : -0.012) + 0.02 * scatter(i + 61));
+    lock.root = place(around, (leaves ? 0.035 : hangs_ ? 0.006 : -0.012) + 0.02 * scatter(i + 61));
     lock.length = 1.1 + 0.35 * scatter(i + 62);
     lock.half_width = 0.40 * std::sqrt(120.0 / count);
     lock.from = 0;
@@ -331,12 +287,51 @@ void LockMaker::add_loose_hairs() {
     lock.reach = 1.02;
     lock.number = 9000 + i;
     lock.lane = loose_lane();
-    lock.rows = hangs_ ? 12 : 6;
+    lock.rows = 6;
     add(lock);
   }
 }
 
 }  // namespace
+
+/// Hanging hair falls away from the parting and the crown, and somewhat back.
+static MapPlace hanging_way(MapPlace at) {
+  const double share = std::abs(at.around()) / kPi, far = std::max(at.far(), 1e-3);
+  const auto [sine, cosine] = exact_sine_cosine(kParting);
+  const double along = std::min(std::max(at.x * sine + at.z * cosine, 0.0), 0.97);
+  const MapPlace from = {at.x - along * sine, at.z - along * cosine};
+  const double away = std::max(from.far(), 1e-6);
+  const double back = mix(0.12, 0.40, smooth_step(0.52, 0.20, share)) * smooth_step(0, 0.08, away) *
+                      smooth_step(0.95, 0.6, far);
+  const MapPlace out = {at.x / far, at.z / far};
+  const double down = smooth_step(0.35, 0.75, far) * smooth_step(0.30, 0.42, share);
+  MapPlace d = {mix(from.x / away, out.x, down), mix(from.z / away - back, out.z, down)};
+  // Along the line of the forehead, not across it.
+  const double held = std::max(0.0, d.x * out.x + d.z * out.z) * smooth_step(0.88, 0.98, far) *
+                      smooth_step(0.42, 0.34, share);
+  return {d.x - held * out.x, d.z - held * out.z};
+}
+
+/// Down on the sides and behind, over the crown back; over the forehead away from the parting, and back.
+static MapPlace lying_way(const Scalp& scalp, MapPlace at) {
+  const double far = std::max(at.far(), 1e-3), share = std::abs(at.around()) / kPi;
+  const auto [sine, cosine] = exact_sine_cosine(kParting);
+  const double side = at.x * cosine - at.z * sine > 0 ? 1 : -1;
+  const double crown = smooth_step(10.9, 12.4, scalp.row_of(at.around(), 1 - far));
+  const double front = smooth_step(0.52, 0.20, share) * (1 - crown);
+  const MapPlace down = {at.x / far * (1 - crown), mix(at.z / far, -1, crown)};
+  const double back = scalp.shape().swept, aside = front * side * (1 - 0.5 * back);
+  return {aside * cosine + (1 - front) * down.x,
+          -aside * sine - front * back + (1 - front) * (down.z - 0.35 * back)};
+}
+
+MapPlace combed(const Scalp& scalp, MapPlace at, double turn) {
+  MapPlace d = scalp.shape().hang < 0 ? hanging_way(at) : lying_way(scalp, at);
+  const auto [s, c] = exact_sine_cosine(turn);
+  d = {c * d.x + s * d.z, c * d.z - s * d.x};
+  const double size = std::max(d.far(), 1e-6);
+  return {d.x / size, d.z / size};
+}
 
 void add_locks(const Scalp& scalp, uint32_t lod, HalfMesh& out) {
   LockMaker(scalp, lod, out).make();

@@ -66,7 +66,7 @@ void add_shells(const Scalp& scalp, uint32_t lod, HalfMesh& out) {
   // Below locks there is room for them.
   const bool bare = shape.shells > 1 || lod > 3;
   for (uint32_t shell = 0; shell < shells; ++shell) {
-    const double share = bare ? (shell + 1.0) / shells : hangs ? 0.5 : 0.82;
+    const double share = bare ? (shell + 1.0) / shells : hangs ? (lod == 0 ? 0.36 : 0.12) : 0.82;
     const uint32_t first = out.vertices.count();
     for (uint32_t row = 0; row < rows; ++row) {
       // Rows are dense at the line; outer shells begin above it.
@@ -76,22 +76,22 @@ void add_shells(const Scalp& scalp, uint32_t lod, HalfMesh& out) {
         const double ragged = 0.013 * scatter(k + 500) * smooth_step(0.2, 0, t);
         const double at = t + ragged;
         const Scalp::Root root = scalp.root(columns.around[k], at);
-        const double body =
-            scalp.body(columns.around[k], at, root) *
-            (share + (hangs && lod < 4 ? 0.32 * smooth_step(9.5, 5.5, root.row) : 0)) *
-            (1 + 0.08 * scatter(row * wide + k + 900));
+        const double body = scalp.body(columns.around[k], at, root) * share *
+                            (1 + 0.08 * scatter(row * wide + k + 900));
         const double grown = smooth_step(-0.05, 0.16, t - 0.045 * shell);
         const double dark = 0.30 * (1 - share) + 0.10 * scatter(k * 7 + row);
         Color c = mix(person.hair, {14, 10, 9}, clamp01(dark));
         const double border = hangs ? mix(lod < 4 ? 0.5 : 1, 1, smooth_step(0, 0.05, t))
                                     : smooth_step(-0.04, 0.075, t - 0.045 * shell);
-        // Where hair is very thin it is single cards.
+        // Where hair is thinnest it is single cards.
         const double dense =
-            border * clamp01(1.8 * scalp.density(root.row + 0.7 * scatter(k + 700)) - 0.8);
-        c = mix(c, person.skin, 0.5 * (1 - dense));
+            clamp01((scalp.density(root.row + 0.7 * scatter(k + 700)) - 0.42) / 0.58);
+        // The lower a place of the texture, the fewer hairs, by its square.
+        const double full = border * std::sqrt(dense);
+        c = mix(c, person.skin, 0.5 * (1 - border * dense));
         Vertex v = scalp.above(root, mix(0.03, body + flat, grown), c);
         v.u = columns.u[k];
-        v.v = mix(0.205, 0.40, dense) + 0.19 * dense * folded(5.0 * std::max(0.0, t));
+        v.v = mix(0.205, 0.40, full) + 0.19 * full * full * folded(5.0 * std::max(0.0, t));
         out.vertices.add(v);
       }
     }

@@ -54,9 +54,21 @@ class Scalp {
 
 constexpr double kParting = 0.42;  // its angle; it ends at the crown
 
+/// A place on the scalp as seen from above, with the crown in the middle and the border of the hair at distance 1.
+struct MapPlace {
+  double x, z;  // to the left and to the front
+  double far() const { return std::sqrt(x * x + z * z); }
+  double around() const { return author::exact_atan2(x, z); }
+};
+
+/// The way in which hairs are combed there, of length 1, turned by an angle.
+MapPlace combed(const Scalp& scalp, MapPlace at, double turn);
+
 /// Shells over the skull with a texture of short hairs, under everything else.
 void add_shells(const Scalp& scalp, uint32_t lod, HalfMesh& out);
 /// Locks or curls, and thin hairs at the line.
 void add_locks(const Scalp& scalp, uint32_t lod, HalfMesh& out);
+/// Hair that hangs down.
+void add_sheet(const Scalp& scalp, uint32_t lod, HalfMesh& out);
 
 }  // namespace mien::head
