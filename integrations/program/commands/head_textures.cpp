@@ -43,11 +43,14 @@ render::SkinZone zone(float degrees, float y, float half_degrees, float half_y, 
 
 render::SkinLayout head_layout(uint64_t seed) {
   render::SkinLayout layout;
-  // Sebum makes the middle of the face shine: forehead, nose, chin. Pores are largest on the nose and beside it.
-  layout.zones = {zone(0, 5.2f, 40, 3.2f, 0.10f, 0.1f),    zone(0, -2.4f, 13, 3.4f, 0.13f, 0.5f),
-                  zone(0, -9.6f, 16, 1.8f, 0.12f, 0.3f),   zone(24, -2.6f, 15, 2.6f, 0.06f, 0.5f),
-                  zone(27, 0.9f, 16, 1.6f, 0.10f, -0.5f),  zone(27, -1.2f, 15, 1.0f, 0.02f, -0.5f),
-                  zone(100, -1.0f, 22, 4.0f, 0.06f, -0.6f)};
+  // Sebum makes the middle of the face shine: nose, chin and forehead. Plain skin has the roughness 0.3 (its square root
+  // in the texture) that d'Eon and Luebke advise (GPU Gems 3, 2007, chapter 14); no zone has less than two thirds of it,
+  // with which dark skin, where little else comes back, would look like plastic. Pores are largest on the nose and
+  // beside it.
+  layout.zones = {zone(0, 5.2f, 40, 3.2f, 0.02f, 0.2f),    zone(0, -2.4f, 13, 3.4f, 0.08f, 0.5f),
+                  zone(0, -9.6f, 16, 1.8f, 0.05f, 0.3f),   zone(24, -2.6f, 15, 2.6f, 0.03f, 0.5f),
+                  zone(27, 0.9f, 16, 1.6f, 0.05f, -0.5f),  zone(27, -1.2f, 15, 1.0f, 0.01f, -0.5f),
+                  zone(100, -1.0f, 22, 4.0f, 0.04f, -0.6f)};
   layout.plain_u = beside(95), layout.plain_v = row_v(8.5f);
   layout.lids_low_u = 0.5f + beside(10), layout.lids_high_u = 0.5f + beside(42);
   layout.lids_low_v = row_v(-0.9f), layout.lids_high_v = row_v(1.5f);
