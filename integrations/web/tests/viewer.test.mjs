@@ -230,6 +230,38 @@ test("skin ends softly and in red where light does, other materials do not", opt
   assert.deepEqual(page.errors, []);
 });
 
+test("the key light casts the shadow of the head on its neck, and none on the forehead", options, async () => {
+  const seen = await page.run(async () => {
+    const { stage } = window.viewer;
+    const { renderer, scene, camera, canvas: element, regions: { Eyes, Mouth } } = stage;
+    stage.lights.choose("Noon");
+    stage.lookAt("Head");
+    await new Promise(requestAnimationFrame);
+    const apart = Eyes.center.y - Mouth.center.y;
+    const brightness = () => {
+      renderer.render(scene, camera);
+      const context = new OffscreenCanvas(element.width, element.height).getContext("2d");
+      context.drawImage(element, 0, 0);
+      return [Eyes.center.y + 0.6 * apart, Mouth.center.y - 1.5 * apart].map((y) => {
+        const place = Mouth.center.clone().setY(y).project(camera);
+        const { data } = context.getImageData(Math.round((place.x + 1) / 2 * element.width) - 3,
+          Math.round((1 - place.y) / 2 * element.height) - 3, 7, 7);
+        return data.filter((_, i) => i % 4 === 1).reduce((sum, value) => sum + value, 0) / 49;
+      });
+    };
+    const key = scene.children.find(({ castShadow }) => castShadow);
+    const shaded = brightness();
+    key.castShadow = false;
+    const plain = brightness();
+    stage.lights.choose("Studio");
+    return { shaded, plain };
+  });
+  const [forehead, neck] = seen.shaded.map((value, i) => value / seen.plain[i]);
+  assert.ok(seen.plain.every((value) => value > 30) && neck < 0.85 && Math.abs(forehead - 1) < 0.03, JSON.stringify(seen));
+  await frames();
+  assert.deepEqual(page.errors, []);
+});
+
 test("an open mouth is seen, and skinning on the GPU shows nearly the same", options, async () => {
   await page.run(() => document.getElementById("neutral").click());
   await frames();

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Lights to look at a face in.
-import { AmbientLight, DirectionalLight, HemisphereLight } from "three";
+import { AmbientLight, DirectionalLight, HemisphereLight, Vector3 } from "three";
+import { aim } from "./shadows.js";
 
-/** Of each: lamps [color, strength, x, y, z], from where they shine; colors of sky and ground with their strength; and
- * the strength of light from everywhere. Left is +x, up +y, to the front +z. */
+/** Of each: lamps [color, strength, x, y, z], from where they shine, of which the first casts shadows; colors of sky and
+ * ground with their strength; and the strength of light from everywhere. Left is +x, up +y, to the front +z. */
 const PRESETS = {
   Studio: {
     lamps: [[0xfff0e0, 2.6, -0.5, 0.6, 0.8], [0xbfd0e8, 0.6, 0.9, 0.1, 0.6], [0xdfeaff, 1.8, 0.8, 0.4, -0.7],
@@ -36,13 +37,24 @@ export const LIGHTS = Object.keys(PRESETS);
 
 export class Lights {
   #lights = [];
+  #name = LIGHTS[0];
+  #center = new Vector3();
+  #radius = 0.2;
 
   constructor(scene) {
     this.scene = scene;
-    this.choose(LIGHTS[0]);
+    this.choose(this.#name);
+  }
+
+  /** Shadows fall on what is in a sphere. */
+  shade(center, radius) {
+    this.#center.copy(center);
+    this.#radius = radius;
+    this.choose(this.#name);
   }
 
   choose(name) {
+    this.#name = name;
     const { lamps, sky, everywhere } = PRESETS[name];
     for (const light of this.#lights) {
       this.scene.remove(light);
@@ -53,6 +65,7 @@ export class Lights {
       light.position.set(x, y, z);
       return light;
     });
+    aim(this.#lights[0], this.#center, this.#radius);
     this.#lights.push(new HemisphereLight(...sky), new AmbientLight(0xffffff, everywhere));
     this.scene.add(...this.#lights);
   }

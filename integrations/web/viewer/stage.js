@@ -7,6 +7,7 @@ import {
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { Lights } from "./lights.js";
 import { regionsOf } from "./regions.js";
+import { castShadows } from "./shadows.js";
 
 export class Stage {
   #how = "now";
@@ -16,6 +17,7 @@ export class Stage {
     this.renderer = new WebGLRenderer({ canvas, alpha: true, antialias: true });
     this.renderer.outputColorSpace = SRGBColorSpace;
     this.renderer.toneMapping = ACESFilmicToneMapping;
+    castShadows(this.renderer);
     this.scene = new Scene();
     this.pivot = new Group(); // turns the object as a head turns
     this.pivot.matrixAutoUpdate = false;
@@ -74,6 +76,7 @@ export class Stage {
     if (!found) return;
     this.isBody = found.isBody;
     this.neck.copy(found.neck);
+    this.#shade();
     this.lookAt("Head");
   }
 
@@ -105,8 +108,16 @@ export class Stage {
       other.position.x = -apart;
       this.scene.add(other);
     }
+    this.#shade();
     if (this.regions.Head && (how === "side" || wasSide)) this.lookAt("Head", how === "side" ? 2 : 1);
     this.request();
+  }
+
+  /** Aims the shadows at the head, or at two. */
+  #shade() {
+    if (!this.regions.Head) return;
+    const { center, width, height, depth } = this.regions.Head;
+    this.lights.shade(center, 0.5 * Math.hypot(width + 2 * Math.abs(this.base.elements[12]), height, depth));
   }
 
   /** Turns the head about its neck: radians to the left and up, and a rise in millimeters; null: back to its place. A
@@ -159,6 +170,11 @@ export class Stage {
     requestAnimationFrame((time) => {
       this.waiting = false;
       const again = this.beforeDraw(time);
+      for (const shown of [this.object, this.other]) { // each time, as LODs are made when they are shown
+        shown?.traverse((node) => {
+          if (node.isMesh) node.castShadow = node.receiveShadow = !node.material.transparent;
+        });
+      }
       this.renderer.render(this.scene, this.camera);
       ++this.drawn;
       if (again) this.request();
