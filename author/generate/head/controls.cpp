@@ -161,20 +161,26 @@ bool fill_gui(Arena& arena, dna::DnaView& out) {
 }
 
 bool fill_correctives(const Shapes& shapes, Arena& arena, dna::Controls& out) {
+  constexpr float kRise = 5;  // the tongue has risen when a fifth of it is out
   const uint32_t count = shapes.corrective_count();
   dna::NewArray<uint16_t> rows, columns;
   dna::NewArray<float> weights;
-  if (!make(arena, size_t{count} * 2, rows) || !make(arena, size_t{count} * 2, columns) ||
-      !make(arena, size_t{count} * 2, weights)) {
+  uint32_t entries = 0;
+  for (uint32_t i = 0; i < count; ++i) entries += shapes.is_of_tongue(kExpressionCount + i) ? 1 : 2;
+  if (!make(arena, entries, rows) || !make(arena, entries, columns) ||
+      !make(arena, entries, weights)) {
     return false;
   }
+  uint32_t used = 0;
   for (uint32_t i = 0; i < count; ++i) {
-    const uint8_t members[2] = {shapes.corrective(i).first, shapes.corrective(i).second};
-    for (uint32_t m = 0; m < 2; ++m) {
-      rows.set(2 * i + m, static_cast<uint16_t>(kExpressionCount + i));
-      columns.set(2 * i + m, members[m]);
-      weights.set(2 * i + m, 1);
-    }
+    const auto add = [&](uint8_t member, float weight) {
+      rows.set(used, static_cast<uint16_t>(kExpressionCount + i));
+      columns.set(used, member);
+      weights.set(used++, weight);
+    };
+    const bool alone = shapes.is_of_tongue(kExpressionCount + i);
+    add(shapes.corrective(i).first, alone ? kRise : 1.0f);
+    if (!alone) add(shapes.corrective(i).second, 1);
   }
   out.psd_count = static_cast<uint16_t>(count);
   out.psds = {rows, columns, weights};

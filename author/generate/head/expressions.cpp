@@ -109,7 +109,8 @@ JointTurns turns_of(Motion motion) {
     case Motion::kFunnel: t.jaw_open = 8; break;
     case Motion::kJawForward: t.jaw_shift = {0, -0.08, 0.95}; break;
     case Motion::kJawLeft: t.jaw_shift = {1.0, -0.05, -0.05}; break;
-    case Motion::kTongueOut: t.jaw_open = 10, t.tongue = 1; break;
+    case Motion::kTongueOut: t.jaw_open = 10.4, t.tongue = 1; break;
+    case Motion::kTongueUp: t.tongue_up = 1; break;
     default: break;
   }
   return t;
@@ -156,6 +157,7 @@ uint32_t list_correctives(Corrective (&out)[kMaxCorrectives]) {
   add(Motion::kJawOpen, 0, Motion::kFunnel, 0, Motion::kLessRound, 0, find(Motion::kFunnel, 0));
   add(Motion::kJawOpen, 0, Motion::kTongueOut, 0, Motion::kLessOpen, 0,
       find(Motion::kTongueOut, 0));
+  add(Motion::kTongueOut, 0, Motion::kTongueOut, 0, Motion::kTongueUp, 0);
   for (int side : {1, -1}) {
     // Blinking closes the eye whatever else moves the lids.
     for (Motion m : {Motion::kSquint, Motion::kWide, Motion::kLookUp, Motion::kLookDown,

@@ -35,12 +35,12 @@ void set_designed(const Shapes& shapes, const Skeleton& skeleton, const JointDel
       out.at(s, skeleton.lower_lid[i]) =
           delta_of({}, {t.lower_lid * skeleton.lower_lid_angle, 0, 0});
     }
-    out.at(s, skeleton.tongue[0]) =
-        delta_of(Vec3{0, 0.75, 1.5} * left.tongue, {-6 * left.tongue, 0, 0});
-    out.at(s, skeleton.tongue[1]) =
-        delta_of(Vec3{0, 0.10, 1.5} * left.tongue, {7 * left.tongue, 0, 0});
-    out.at(s, skeleton.tongue[2]) =
-        delta_of(Vec3{0, 0, 1.3} * left.tongue, {15 * left.tongue, 0, 0});
+    // The tip is raised behind the lower incisors, then goes forward over them and down between both rows.
+    const double up = left.tongue_up, forward = left.tongue;
+    out.at(s, skeleton.tongue[0]) = delta_of(
+        {0, 0.69 * up - 0.27 * forward, 1.8 * forward - 0.3 * up}, {0.4 * forward - 6 * up, 0, 0});
+    out.at(s, skeleton.tongue[1]) = delta_of({0, 0.10 * up, 1.5 * forward}, {7 * forward, 0, 0});
+    out.at(s, skeleton.tongue[2]) = delta_of({0, 0, 1.3 * forward}, {14 * up + 5 * forward, 0, 0});
   }
 }
 

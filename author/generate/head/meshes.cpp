@@ -277,6 +277,7 @@ Active active_with(const Shapes& shapes, uint32_t shape) {
 
 void MeshMaker::find_offsets(uint32_t shape, Span<Vec3> out) const {
   const Shapes& shapes = head_.shapes;
+  if (shapes.is_of_tongue(shape)) return;  // the skin takes no part
   const Active active = active_with(shapes, shape);
   const Affine* pose = &poses_[size_t{shape} * head_.skeleton.count];
   const uint32_t twin = shapes.twin(shape);

@@ -66,6 +66,7 @@ enum class Motion : uint8_t {
   kSealUpper,
   kSealLower,
   kLessOpen,
+  kTongueUp,
   kNotTwice
 };
 
@@ -78,7 +79,8 @@ struct Shape {
 extern const Shape kExpressions[kExpressionCount];
 
 /// Added when both members are active, by the product of their values. So mouthClose seals the lips however
-/// far the jaw is open, and blinking closes the eye whatever else moves its lids.
+/// far the jaw is open, and blinking closes the eye whatever else moves its lids. One that lists a member twice follows
+/// it alone, and is fully active before it is.
 struct Corrective {
   uint8_t first, second;  // expressions
   Motion motion;
@@ -97,7 +99,7 @@ struct JointTurns {
   Vec3 jaw_shift;
   double upper_lid = 0, lower_lid = 0;  // change of the share by which lids are open
   double eye_up = 0, eye_out = 0;
-  double tongue = 0;  // out
+  double tongue = 0, tongue_up = 0;  // how far it comes out, and rises
 };
 
 /// The joints of the left half that a motion turns at full value.
@@ -125,6 +127,9 @@ class Shapes {
 
   /// Whether it is a corrective that keeps a pair from moving the same skin twice.
   bool is_moderation(uint32_t index) const { return shape(index).motion == Motion::kNotTwice; }
+
+  /// Whether it is the corrective that lifts the tongue before it comes out. The skin follows its joints.
+  bool is_of_tongue(uint32_t index) const { return shape(index).motion == Motion::kTongueUp; }
 
   /// The turns on the left (side 1) or right half (side -1) of the face.
   JointTurns turns(uint32_t shape, int side) const;

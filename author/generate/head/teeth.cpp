@@ -211,7 +211,7 @@ void add_tongue(const Form& form, HalfMesh& out) {
     // Broad at the back, narrower from the middle on, round at the tip.
     const double end = clamp01((t - 0.52) / 0.48), taper = std::sqrt(1 - 0.985 * end * end * end);
     const double half = mix(1.70, 1.30, smooth_step(0.15, 0.8, t)) * taper;
-    const double thick = mix(0.74, 0.34, smooth_step(0.15, 0.9, t)) * std::sqrt(taper);
+    const double thick = mix(0.74, 0.25, smooth_step(0.15, 0.9, t)) * std::sqrt(taper);
     for (uint32_t k = 0; k < around; ++k) {
       const auto [s, c] = exact_sine_cosine(kPi * (static_cast<double>(k) / (around - 1) - 0.5));
       // A furrow along the middle, which ends before the tip; sides that curl up a little.

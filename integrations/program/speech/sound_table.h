@@ -90,8 +90,8 @@ constexpr Sound kSounds[] = {
     {U'ʍ', "viseme_7_w", 1, false, Closure::kNone, kRoundGlide},
     {U'ɥ', "viseme_7_w", 0.9f, false, Closure::kNone, kRoundGlide},
     // Tongue at the teeth and behind them
-    {U'θ', "viseme_17_th", 0.7f, false, Closure::kNone, kDental},
-    {U'ð', "viseme_17_th", 0.65f, false, Closure::kNone, kDental},
+    {U'θ', "viseme_17_th", 0.9f, false, Closure::kNone, kDental},
+    {U'ð', "viseme_17_th", 0.85f, false, Closure::kNone, kDental},
     {U't', "viseme_19_d", 1, false, Closure::kNone, kAlveolar},
     {U'd', "viseme_19_d", 1, false, Closure::kNone, kAlveolar},
     {U'n', "viseme_19_d", 1, false, Closure::kNone, kAlveolar},

@@ -147,6 +147,22 @@ TEST(Sentences, TheLowerLipTouchesTheUpperTeethAtEachFAndV) {
   std::printf("%zu contacts, the worst is %.2f mm, %.1f at rest\n", count, worst, at_rest);
 }
 
+TEST(Sentences, NoToothIsInTheTongue) {
+  size_t count = 0;
+  for (const Sentence& sentence : sentences()) {
+    const Curves& curves = sentence.take.curves;
+    const size_t tongue = curves.control("tongueOut");
+    for (size_t f = 0; f < curves.frame_count; ++f) {
+      if (!(curves.values[f * curves.controls.size() + tongue] > 0)) continue;
+      const PiercedTongue pierced = spoken_head().pierced(sentence.take, f);
+      EXPECT_LT(pierced.by_lower, 0.3) << sentence.name << " at " << curves.time(f);
+      EXPECT_LT(pierced.by_upper, 0.3) << sentence.name << " at " << curves.time(f);
+      ++count;
+    }
+  }
+  EXPECT_GT(count, 200u);
+}
+
 TEST(Sentences, TheMouthOpensAtOpenVowels) {
   size_t count = 0;
   for (const Sentence& sentence : sentences()) {

@@ -51,9 +51,10 @@ void expect_ok(MienStatus status) { ASSERT_EQ(status, MIEN_OK); }
 
 }  // namespace
 
-SpokenHead::SpokenHead() {
+SpokenHead::SpokenHead(uint64_t seed) {
   auto desc = cli::sized<MienGenerateDesc>();
   desc.preset = MIEN_PRESET_HEAD;
+  desc.seed = seed;
   MienDna* dna = nullptr;
   MienRig* rig = nullptr;
   MienDeformer* deformer = nullptr;
@@ -75,9 +76,10 @@ SpokenHead::SpokenHead() {
   }
   skin_ = mesh_named("head_lod0");
   teeth_ = mesh_named("teeth_lod0");
-  pose({});
+  tongue_ = mesh_named("tongue_lod0");
+  pose({}, {skin_, teeth_});
   const std::vector<Point> skin = positions(skin_), teeth = positions(teeth_);
-  pose({{"jawOpen", 1}});
+  pose({{"jawOpen", 1}}, {skin_, teeth_});
   const std::vector<Point> open = positions(skin_), open_teeth = positions(teeth_);
 
   // Lips touch in the neutral pose and part when the jaw opens.
@@ -107,13 +109,7 @@ SpokenHead::SpokenHead() {
     is_lip[i] = std::any_of(lower.begin(), lower.end(),
                             [&](uint32_t contact) { return distance(skin[i], skin[contact]) < 1; });
   }
-  auto mesh = cli::sized<MienMesh>();
-  expect_ok(mien_deformer_mesh(deformer, skin_, &mesh));
-  for (size_t t = 0; t + 2 < mesh.triangles.count; t += 3) {
-    std::array<uint32_t, 3> corners{};
-    for (size_t k = 0; k < 3; ++k) {
-      corners[k] = mesh.vertex_position_indices.data[mesh.triangles.data[t + k]];
-    }
+  for (const auto& corners : triangles_of(skin_)) {
     if (is_lip[corners[0]] && is_lip[corners[1]] && is_lip[corners[2]])
       lower_lip_.push_back(corners);
   }
@@ -125,6 +121,28 @@ SpokenHead::SpokenHead() {
     (moves ? lower_teeth_ : upper_teeth_).push_back(i);
     if (moves) lower_teeth_at_rest_.push_back(teeth[i]);
   }
+  // Incisors with the gum behind them.
+  for (const auto& corners : triangles_of(teeth_)) {
+    const bool is_front = std::all_of(corners.begin(), corners.end(), [&](uint32_t i) {
+      return std::abs(teeth[i].x) < 1.2 && teeth[i].z > front - 1.1;
+    });
+    const bool moves = distance(teeth[corners[0]], open_teeth[corners[0]]) > 0.5;
+    if (is_front) (moves ? lower_incisors_ : upper_incisors_).push_back(corners);
+  }
+  tongue_surface_ = triangles_of(tongue_);
+}
+
+std::vector<std::array<uint32_t, 3>> SpokenHead::triangles_of(uint32_t mesh) const {
+  auto found = cli::sized<MienMesh>();
+  expect_ok(mien_deformer_mesh(deformer_.get(), mesh, &found));
+  std::vector<std::array<uint32_t, 3>> triangles(found.triangles.count / 3);
+  for (size_t t = 0; t < triangles.size(); ++t) {
+    for (size_t k = 0; k < 3; ++k) {
+      const uint32_t vertex = found.triangles.data[3 * t + k];
+      triangles[t][k] = found.vertex_position_indices.data[vertex];
+    }
+  }
+  return triangles;
 }
 
 uint32_t SpokenHead::mesh_named(const std::string& part) const {
@@ -135,7 +153,8 @@ uint32_t SpokenHead::mesh_named(const std::string& part) const {
   return 0;
 }
 
-void SpokenHead::pose(const std::vector<std::pair<std::string, float>>& values, bool only_teeth) {
+void SpokenHead::pose(const std::vector<std::pair<std::string, float>>& values,
+                      std::initializer_list<uint32_t> meshes) {
   MienMutableFloatView raw{};
   expect_ok(mien_instance_raw_controls(instance_.get(), &raw));
   std::fill(raw.data, raw.data + raw.count, 0.0f);
@@ -145,8 +164,7 @@ void SpokenHead::pose(const std::vector<std::pair<std::string, float>>& values, 
   }
   expect_ok(mien_rig_evaluate(rig_.get(), instance_.get(), 0));
   expect_ok(mien_deformer_instance_update(body_.get(), instance_.get()));
-  for (const uint32_t mesh : {skin_, teeth_}) {
-    if (mesh == skin_ && only_teeth) continue;
+  for (const uint32_t mesh : meshes) {
     expect_ok(mien_deformer_instance_deform(body_.get(), mesh, MIEN_NORMALS_NONE, nullptr));
   }
 }
@@ -163,7 +181,7 @@ std::vector<SpokenHead::Point> SpokenHead::positions(uint32_t mesh) {
 }
 
 MouthShape SpokenHead::shape(const std::vector<std::pair<std::string, float>>& values) {
-  pose(values);
+  pose(values, {skin_, teeth_});
   const std::vector<Point> skin = positions(skin_), teeth = positions(teeth_);
   MouthShape shape{};
   // In strips from left to right: how far apart the lips are where they are nearest to each other.
@@ -211,8 +229,79 @@ MouthShape SpokenHead::shape(const SpokenTake& take, size_t frame) {
 }
 
 double SpokenHead::jaw(const SpokenTake& take, size_t frame) {
-  pose(values_of(take, frame), true);
+  pose(values_of(take, frame), {teeth_});
   return jaw_of(positions(teeth_));
+}
+
+/// The deepest of the corners and middles of these triangles within the tongue, which is closed.
+double SpokenHead::depth_in_tongue(const std::vector<Point>& tongue,
+                                   const std::vector<Point>& teeth,
+                                   const std::vector<std::array<uint32_t, 3>>& of_teeth) const {
+  double back = 1e9, front = -1e9;
+  for (const auto& corners : of_teeth) {
+    for (const uint32_t i : corners) back = std::min(back, teeth[i].z);
+  }
+  for (const Point& p : tongue) front = std::max(front, p.z);
+  std::vector<std::array<uint32_t, 3>> surface;  // what can be near
+  for (const auto& [a, b, c] : tongue_surface_) {
+    if (std::max({tongue[a].z, tongue[b].z, tongue[c].z}) > back - 0.5)
+      surface.push_back({a, b, c});
+  }
+  double deepest = 0;
+  const auto test = [&](const Point& p) {
+    if (p.z > front) return;
+    // Upwards from a point inside, the surface is crossed an odd number of times.
+    bool is_inside = false;
+    double nearest = 1e9;
+    for (const auto& [a, b, c] : surface) {
+      const Point &u = tongue[a], &v = tongue[b], &w = tongue[c];
+      const auto side = [](const Point& from, const Point& to, double x, double z) {
+        return (to.x - from.x) * (z - from.z) - (to.z - from.z) * (x - from.x);
+      };
+      // Beside the plane of symmetry, on which edges lie.
+      const double x = p.x + 1e-5, in_u = side(v, w, x, p.z), in_v = side(w, u, x, p.z),
+                   in_w = side(u, v, x, p.z), sum = in_u + in_v + in_w;
+      const bool covers = (in_u > 0 && in_v > 0 && in_w > 0) || (in_u < 0 && in_v < 0 && in_w < 0);
+      if (covers && (in_u * u.y + in_v * v.y + in_w * w.y) / sum > p.y) is_inside = !is_inside;
+    }
+    if (!is_inside) return;
+    for (const auto& [a, b, c] : surface) {
+      nearest = std::min(nearest, distance(p, tongue[a], tongue[b], tongue[c]));
+    }
+    deepest = std::max(deepest, kMillimeters * nearest);
+  };
+  for (const auto& [a, b, c] : of_teeth) {
+    const Point &u = teeth[a], &v = teeth[b], &w = teeth[c];
+    test(u);
+    test({(u.x + v.x + w.x) / 3, (u.y + v.y + w.y) / 3, (u.z + v.z + w.z) / 3});
+  }
+  return deepest;
+}
+
+PiercedTongue SpokenHead::pierced(const std::vector<std::pair<std::string, float>>& values) {
+  pose(values, {teeth_, tongue_});
+  const std::vector<Point> teeth = positions(teeth_), tongue = positions(tongue_);
+  return {depth_in_tongue(tongue, teeth, lower_incisors_),
+          depth_in_tongue(tongue, teeth, upper_incisors_)};
+}
+
+PiercedTongue SpokenHead::pierced(const SpokenTake& take, size_t frame) {
+  return pierced(values_of(take, frame));
+}
+
+double SpokenHead::tongue_over_teeth(const std::vector<std::pair<std::string, float>>& values) {
+  pose(values, {teeth_, tongue_});
+  const std::vector<Point> teeth = positions(teeth_), tongue = positions(tongue_);
+  double tip = -1e9, edge = -1e9, high = -1e9;
+  for (const Point& p : tongue) tip = std::max(tip, p.z);
+  for (const uint32_t i : lower_teeth_) {
+    if (teeth[i].y > high) high = teeth[i].y, edge = teeth[i].z;
+  }
+  return kMillimeters * (tip - edge);
+}
+
+double SpokenHead::tongue_over_teeth(const SpokenTake& take, size_t frame) {
+  return tongue_over_teeth(values_of(take, frame));
 }
 
 double SpokenHead::jaw_of(const std::vector<Point>& teeth) const {

@@ -6,6 +6,7 @@
 #include <mien_author.h>
 
 #include <array>
+#include <initializer_list>
 #include <map>
 #include <string>
 #include <vector>
@@ -23,25 +24,39 @@ struct MouthShape {
   double jaw;        // how far the lower front teeth are from where they rest
 };
 
+/// How deep the front teeth of each jaw are in the tongue, in millimeters; 0 where they are not.
+struct PiercedTongue {
+  double by_lower, by_upper;
+};
+
 class SpokenHead {
  public:
-  SpokenHead();
+  explicit SpokenHead(uint64_t seed = 0);
 
   /// `take` names ARKit's controls.
   MouthShape shape(const SpokenTake& take, size_t frame);
   /// MouthShape.jaw alone, which is quick.
   double jaw(const SpokenTake& take, size_t frame);
   MouthShape shape(const std::vector<std::pair<std::string, float>>& values);
+  PiercedTongue pierced(const SpokenTake& take, size_t frame);
+  PiercedTongue pierced(const std::vector<std::pair<std::string, float>>& values);
+  /// How far the tip of the tongue is in front of the edges of the lower incisors, in millimeters.
+  double tongue_over_teeth(const SpokenTake& take, size_t frame);
+  double tongue_over_teeth(const std::vector<std::pair<std::string, float>>& values);
   const MienRig* rig() const { return rig_.get(); }
 
  private:
   struct Point {
     double x, y, z;
   };
-  void pose(const std::vector<std::pair<std::string, float>>& values, bool only_teeth = false);
+  void pose(const std::vector<std::pair<std::string, float>>& values,
+            std::initializer_list<uint32_t> meshes);
   double jaw_of(const std::vector<Point>& teeth) const;
   std::vector<Point> positions(uint32_t mesh);
   uint32_t mesh_named(const std::string& part) const;
+  std::vector<std::array<uint32_t, 3>> triangles_of(uint32_t mesh) const;
+  double depth_in_tongue(const std::vector<Point>& tongue, const std::vector<Point>& teeth,
+                         const std::vector<std::array<uint32_t, 3>>& of_teeth) const;
 
   cli::Dna dna_;
   cli::Rig rig_;
@@ -49,12 +64,13 @@ class SpokenHead {
   cli::Instance instance_;
   cli::DeformerInstance body_;
   std::map<std::string, uint32_t> controls_;
-  uint32_t skin_ = 0, teeth_ = 0;
+  uint32_t skin_ = 0, teeth_ = 0, tongue_ = 0;
   // Positions near the middle that touch in the neutral pose and part when the jaw opens.
   std::vector<uint32_t> upper_contact_, lower_contact_;
   std::vector<std::array<uint32_t, 3>> lower_lip_;   // triangles, outside and inside
   std::vector<uint32_t> upper_teeth_, lower_teeth_;  // of the front
   std::vector<Point> lower_teeth_at_rest_;
+  std::vector<std::array<uint32_t, 3>> upper_incisors_, lower_incisors_, tongue_surface_;
 };
 
 /// The head, made once.

@@ -253,7 +253,7 @@ uint64_t hash_of(const std::vector<uint8_t>& bytes) {
 }
 
 TEST(ProceduralHead, HasTheSameBytesOnEveryPlatform) {
-  const uint64_t expected[] = {16074516842217226726u, 5817900753690749000u};
+  const uint64_t expected[] = {12034472857997404701u, 15237581631948766388u};
   for (uint64_t seed = 0; seed < 2; ++seed) {
     const std::vector<uint8_t> bytes = write_dna(generate_dna(MIEN_PRESET_HEAD, seed).get());
     EXPECT_LT(bytes.size(), 16'000'000u);
