@@ -266,7 +266,7 @@ Vec3 Shapes::one_side(Motion motion, Vec3 look, const Vertex& v) const {
       const double down = (-5.0 - look.y) / 11.2;
       add(bump(look.x, 0, mix(5.1, 0.8, down), 0, 0.65, 1) * smooth_step(0.45, 0.70, down) *
               smooth_step(1.08, 0.92, down),
-          {0.16, 0, 0.36});
+          {0.22, 0, 0.52});
       break;
     }
     case Motion::kBrowsApart:  // wide eyes leave less room for a lowered brow
@@ -305,12 +305,17 @@ Vec3 Shapes::both_sides(Motion motion, const Vertex& v) const {
       // Cheeks and corners are drawn in.
       add(w.at(3.0, -6.2, 1.0, 1.2), {-0.15, 0, -0.15});
       break;
-    case Motion::kThroatUp:  // the larynx, as in swallowing
-      add(w.at(0, -13.0, 1.0, 1.3), {0, 0.60, 0.08});
-      add(w.at(0, -11.3, 1.8, 0.8), {0, -0.05, 0.24});
+    case Motion::kThroatUp:
+      // The larynx, as in swallowing: it takes the skin along, slides below it to under the chin, and leaves a hollow.
+      add(w.at(0, -13.0, 1.05, 1.6), {0, 1.0, 0});
+      add(w.at(0, -12.9, 0.75, 0.70), {0, 0, 0.45});
+      add(w.at(0, -14.6, 0.80, 0.80), {0, 0, -0.35});
+      add(w.at(0, -11.2, 1.4, 0.9), {0, 0.20, 0.10});
       break;
     case Motion::kThroatDown:
-      add(w.at(0, -13.0, 1.0, 1.3), {0, -0.60, 0.04});
+      add(w.at(0, -13.2, 1.1, 1.7), {0, -0.95, 0});
+      add(w.at(0, -13.9, 0.85, 0.95), {0, 0, 0.32});
+      add(w.at(0, -12.3, 1.0, 0.9), {0, 0, -0.30});
       add(w.at(0, -11.3, 1.8, 0.8), {0, 0.06, -0.18});
       break;
     case Motion::kFunnel:
