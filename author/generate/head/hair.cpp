@@ -102,6 +102,10 @@ Scalp::Root Scalp::root(double around, double t) const {
   root.normal = unit(
       {p.x / (7.8 * 7.8), (std::max(p.y, end) - 2.5) / (10.2 * 10.2), (p.z + 0.4) / (9.7 * 9.7)});
   if (hangs) {
+    // The form ends in a small disk at the crown, the ways of hairs at its middle.
+    const double crown = smooth_step(0.985, 1, t);
+    root.skin.x *= 1 - crown;
+    root.skin.z = mix(root.skin.z, -0.9, crown);
     // The hem turns in, to the jaw and more so to the nape.
     const double in =
         mix(0.18, 0.22, smooth_step(0.45, 0.8, share)) * smooth_step(0, 7.0, root.below);

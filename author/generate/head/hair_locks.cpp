@@ -254,7 +254,7 @@ void LockMaker::add_thin_hairs() {
     const bool leaves = d.x * there.x + d.z * there.z > 0.3;
     Lock lock{};
     lock.root = place(around, (leaves ? 0.035 : hangs_ ? 0.006 : -0.012) + 0.02 * scatter(i + 61));
-    lock.length = 1.1 + 0.35 * scatter(i + 62);
+    lock.length = (hangs_ ? 0.7 : 1.1) + 0.35 * scatter(i + 62);
     lock.half_width = 0.40 * std::sqrt(120.0 / count);
     lock.from = 0;
     lock.over = 0.35 + 0.2 * scatter(i + 63);
@@ -298,7 +298,7 @@ void LockMaker::add_loose_hairs() {
 static MapPlace hanging_way(MapPlace at) {
   const double share = std::abs(at.around()) / kPi, far = std::max(at.far(), 1e-3);
   const auto [sine, cosine] = exact_sine_cosine(kParting);
-  const double along = std::min(std::max(at.x * sine + at.z * cosine, 0.0), 0.97);
+  const double along = std::min(std::max(at.x * sine + at.z * cosine, 0.0), 1.0);
   const MapPlace from = {at.x - along * sine, at.z - along * cosine};
   const double away = std::max(from.far(), 1e-6);
   const double back = mix(0.12, 0.40, smooth_step(0.52, 0.20, share)) * smooth_step(0, 0.08, away) *

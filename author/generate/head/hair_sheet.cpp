@@ -35,7 +35,7 @@ constexpr double kOverlap = 0.45;  // of the width of a card
 
 /// Its tips are cut, and its roots are as short as those of other hair.
 HairLane hanging(HairLane lane) {
-  lane.root += 0.055;
+  lane.root += 0.09;
   lane.tip -= 0.14;
   return lane;
 }
@@ -68,17 +68,17 @@ class HairSheet {
 void HairSheet::trace(uint32_t number) {
   constexpr double kStep = 0.4;  // cm
   constexpr uint32_t kMost = 96;
-  constexpr double kOff = 0.02;
+  constexpr double kOff = 0.02, kCrown = 0.006;  // from the parting and from the crown
   const double q = static_cast<double>(number) / (kWays - 1), middle = 2 * q - 1;
   const auto [sine, cosine] = exact_sine_cosine(kParting);
   MapPlace way[kMost];
   if (std::abs(middle) < kAtCrown) {
     const double turn = kParting + kPi - 0.5 * kPi * middle / kAtCrown;
     const auto [s, c] = exact_sine_cosine(turn);
-    way[0] = {kOff * s, kOff * c};
+    way[0] = {kCrown * s, kCrown * c};
   } else {
-    const double along = 0.98 * (std::abs(middle) - kAtCrown) / (1 - kAtCrown);
-    const double off = middle < 0 ? -kOff : kOff;
+    const double along = 0.993 * (std::abs(middle) - kAtCrown) / (1 - kAtCrown);
+    const double off = (middle < 0 ? -1 : 1) * mix(kCrown, kOff, smooth_step(0, 0.1, along));
     way[0] = {along * sine + off * cosine, along * cosine - off * sine};
   }
   uint32_t count = 1;

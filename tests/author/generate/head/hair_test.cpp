@@ -159,7 +159,7 @@ size_t cuts(const Hair& hair) {
   return pairs.size();
 }
 
-/// 204 locks lie on each other; a few cut each other where they come together at the temples.
+/// 204 locks lie on each other; a few cut each other where they come together, at the temples and the crown.
 TEST(Hair, LayersOfTheBobDoNotCutEachOther) {
   EXPECT_LE(cuts(Hair(HairStyle::kBob, 0)), 60u);
   EXPECT_GT(cuts(Hair(HairStyle::kCurly, 0)), 100u);  // others may
