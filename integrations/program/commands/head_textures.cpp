@@ -43,10 +43,9 @@ render::SkinZone zone(float degrees, float y, float half_degrees, float half_y, 
 
 render::SkinLayout head_layout(uint64_t seed) {
   render::SkinLayout layout;
-  // Sebum makes the middle of the face shine: nose, chin and forehead. Plain skin has the roughness 0.3 (its square root
-  // in the texture) that d'Eon and Luebke advise (GPU Gems 3, 2007, chapter 14); no zone has less than two thirds of it,
-  // with which dark skin, where little else comes back, would look like plastic. Pores are largest on the nose and
-  // beside it.
+  // Sebum makes the middle of the face shine: nose, chin and forehead. A little: the texture has square roots of
+  // roughness, plain skin 0.54. With 0.44 the forehead looked like plastic where skin is dark, as little else comes back.
+  // Pores are largest on the nose and beside it.
   layout.zones = {zone(0, 5.2f, 40, 3.2f, 0.02f, 0.2f),    zone(0, -2.4f, 13, 3.4f, 0.08f, 0.5f),
                   zone(0, -9.6f, 16, 1.8f, 0.05f, 0.3f),   zone(24, -2.6f, 15, 2.6f, 0.03f, 0.5f),
                   zone(27, 0.9f, 16, 1.6f, 0.05f, -0.5f),  zone(27, -1.2f, 15, 1.0f, 0.01f, -0.5f),
