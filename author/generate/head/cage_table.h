@@ -82,21 +82,21 @@ inline constexpr At kNodes[kNodeCount] = {
     {0, -12.4},            // kThroat
     {0, -10.6},            // kChin
     {0, -8.05},            // kLipBottom
-    {0, -4.85},            // kLipTop
-    {0, -4.55},            // kColumella
+    {0, -4.92},            // kLipTop
+    {0, -4.66},            // kColumella
     {0, -3.25},            // kTip
     {0, -2.45},            // kRidge
     {0, -0.6},             // kBridge
     {0, 2.2},              // kGlabella
     {0, kCrownRow},        // kCrownFront
-    {1.86, -4.42},         // kWing
-    {1.84, -4.15},         // kWingLow
-    {1.73, -3.06},         // kWingHigh
+    {1.84, -4.52},         // kWing
+    {1.76, -4.30},         // kWingLow
+    {1.75, -3.12},         // kWingHigh
     {1.70, -2.45},         // kNoseSide
-    {0.22, -4.42},         // kNostrilLowIn
-    {1.42, -4.28},         // kNostrilLowOut
-    {1.42, -3.05},         // kNostrilHighOut
-    {0.26, -3.30},         // kNostrilHighIn
+    {0.15, -4.66},         // kNostrilLowIn
+    {1.40, -4.36},         // kNostrilLowOut
+    {1.44, -3.14},         // kNostrilHighOut
+    {0.20, -3.30},         // kNostrilHighIn
     {2.95, -5.35},         // kLipSide
     {4.75, -3.7},          // kCheek
     {1.50, -1.05},         // kInnerLow
@@ -181,19 +181,19 @@ inline constexpr Curve kCurves[] = {
     {kBridge, kGlabella, kInnerRows},
     {kGlabella, kCrownFront, kForehead, 2, {{0, 5.5}, {0, 9.5}}},
     // Nose: its base, its sides, the border around the nostril.
-    {kLipTop, kWing, kNoseColumns, 2, {{0.55, -4.82}, {1.35, -4.62}}},
+    {kLipTop, kWing, kNoseColumns, 2, {{0.55, -4.92}, {1.35, -4.74}}},
     {kWing, kWingLow, kOne},
-    {kWingLow, kWingHigh, kWingRows, 1, {{1.86, -3.6}}, kHeld},
+    {kWingLow, kWingHigh, kWingRows, 1, {{1.86, -3.65}}, kHeld},
     {kWingHigh, kNoseSide, kTipRows},
     {kNoseSide, kInnerLow, kCheekRows},
     {kColumella, kNostrilLowIn, kOne},
-    {kNostrilLowIn, kNostrilLowOut, kNostrilColumns, 1, {{0.90, -4.50}}},
+    {kNostrilLowIn, kNostrilLowOut, kNostrilColumns, 2, {{0.70, -4.62}, {1.08, -4.52}}, kHeld},
     {kNostrilLowOut, kWingLow, kOne},
-    {kNostrilLowOut, kNostrilHighOut, kWingRows, 1, {{1.68, -3.70}}, kHeld},
+    {kNostrilLowOut, kNostrilHighOut, kWingRows, 1, {{1.66, -3.72}}, kHeld},
     {kNostrilHighOut, kWingHigh, kOne},
     {kNostrilHighIn, kNostrilHighOut, kNostrilColumns, 1, {{0.92, -3.10}}},
     {kTip, kNostrilHighIn, kOne},
-    {kNostrilLowIn, kNostrilHighIn, kWingRows, 1, {{0.20, -3.88}}},
+    {kNostrilLowIn, kNostrilHighIn, kWingRows, 1, {{0.15, -3.98}}, 0.3},
     {kRidge, kNoseSide, kNoseColumns},
     {kBridge, kInnerLow, kNoseColumns, 1, {{0.8, -0.65}}},
     {kGlabella, kInnerHigh, kNoseColumns, 1, {{0.8, 2.12}}},

@@ -126,22 +126,22 @@ bool moves_jaw(Motion m) {
 /// Pairs that press or stretch the same skin: the worst of all, as tests/author/generate/head/combinations_test.cpp
 /// measures them, and two that are common. Of those with a side, left with left and right with right.
 static constexpr Motion kCrowded[][2] = {
-    {Motion::kMouthLeft, Motion::kCheekPuff},     {Motion::kMouthLeft, Motion::kStretch},
-    {Motion::kStretch, Motion::kCheekPuff},       {Motion::kStretch, Motion::kNeckStretch},
-    {Motion::kSmile, Motion::kCheekPuff},         {Motion::kCheekPuff, Motion::kClench},
-    {Motion::kFunnel, Motion::kCheekPuff},        {Motion::kPucker, Motion::kMouthLeft},
-    {Motion::kMouthLeft, Motion::kSmile},         {Motion::kPucker, Motion::kCheekPuff},
-    {Motion::kFrown, Motion::kCheekPuff},         {Motion::kShrugLower, Motion::kCheekPuff},
-    {Motion::kFunnel, Motion::kTongueOut},        {Motion::kFunnel, Motion::kShrugLower},
-    {Motion::kFunnel, Motion::kShrugUpper},       {Motion::kMouthLeft, Motion::kFrown},
-    {Motion::kMouthLeft, Motion::kNeckStretch},   {Motion::kMouthLeft, Motion::kClench},
-    {Motion::kDimple, Motion::kCheekPuff},        {Motion::kCheekPuff, Motion::kNeckStretch},
-    {Motion::kSmile, Motion::kStretch},           {Motion::kPucker, Motion::kShrugUpper},
-    {Motion::kFrown, Motion::kStretch},           {Motion::kPucker, Motion::kTongueOut},
-    {Motion::kPucker, Motion::kShrugLower},       {Motion::kCheekPuff, Motion::kSneer},
-    {Motion::kCheekPuff, Motion::kTongueOut},     {Motion::kSmile, Motion::kDimple},
-    {Motion::kSmile, Motion::kDeepenFold},        {Motion::kFunnel, Motion::kPucker},
-    {Motion::kBrowInnerUp, Motion::kBrowOuterUp},
+    {Motion::kMouthLeft, Motion::kCheekPuff},   {Motion::kMouthLeft, Motion::kStretch},
+    {Motion::kStretch, Motion::kCheekPuff},     {Motion::kStretch, Motion::kNeckStretch},
+    {Motion::kSmile, Motion::kCheekPuff},       {Motion::kCheekPuff, Motion::kClench},
+    {Motion::kFunnel, Motion::kCheekPuff},      {Motion::kPucker, Motion::kMouthLeft},
+    {Motion::kMouthLeft, Motion::kSmile},       {Motion::kPucker, Motion::kCheekPuff},
+    {Motion::kFrown, Motion::kCheekPuff},       {Motion::kShrugLower, Motion::kCheekPuff},
+    {Motion::kFunnel, Motion::kTongueOut},      {Motion::kFunnel, Motion::kShrugLower},
+    {Motion::kFunnel, Motion::kShrugUpper},     {Motion::kMouthLeft, Motion::kFrown},
+    {Motion::kMouthLeft, Motion::kNeckStretch}, {Motion::kMouthLeft, Motion::kClench},
+    {Motion::kDimple, Motion::kCheekPuff},      {Motion::kCheekPuff, Motion::kNeckStretch},
+    {Motion::kSmile, Motion::kStretch},         {Motion::kPucker, Motion::kShrugUpper},
+    {Motion::kFrown, Motion::kStretch},         {Motion::kPucker, Motion::kTongueOut},
+    {Motion::kPucker, Motion::kShrugLower},     {Motion::kCheekPuff, Motion::kSneer},
+    {Motion::kCheekPuff, Motion::kTongueOut},   {Motion::kSmile, Motion::kDimple},
+    {Motion::kSmile, Motion::kDeepenFold},      {Motion::kFunnel, Motion::kPucker},
+    {Motion::kMouthLeft, Motion::kSneer},       {Motion::kBrowInnerUp, Motion::kBrowOuterUp},
 };
 
 uint32_t list_correctives(Corrective (&out)[kMaxCorrectives]) {

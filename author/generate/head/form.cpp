@@ -181,8 +181,8 @@ double Form::lower_opening(double x) const {
   return -0.155 * person_.lower_lid * exact_pow(inside, 0.80) * (1 + 0.16 * s);
 }
 
-/// The nose above the face around it: a dome in each row, and the wings.
-double Form::nose(double x, double y) const {
+/// The nose above the face around it, of a nose of height 1 and width 1: a dome in each row, and a wing.
+Form::NoseBodies Form::nose_bodies(double x, double y) const {
   const Person& p = person_;
   // y, height of the ridge, half width, steepness of the sides (less is steeper), bluntness
   static constexpr double kRows[][5] = {
@@ -193,35 +193,107 @@ double Form::nose(double x, double y) const {
       {0.4, 0.48, 1.24, 1.70, 0},    {1.2, 0.14, 1.45, 1.90, 0},     {2.4, 0.16, 2.2, 1.80, 0},
       {4.2, 0.00, 2.4, 1.50, 0}};
   constexpr int kCount = sizeof(kRows) / sizeof(kRows[0]);
-  const double at_x = std::abs(x) / p.nose_width;
-  // The rim of the nostril is an arch.
-  const double row = y - 0.16 * bump(at_x, y, kNostril.x, kNostril.y - 0.05, 0.36, 0.45);
-  const auto at = [row](int column) {
-    return interpolate(row, kRows[0], kRows[0] + column, 5, kCount);
+  const auto at = [y](int column) {
+    return interpolate(y, kRows[0], kRows[0] + column, 5, kCount);
   };
   const double bridge = mix(1, p.bridge, smooth_step(-2.6, -1.4, y) * smooth_step(2.4, 0.8, y));
-  const double t = at_x / (at(2) * bridge);
+  const double t = x / (at(2) * bridge);
   // Its foot is round: the dome goes to 0 a little outside.
   const double left = 1 - t * t, above = 0.5 * (left + std::sqrt(left * left + 0.006));
-  double z = 0;
+  NoseBodies out;
   if (t < 1.4) {
     const double blunt = 1 + at(4) * std::min(t * t, 1.0);
-    z = at(1) * exact_pow(above, at(3)) * blunt * smooth_step(1.4, 1.0, t);
+    out.dome = at(1) * exact_pow(above, at(3)) * blunt * smooth_step(1.4, 1.0, t);
   }
-  // The tip is a ball of its own, as are the wings, with steep sides; a furrow runs around each wing from the tip to
-  // the cheek.
+  // The tip is a ball of its own, as are the wings, with steep sides.
   const double ball = 1 + 0.16 * p.tip;
-  z += (0.16 + 0.10 * p.tip) * bump(at_x, row, 0, -3.02, 0.62 * ball, 0.55 * ball);
-  const double dx = (at_x - 1.12) / 0.68, dy = (y + 3.48) / (y > -3.48 ? 0.54 : 0.60),
+  out.dome += (0.16 + 0.10 * p.tip) * bump(x, y, 0, -3.02, 0.62 * ball, 0.55 * ball);
+  const double dx = (x - 1.10) / 0.70, dy = (y + 3.54) / (y > -3.54 ? 0.58 : 0.78),
                from = std::sqrt(dx * dx + dy * dy), inside = 1 - from * from;
-  const double wing = (1.46 + 0.16 * p.tip) *
-                      exact_pow(0.5 * (inside + std::sqrt(inside * inside + 0.004)),
-                                mix(0.50, 0.75, smooth_step(-0.4, 0.7, dy))) *
-                      smooth_step(1.35, 1.0, from);
-  z = smooth_max(z, wing, 0.50);
-  z -= 0.26 * bump(from, 0, 1.12, 0, 0.14, 1) * smooth_step(0.0, 0.8, dx) *
-       smooth_step(1.0, 0.1, dy);
-  return p.nose * z;
+  // Its foot is steep behind and flat where it runs into the sill of the nostril.
+  const double steepness = mix(0.50, 1.0, smooth_step(-0.4, 0.8, dy)) +
+                           0.35 * smooth_step(-0.4, -0.9, dy) * smooth_step(1.1, 0.4, dx) +
+                           0.50 * smooth_step(0.1, 0.6, dy) * smooth_step(0.2, 0.8, dx);
+  out.wing = (1.38 + 0.08 * p.tip) *
+             exact_pow(0.5 * (inside + std::sqrt(inside * inside + 0.004)), steepness) *
+             smooth_step(1.35, 1.0, from);
+  return out;
+}
+
+double Form::NoseBodies::height() const { return smooth_max(dome, wing, 0.40); }
+
+double Form::nose(double x, double y) const {
+  return person_.nose * nose_bodies(std::abs(x) / person_.nose_width, y).height();
+}
+
+FrontPlace Form::nostril_curve(double angle, double size) const {
+  const Nostril n(person_);
+  const auto [s, c] = exact_sine_cosine(angle);
+  const double along = -size * s, across = -size * c * n.half_width(along);
+  const double x = n.x + along * n.half_length * n.axis_x + across * n.axis_height,
+               height = n.height + along * n.half_length * n.axis_height - across * n.axis_x;
+  // The row of the nose's base that has this height.
+  double low = -4.75, high = -3.55;
+  for (int i = 0; i < 30; ++i) {
+    const double y = 0.5 * (low + high);
+    (nose_bodies(x, y).height() < height ? low : high) = y;
+  }
+  return {person_.nose_width * x, 0.5 * (low + high)};
+}
+
+namespace {
+
+/// How far the rim of the nostril, a roll 2 to 3 mm thick, and the columella hang below the base of the nose, at `x` and
+/// a height above the face.
+///
+/// In the view from the side the lower edge of the columella is 2 to 4 mm below the rims (A. Ding and Y. Zhang, "What is
+/// the perfect nose?", Rhinology Online 3, 2020).
+struct NoseBase {
+  NoseBase(const Nostril& n, double x, double height, double y) {
+    const double dx = x - n.x, dh = height - n.height;
+    const double along = (dx * n.axis_x + dh * n.axis_height) / n.half_length;
+    const double across = (dx * n.axis_height - dh * n.axis_x) / n.half_width(along);
+    const double from = std::sqrt(along * along + across * across);
+    // Low at the columella and at the sill in front of the lip.
+    const double share = smooth_step(-3.65, -3.9, y) * mix(0.3, 1, smooth_step(-1.0, -0.2, along)) *
+                         mix(0.3, 1, smooth_step(0.40, 0.90, x));
+    rim = share * (0.12 * bump(from, 0, 1.35, 0, 0.30, 1) - 0.06 * smooth_step(1.20, 0.95, from));
+    columella = 0.06 * bump(x, 0, 0, 0, 0.32, 1) * smooth_step(0.1, 0.5, height) *
+                smooth_step(2.0, 1.3, height) * smooth_step(-3.6, -3.9, y);
+  }
+  double rim, columella;
+};
+
+}  // namespace
+
+/// What a height above the face cannot have: the groove around the wing, the rim of the nostril, and the columella
+/// between the nostrils. An offset.
+Vec3 Form::nose_detail(double x, double y) const {
+  const double at_x = x / person_.nose_width;
+  if (y < -4.9 || y > -2.2 || at_x > 2.3) return {0, 0, 0};
+  constexpr double kStep = 0.01;
+  const NoseBodies here = nose_bodies(at_x, y), beside = nose_bodies(at_x + kStep, y),
+                   above = nose_bodies(at_x, y + kStep);
+  const double height = here.height();
+  const double slope_x = (beside.height() - height) / kStep,
+               slope_y = (above.height() - height) / kStep;
+  const double steep = std::sqrt(1 + slope_x * slope_x + slope_y * slope_y);
+  // The bodies meet in the groove, from behind the wing over it to the lobule of the tip, where it fades.
+  const auto apart = [](const NoseBodies& b) { return b.wing - b.dome; };
+  const double change_x = (apart(beside) - apart(here)) / kStep,
+               change_y = (apart(above) - apart(here)) / kStep;
+  const double change = std::sqrt(change_x * change_x + change_y * change_y);
+  const double from = apart(here) / std::max(change, 0.5) * std::min(steep, 2.5);
+  const double below =
+      mix(smooth_step(-3.75, -3.35, y), smooth_step(-4.3, -3.8, y), smooth_step(1.1, 1.5, at_x));
+  const double groove = mix(0.09, 0.12, smooth_step(0.9, 1.3, at_x)) *
+                        bump(from, 0, 0, 0, 0.13, 1) * below * smooth_step(0.5, 0.9, at_x) *
+                        smooth_step(-2.70, -3.0, y);
+  const NoseBase base(Nostril(person_), at_x, height, y);
+  const double in = groove / steep;
+  return Vec3{at_x > 0 ? in * slope_x : 0, in * slope_y - base.rim - base.columella,
+              0.2 * base.rim - in} *
+         person_.nose;
 }
 
 double Form::relief(double x, double y) const {
@@ -239,7 +311,7 @@ double Form::relief(double x, double y) const {
       {0.24 + p.brow_ridge, 1.9, 2.45, 1.4, 0.70},            // brow ridge, inner half
       {0.36 + p.brow_ridge, 4.4, 2.45, 1.2, 0.70},     // and above the outer corner of the eye
       {0.18 + 0.5 * p.brow_ridge, 0, 2.4, 1.0, 0.7},   // glabella
-      {-0.14, 1.90 * wing, -3.7, 0.26, 0.55},          // behind the wing of the nose
+      {-0.10, 1.90 * wing, -3.7, 0.26, 0.55},          // behind the wing of the nose
       {0.34 + 0.34 * p.cheek, 4.8, -1.45, 1.4, 1.00},  // cheekbones
       {0.30, 3.2, -2.7, 1.3, 1.2},                     // apple of the cheek
       {-0.20, 2.7, -1.00, 1.0, 0.35},  // from the inner corner of the eye to the cheek
@@ -253,7 +325,7 @@ double Form::relief(double x, double y) const {
       {0.30 * p.weight, 3.0, -8.6, 1.8, 1.2},           // and of the jaw
       {p.nose_hump, 0, -0.7, 0.7, 0.8},                 // bridge of the nose: convex or hollow
       {-0.16, 0, -4.85, 0.24, 0.60},                    // philtrum
-      {0.09, 0.42, -4.95, 0.18, 0.55},                  // its edges
+      {0.09, 0.42, -5.05, 0.18, 0.48},                  // its edges
       {0.10 * p.age, 3.2, -1.35, 1.1, 0.35},            // below the eyes
       {-0.30 * p.age, 4.6, -4.0, 1.2, 1.2},             // cheeks sink
       {0.28 * p.age, 3.6, -8.4, 1.5, 1.2},              // jowls
@@ -404,7 +476,9 @@ FacePoint Form::face(double angle, double row, Side side) const {
          smooth_step(1.9, 1.1, p.x / kMouthHalfWidth) * front_mask;
 
   const double standing_out = side_relief(p.z, p.y);
+  const Vec3 detail = nose_detail(p.x, p.y) * front_mask;
   p.z += front_mask * (relief(p.x, p.y) + lips(p.x, p.y));
+  p = p + detail;
   p.x += standing_out * smooth_step(0.35, 0.9, sine);
   p = neck_form(p, angle);
   const Vec3 look = p;

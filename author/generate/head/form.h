@@ -72,7 +72,17 @@ constexpr Vec3 kEye = {3.1, 0.3, 6.8};  // center of the left eyeball
 constexpr double kEyeRadius = 1.60;
 constexpr double kLidRadius = 1.78;     // outside of the lids
 constexpr double kEyeHalfWidth = 1.52;  // of the opening between the lids, of the designed person
-constexpr Vec3 kNostril = {0.80, -3.97, 0};  // of a nose of width 1, seen from the front
+
+/// The nostril of a nose of width 1, seen from below: x, and the height above the face. Its axis converges with the other
+/// one's towards the tip, where it is narrow.
+struct Nostril {
+  double x, height = 0.91, half_length = 0.52;
+  double axis_x = -0.42, axis_height = 0.9075;
+  double breadth;
+  explicit Nostril(const Person& p) : x(0.735 + 0.03 * p.tip), breadth(0.305 + 0.03 * p.tip) {}
+  double half_width(double along) const { return breadth * (1 - 0.26 * along); }
+};
+
 constexpr double kMouthY = -6.0;
 constexpr double kMouthHalfWidth = 2.45;
 constexpr double kCrownY = 12.6;
@@ -125,6 +135,9 @@ class Form {
   /// to the corner. 0 is the slit itself.
   FrontPlace lid_curve(double along, int which) const;
   FrontPlace lip_curve(double out, int which) const;
+  /// Around the nostril's opening, or a larger or smaller curve like it: 0 is towards the columella, a quarter turn on
+  /// towards the lip.
+  FrontPlace nostril_curve(double angle, double size) const;
   /// Height of the lips' red above (`which` 1) or below the line between them.
   double lip_height(double x, int which) const;
   /// Angle by which the neutral pose opens the edges of the lids.
@@ -147,7 +160,13 @@ class Form {
   Section section(double y, double cosine) const;
   double relief(double x, double y) const;
   double side_relief(double z, double y) const;
+  struct NoseBodies {
+    double dome = 0, wing = 0;
+    double height() const;
+  };
+  NoseBodies nose_bodies(double x, double y) const;
   double nose(double x, double y) const;
+  Vec3 nose_detail(double x, double y) const;
   double lips(double x, double y) const;
   Vec3 neck_form(Vec3 p, double angle) const;
 

@@ -54,8 +54,8 @@ double importance(const Form& form, const Vertex& v) {
   if (v.depth > 0.2) return 0.3;
   double w = 1;
   if (p.z > 4) {
-    w += 6 * bump(p.x, p.y, 0, -3.4, 1.7, 1.5) + 4 * bump(p.x, p.y, 0, kMouthY, 3.0, 1.3) +
-         4 * bump(p.x, p.y, kEye.x, kEye.y, 2.0, 1.3);
+    w += 6 * bump(p.x, p.y, 0, -3.4, 1.7, 1.5) + 90 * bump(v.look.x, v.look.y, 0, -3.15, 0.5, 0.5) +
+         4 * bump(p.x, p.y, 0, kMouthY, 3.0, 1.3) + 4 * bump(p.x, p.y, kEye.x, kEye.y, 2.0, 1.3);
   }
   w += 6 * bump(0, p.y, 0, -14, 1, 2);
   if (p.x > 5) w += 6 * bump(p.z, p.y, -1.2, -0.7, 1.8, 2.6);

@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* kPartNames[kPartCount] = {"head",     "teeth", "tongue", "eyeLeft",
                                                 "eyeRight", "hair",  "brows",  "lashes"};
-/// Smaller offsets are not stored.
+/// Smaller offsets are not stored; in each coarser LOD, which is seen from farther away, a quarter more is small.
 constexpr double kLeastOffset = 0.002;
 constexpr double kLeastShare = 1e-3;
 /// Correctives that only moderate the sum of a pair come this close to it.
@@ -208,7 +208,8 @@ class MeshMaker {
   /// Small offsets are not stored, except where edges have to meet.
   bool is_moved(uint32_t vertex, Vec3 offset) const {
     const Vertex& v = half_.vertices[vertex];
-    const double least = v.edge || v.lid != 0 ? kLeastOffset / 100 : kLeastOffset;
+    const double least =
+        kLeastOffset * (v.edge || v.lid != 0 ? 0.01 : 1 + 0.25 * static_cast<double>(lod_));
     return dot(offset, offset) >= least * least;
   }
 

@@ -11,10 +11,8 @@ using author::mix;
 using author::smooth_step;
 
 Place SkinMaker::nostril_place(uint32_t k, bool inner) const {
-  const auto [s, c] = author::exact_sine_cosine(kPi + 2 * kPi * k / ring_size_);
-  const double size = inner ? 1 : 1.22;
-  return on_form({form_.person().nose_width * (kNostril.x + size * (0.34 * c + 0.04 * s)),
-                  kNostril.y + size * (0.165 * s + 0.03 * c)});
+  // The border of its hole begins nearer to the tip.
+  return on_form(form_.nostril_curve(2 * kPi * (k - 1.2) / ring_size_, inner ? 1 : 1.2));
 }
 
 void SkinMaker::make_nostril() {

@@ -32,7 +32,7 @@ void SkinMaker::make() {
                [this](uint32_t k) { return ear_place(k, false); });
   nostril_ = layout_.nostril();
   ring_size_ = nostril_.count;
-  layout_.fill(nostril_, 4, 0.8, Hole::kOther,
+  layout_.fill(nostril_, 4, 0.76, Hole::kOther,
                [this](uint32_t k) { return nostril_place(k, false); });
   layout_.even_out(48);
   if (layout_.failed()) return out_.vertices.fail();

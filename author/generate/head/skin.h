@@ -30,12 +30,12 @@ inline double even_again(double dense) {
 inline double u_of_angle(double angle) { return 0.5 + 0.5 * denser(angle / author::kPi); }
 inline double angle_of_u(double u) { return author::kPi * even_again(2 * u - 1); }
 inline double v_of_row(double y) {
-  // The crown is not at 1, where a texture that repeats has its other end.
-  constexpr double kCrown = 0.998;
+  // The ends are not at 0 and 1, where a texture that repeats has its other end.
+  constexpr double kBottom = 0.002, kCrown = 0.998;
   const double span = y > kMiddleRow ? kCrownY - kMiddleRow : kMiddleRow - kBottomY;
   const double v =
       (kMiddleRow - kBottomY + span * denser((y - kMiddleRow) / span)) / (kCrownY - kBottomY);
-  return std::min(v, kCrown);
+  return std::min(std::max(v, kBottom), kCrown);
 }
 
 struct Rings {

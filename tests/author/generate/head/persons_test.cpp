@@ -193,6 +193,52 @@ TEST(Persons, TheDesignedOneHasPublishedProportions) {
   }
 }
 
+/// The row of the profile's underside that is as far in front as `z`.
+Vec3 below_nose(const Form& form, double z) {
+  double low = -4.75, high = -3.5;
+  for (int i = 0; i < 40; ++i) {
+    const double row = 0.5 * (low + high);
+    (on_face(form, 0, row).z < z ? low : high) = row;
+  }
+  return on_face(form, 0, low);
+}
+
+TEST(Persons, TheColumellaHangsBelowTheRimsOfTheNostrils) {
+  for (uint64_t seed = 0; seed < 10; ++seed) {
+    const Form form(head::make_person(seed));
+    const auto nostril = [&](double turn, double size) {
+      const head::FrontPlace at = form.nostril_curve(2 * author::kPi * turn, size);
+      return on_face(form, at.x, at.y);
+    };
+    // In the view from the side, at the middle of the nostril: 2 to 4 mm (Ding and Zhang, 2020).
+    const Vec3 rim = nostril(0.5, 1.35), edge = nostril(0.5, 1);
+    const double show = rim.y - below_nose(form, rim.z).y;
+    // From the opening to the outside of the wing, seen from below.
+    double outside = 0;
+    for (double row = -4.1; row < -3.0; row += 0.02) {
+      for (double x = edge.x; x < 3; x += 0.01) {
+        const Vec3 p = on_face(form, x, row);
+        if (p.z >= edge.z) outside = std::max(outside, p.x);
+      }
+    }
+    const double thick = outside - edge.x;
+    std::printf("seed %d: columella %.2f cm below the rim, which is %.2f cm thick\n",
+                static_cast<int>(seed), show, thick);
+    EXPECT_GT(show, 0.2) << seed;
+    EXPECT_LT(show, 0.4) << seed;
+    EXPECT_GT(thick, 0.2) << seed;
+    EXPECT_LT(thick, 0.42) << seed;
+    EXPECT_LT(rim.y, edge.y) << seed << ": the rim is a roll around the opening";
+    // A pear whose narrow end is at the tip; axes converge there.
+    const Vec3 back = nostril(0.25, 1), front = nostril(0.75, 1);
+    EXPECT_LT(front.x, back.x - 0.2) << seed;
+    EXPECT_GT(front.z, back.z + 0.5) << seed;
+    EXPECT_LT(length(nostril(0.66, 1) - nostril(0.84, 1)),
+              0.85 * length(nostril(0.34, 1) - nostril(0.16, 1)))
+        << seed;
+  }
+}
+
 TEST(Persons, NoTwoOfARowAreAlike) {
   constexpr size_t kRow = 12;
   std::vector<Measured> row;
