@@ -583,10 +583,11 @@ Color Form::skin_color(Vec3 p, double row, double lid) const {
   }
   // Little light comes into the corners of the mouth.
   c = mix(c, mix(skin, {64, 22, 22}, 0.6), 0.60 * bump(x, p.y, 2.48, mouth_line(p.x), 0.17, 0.10));
-  // Edges of the upper lids are dark with lashes.
+  // Edges of the upper lids are dark with lashes, which do not reach the inner corner.
   if (lid > 0) {
-    const double open = upper_opening(p.x);
-    c = mix(c, mix(skin, {60, 30, 26}, 0.5), open > 0 ? smooth_step(0.94, 1.0, lid / open) : 0);
+    const double open = upper_opening(p.x), lashes = smooth_step(-0.92, -0.66, along_eye(p.x));
+    c = mix(c, mix(skin, {60, 30, 26}, 0.5),
+            open > 0 ? lashes * smooth_step(0.94, 1.0, lid / open) : 0);
   }
   // A shirt.
   const double below = kCollarY - row;

@@ -117,10 +117,11 @@ uint32_t SkinMaker::lid_edge_vertex(uint32_t from, Color color, bool at_ball) {
   const Vec3 out = v.closed - kEye;
   // The caruncle fills the inner corner between the lids.
   const double along = form_.along_eye(v.closed.x), flesh = smooth_step(-0.72, -0.88, along);
-  const double radius =
-      kEyeRadius + (at_ball ? mix(0.045, 0.13, flesh) + 0.05 * bump(along, 0, -0.88, 0, 0.08, 1)
-                            : mix(-0.12, 0.05, flesh));
-  v.closed = kEye + out * (radius / std::max(length(out), kEyeRadius));
+  const double radius = kEyeRadius + (at_ball ? mix(0.045, 0.13, flesh) : mix(-0.12, 0.05, flesh));
+  // Towards the middle of the eye; first more straight back at the corner, where skin dips in on the way there.
+  const double far = length(out), inwards = radius / std::max(far, kEyeRadius) - 1;
+  const Vec3 way = at_ball ? out + (Vec3{0, 0, far} - out) * (0.7 * flesh) : out;
+  v.closed = v.closed + way * inwards;
   const double middle = 0.5 * (form_.upper_opening(v.closed.x) + form_.lower_opening(v.closed.x));
   v.lid = mix(v.lid, middle, flesh);
   v.position = turn_lid(v.closed, v.lid);

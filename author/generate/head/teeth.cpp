@@ -53,6 +53,10 @@ constexpr Tooth kTeeth[2][kToothCount] = {{{0.86, 1.00, 0.22, 0.07, 0.35},
                                            {1.05, 0.74, 0.34, 0.32, 0.35},
                                            {0.86, 0.70, 0.33, 0.31, 0.35}}};
 
+// Necks of teeth in v of the texture, above the gum, and how much teeth take up of it. The upper jaw has the lower half;
+// u is 1/2 in the middle of the face.
+constexpr double kNeckV = 0.20, kToothV = 0.28;
+
 /// The arch of one jaw: places along it, outwards from it, and from the edges of the teeth to the gum.
 struct Arch {
   double half, deep, front, edge_y, sign;  // sign 1: upper jaw
@@ -101,8 +105,9 @@ void add_tooth(const Arch& arch, const Tooth& tooth, double start, Carrier carri
       color = mix(color, edge, 0.6 * smooth_step(0.30, 0.0, ring[0]));
       color = mix(color, neck, 0.55 * smooth_step(0.70, 1.0, std::abs(side)));
       color = mix(color, {150, 112, 96}, 0.5 * smooth_step(-0.2, -0.9, front));
-      out.vertices.add(plain(at, in_shadow(color, share), share,
-                             v_at + 0.4 * clamp01(1 - ring[0] / 1.2), carrier));
+      const double along = (middle + 0.5 * tooth.breadth * ring[1] * side) / arch.total;
+      out.vertices.add(plain(at, in_shadow(color, share), 0.5 + 0.5 * along,
+                             v_at + kNeckV + kToothV * clamp01(1 - ring[0] / 1.2), carrier));
     }
     for (uint32_t k = 0; r > 0 && k < around; ++k) {
       const uint32_t next = (k + 1) % around;
@@ -116,9 +121,9 @@ void add_tooth(const Arch& arch, const Tooth& tooth, double start, Carrier carri
   }
   // Molars have a hollow crown.
   const double hollow = tooth.edge > 0.15 ? 0.09 : -0.01;
-  const uint32_t crown =
-      out.vertices.add(plain(arch.at(middle, -0.21, hollow),
-                             in_shadow(mix(white, neck, 0.4), share), share, v_at + 0.42, carrier));
+  const uint32_t crown = out.vertices.add(
+      plain(arch.at(middle, -0.21, hollow), in_shadow(mix(white, neck, 0.4), share),
+            0.5 + 0.5 * share, v_at + kNeckV + kToothV, carrier));
   for (uint32_t k = 0; k < around; ++k) {
     const uint32_t next = (k + 1) % around;
     if (arch.sign < 0) {
@@ -136,6 +141,8 @@ void add_gum(const Arch& arch, const Tooth (&teeth)[kToothCount], Carrier carrie
   static constexpr double kRows[][2] = {{1.64, -0.30}, {1.34, 0.02},  {1.02, 0.06}, {0.80, -0.02},
                                         {0.74, -0.42}, {1.20, -0.62}, {1.64, -0.72}};
   constexpr uint32_t kRowCount = 7;
+  // In the texture, what is in front has most room.
+  static constexpr double kRowV[kRowCount] = {0, 0.05, 0.10, 0.135, 0.15, 0.16, 0.17};
   constexpr uint32_t per_tooth = 4, columns = kToothCount * per_tooth + 1;
   const Color gum = {196, 106, 102}, border = {214, 134, 124}, back = {120, 56, 58};
   const uint32_t first = out.vertices.count();
@@ -156,7 +163,7 @@ void add_gum(const Arch& arch, const Tooth (&teeth)[kToothCount], Carrier carrie
       color = mix(color, back, row > 4 ? 0.6 : 0);
       color = mix(in_shadow(color, along / arch.total), {92, 34, 36}, k + 1 == columns ? 1 : 0);
       out.vertices.add(
-          plain(at, color, along / arch.total, v_at + 0.04 * row / kRowCount, carrier));
+          plain(at, color, 0.5 + 0.5 * along / arch.total, v_at + kRowV[row], carrier));
     }
   }
   for (uint32_t row = 0; row < kRowCount; ++row) {
@@ -193,7 +200,7 @@ void add_teeth(const Form& form, HalfMesh& out) {
     add_gum(arch, kTeeth[lower], carrier, 0.5 * lower, out);
     double start = 0;
     for (const Tooth& tooth : kTeeth[lower]) {
-      add_tooth(arch, tooth, start, carrier, 0.5 * lower + 0.05, out);
+      add_tooth(arch, tooth, start, carrier, 0.5 * lower, out);
       start += tooth.breadth;
     }
   }
