@@ -13,6 +13,7 @@
 #include "integrations/program/render/hair_texture.h"
 #include "integrations/program/render/png.h"
 #include "integrations/program/render/skin_texture.h"
+#include "integrations/program/render/teeth_texture.h"
 #include "integrations/program/scene/posed_scene.h"
 
 namespace mien::cli {
@@ -21,7 +22,7 @@ namespace {
 
 /// Texels of skin are 0.25 mm wide and 0.3 mm high in front. A GLB with them has less than 6 MB.
 constexpr int kSkinWidth = 1152, kSkinHeight = 768, kEyeSize = 512;
-constexpr int kTongueWidth = 192, kTongueHeight = 256;
+constexpr int kTongueWidth = 192, kTongueHeight = 256, kTeethWidth = 512, kTeethHeight = 256;
 
 // Places in the texture, as author/generate/head/skin.h has them.
 float denser(float even) { return even * 1.8f / (1 + 0.8f * std::fabs(even)); }
@@ -128,16 +129,23 @@ void write_head_textures(Dna dna, uint64_t seed, const std::string& path, const 
   SurfaceMaterial skin;
   skin.name = "skin";
   std::vector<std::unique_ptr<Output>> outputs;
-  const std::array<const render::Image*, kTextureKinds> images = {&maps.base_color, &maps.normal,
-                                                                  &maps.roughness};
-  static constexpr const char* kNames[kTextureKinds] = {"skin_basecolor.png", "skin_normal.png",
-                                                        "skin_roughness.png"};
-  for (size_t k = 0; k < kTextureKinds; ++k) {
-    skin.textures[k] = out.file(kNames[k]);
-    outputs.push_back(std::make_unique<Output>(skin.textures[k]));
-    const bool gray = k == size_t(TextureKind::kRoughness);
-    outputs.back()->write(gray ? render::to_gray_png(*images[k], {}) : render::to_png(*images[k]));
-  }
+  const auto write_maps = [&](SurfaceMaterial& material, const auto& made) {
+    const std::array<const render::Image*, kTextureKinds> images = {&made.base_color, &made.normal,
+                                                                    &made.roughness};
+    static constexpr const char* kNames[kTextureKinds] = {"_basecolor.png", "_normal.png",
+                                                          "_roughness.png"};
+    for (size_t k = 0; k < kTextureKinds; ++k) {
+      material.textures[k] = out.file(material.name + kNames[k]);
+      outputs.push_back(std::make_unique<Output>(material.textures[k]));
+      const bool gray = k == size_t(TextureKind::kRoughness);
+      outputs.back()->write(gray ? render::to_gray_png(*images[k], {})
+                                 : render::to_png(*images[k]));
+    }
+  };
+  write_maps(skin, maps);
+  SurfaceMaterial teeth;
+  teeth.name = "teeth";
+  write_maps(teeth, render::make_teeth_maps(kTeethWidth, kTeethHeight));
   const render::EyeMaps eyes = render::make_eye_maps(
       iris_color(scene.meshes[mesh_named(scene, "eyeLeft_lod0_mesh")]), kEyeSize);
   SurfaceMaterial eye;
@@ -161,7 +169,7 @@ void write_head_textures(Dna dna, uint64_t seed, const std::string& path, const 
   outputs.push_back(std::make_unique<Output>(tongue.texture(TextureKind::kNormal)));
   outputs.back()->write(render::to_png(render::make_tongue_normals(kTongueWidth, kTongueHeight)));
   Materials materials;
-  materials.list = {skin, eye, tongue};
+  materials.list = {skin, eye, tongue, teeth};
   const render::HairMap hair = render::make_hair_map();
   const std::string hair_path = out.file("hair.png");
   outputs.push_back(std::make_unique<Output>(hair_path));

@@ -195,12 +195,12 @@ SkinMap::Detail SkinMap::detail(int x, int y, float u, float v) const {
     d.tint = d.tint * (Vec3{1, 1, 1} - Vec3{0.12f, 0.21f, 0.26f} * spot);
   }
   d.roughness = (0.54f - oil + 0.05f * coarse + 0.05f * net + 0.12f * pore) * skin +
-                (0.36f + 0.12f * fold + 0.05f * coarse) * lips;
+                (0.30f + 0.12f * fold + 0.05f * coarse) * lips;
   // In nostrils, ears and the throat there are few texels, and too little light to shine.
   const float lit = saturate((texel.color.y / reference_.y - 0.35f) / 0.4f);
   d.height *= lit;
   d.roughness += 0.4f * saturate(1 - 2 * lit);
-  if (is_wet(x, y, u, v)) d.roughness = 0.16f, d.height = 0;
+  if (is_wet(x, y, u, v)) d.roughness = 0.08f, d.height = 0;
   return d;
 }
 

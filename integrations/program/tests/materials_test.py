@@ -73,15 +73,19 @@ class GeneratedHead(MaterialsTest):
     def test_textures_of_the_skin(self):
         self.ok("demo-head", "-o", path("made.dna"), "--textures", path("made"), "-q")
         sidecar = json.loads(read("made.materials.json"))
-        parts = {"head": "skin", "eyeLeft": "eyes", "eyeRight": "eyes", "tongue": "tongue", "hair": "hair",
+        parts = {"head": "skin", "eyeLeft": "eyes", "eyeRight": "eyes", "tongue": "tongue", "teeth": "teeth",
+                 "hair": "hair",
                  "brows": "brows", "lashes": "lashes"}
         self.assertEqual(sidecar["meshes"],
                          {"%s_lod%d_mesh" % (part, lod): name for part, name in parts.items() for lod in range(8)})
-        skin, eyes, tongue, *hairs = sidecar["materials"]
+        skin, eyes, tongue, teeth, *hairs = sidecar["materials"]
         self.assertEqual(skin["textures"], {"base_color": "made/skin_basecolor.png", "normal": "made/skin_normal.png",
                                             "roughness": "made/skin_roughness.png"})
-        for kind, size in (("basecolor", (1152, 768)), ("normal", (1152, 768)), ("roughness", (576, 384))):
-            self.assertEqual(struct.unpack(">II", read("made/skin_%s.png" % kind)[16:24]), size)
+        self.assertEqual(teeth["textures"], {"base_color": "made/teeth_basecolor.png", "normal": "made/teeth_normal.png",
+                                             "roughness": "made/teeth_roughness.png"})
+        for name, size in (("skin_basecolor", (1152, 768)), ("skin_normal", (1152, 768)), ("skin_roughness", (576, 384)),
+                           ("teeth_basecolor", (512, 256)), ("teeth_normal", (256, 128)), ("teeth_roughness", (256, 128))):
+            self.assertEqual(struct.unpack(">II", read("made/%s.png" % name)[16:24]), size)
         self.assertEqual(eyes["textures"], {"base_color": "made/eyes_basecolor.png", "normal": "made/eyes_normal.png"})
         self.assertEqual(set(eyes["cornea"]), {"depth", "iris"})
         self.assertEqual(tongue["textures"], {"normal": "made/tongue_normal.png"})
