@@ -230,6 +230,68 @@ test("skin ends softly and in red where light does, other materials do not", opt
   assert.deepEqual(page.errors, []);
 });
 
+test("irises are seen through the cornea: behind its apex from the side, in place from the front", options, async () => {
+  const head = join(work, "textured.dna"), textures = join(work, "textures");
+  mien(["demo-head", "-o", head, "--textures", textures, "--quiet"]);
+  await open(head, join(work, "textured.materials.json"), ...readdirSync(textures).map((name) => join(textures, name)));
+  const seen = await page.run(async () => {
+    const { stage, model } = window.viewer;
+    const { renderer, scene, camera, canvas: element } = stage;
+    const eye = model.object.children.find(({ name }) => name === "eyeLeft_lod0_mesh");
+    const shown = model.object.children.filter(({ visible }) => visible);
+    for (const mesh of shown) mesh.visible = mesh === eye;
+    const box = eye.geometry.boundingBox ?? (eye.geometry.computeBoundingBox(), eye.geometry.boundingBox);
+    const middle = camera.position.clone().copy(box.min).add(box.max).multiplyScalar(0.5).applyMatrix4(eye.matrixWorld);
+    const radius = (box.max.x - box.min.x) / 2 * eye.matrixWorld.getMaxScaleOnAxis();
+    const { near } = camera;
+    camera.near = radius;
+    camera.updateProjectionMatrix();
+    /** Mean place of the pixels of the pupil, in radii of the eye to the right of its middle; and how many there are. */
+    const pupil = () => {
+      renderer.render(scene, camera);
+      const context = new OffscreenCanvas(element.width, element.height).getContext("2d");
+      context.drawImage(element, 0, 0);
+      const { data, width } = context.getImageData(0, 0, element.width, element.height);
+      let [sum, count] = [0, 0];
+      for (let i = 0; i < data.length; i += 4) {
+        if (data[i + 3] < 255 || data[i] + data[i + 1] + data[i + 2] > 60) continue;
+        sum += i / 4 % width;
+        ++count;
+      }
+      const scale = element.height / 2 / Math.tan(camera.fov * Math.PI / 360) / (8 * radius);
+      return [(sum / count - width / 2) / scale / radius, count];
+    };
+    const measure = (degrees) => {
+      const angle = degrees * Math.PI / 180;
+      camera.position.set(Math.sin(angle), 0, Math.cos(angle)).multiplyScalar(8 * radius).add(middle);
+      camera.lookAt(middle);
+      camera.updateMatrixWorld();
+      const through = pupil();
+      const { onBeforeCompile, customProgramCacheKey } = eye.material;
+      delete eye.material.onBeforeCompile;
+      delete eye.material.customProgramCacheKey;
+      eye.material.needsUpdate = true;
+      const painted = pupil();
+      Object.assign(eye.material, { onBeforeCompile, customProgramCacheKey, needsUpdate: true });
+      return { through, painted };
+    };
+    const found = { front: measure(0), left: measure(45), right: measure(-45) };
+    camera.near = near;
+    for (const mesh of shown) mesh.visible = true;
+    stage.lookAt("Head");
+    camera.updateProjectionMatrix();
+    return found;
+  });
+  const moved = ({ through, painted }) => through[0] - painted[0];
+  const what = JSON.stringify(seen);
+  for (const { through, painted } of Object.values(seen)) assert.ok(through[1] > 50 && painted[1] > 50, what);
+  assert.ok(Math.abs(moved(seen.front)) < 0.04, what);
+  // The iris is 2.6 mm deep, in an eye with a radius of 12 mm.
+  assert.ok(moved(seen.left) > 0.03 && moved(seen.left) < 0.2 && moved(seen.right) < -0.03 && moved(seen.right) > -0.2, what);
+  assert.deepEqual(page.errors, []);
+  await open(dna);
+});
+
 test("the key light casts the shadow of the head on its neck, and none on the forehead", options, async () => {
   const seen = await page.run(async () => {
     const { stage } = window.viewer;

@@ -3,6 +3,7 @@
 import {
   CustomBlending, DoubleSide, LinearSRGBColorSpace, MeshStandardMaterial, OneFactor, RepeatWrapping, SRGBColorSpace, Texture, ZeroFactor,
 } from "three";
+import { asEye } from "./cornea.js";
 
 // What each texture of the file is to three.js.
 const MAPS = { base_color: "map", normal: "normalMap", roughness: "roughnessMap" };
@@ -76,6 +77,7 @@ export class Materials {
     // A texture is the roughness itself, unless the file scales it.
     if (typeof given.roughness === "number" || made.roughnessMap) made.roughness = given.roughness ?? 1;
     refine(made);
+    if (isObject(given.cornea)) asEye(made, given.cornea);
     // Colors of vertices stand for a material where none is given.
     made.userData.hasColor = Array.isArray(color) || made.map !== null;
     return made;

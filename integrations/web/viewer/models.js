@@ -3,6 +3,7 @@
 import { Isa, Kind } from "mien";
 import { FaceObject, defaultMaterial } from "mien/three";
 import { ArkitControls } from "./arkit.js";
+import { asEye } from "./cornea.js";
 import { refine } from "./materials.js";
 import { asSkin } from "./skin.js";
 import { StandIn } from "./stand_in.js";
@@ -186,6 +187,7 @@ export class GlbModel {
       mesh.frustumCulled = false;
       if (mesh.isMesh) refine(mesh.material);
       if (mesh.material?.name === "skin") asSkin(mesh.material);
+      if (mesh.material?.userData.cornea) asEye(mesh.material, mesh.material.userData.cornea);
       for (const [name, target] of Object.entries(mesh.morphTargetDictionary ?? {})) {
         if (!this.targets.has(name)) this.targets.set(name, []);
         this.targets.get(name).push([mesh, target]);
