@@ -256,6 +256,7 @@ test("reopening a GLB takes no more memory", options, async () => {
   mien(["export", dna, "-o", glb, "--lod", "6", "--quiet"]);
   await open(glb);
   await page.prefer({ motion: true });
+  await page.until("() => window.viewer.attention.idle", "alive");
   const [before, after] = await page.run(async (bytes) => {
     const open = async (count) => {
       for (let i = 0; i < count; ++i) {
