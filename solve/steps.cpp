@@ -166,7 +166,7 @@ bool Solve::rest() {
 uint32_t Solve::run_stage(uint32_t limit, double enough_decrease) {
   MienFit& fit = f.fit;
   double damping = kFirstDamping, before = 0;
-  double missed = 0;  // of the gain of the step before: the part that the model did not predict
+  double missed = 0;  // of the gains of steps before, the part that models did not predict
   uint32_t slow = 0;  // steps in a row that gained little less than the one before
   bool fresh = true;  // no step was taken since effects on points were measured
   std::fill(fit.measured.begin(), fit.measured.end(), uint8_t{0});
@@ -224,13 +224,13 @@ uint32_t Solve::run_stage(uint32_t limit, double enough_decrease) {
         fresh = false;
         cost = next;
         keep();
-        // A model that was off before may predict a cost by chance. By how much it was off is by how much its gradient may
-        // be now, and the square of that is what the cost may still lose.
+        // A model that was off before may predict a cost by chance, even twice. By how much it was off is by how much its
+        // gradient may be now, and the square of that is what the cost may still lose.
         const double error = std::fabs(cost.total - step.predicted);
         const bool as_predicted =
             step.solved && damping <= kFirstDamping &&
             std::max(error, square(missed) * decrease) <= enough_of(cost.total);
-        missed = error / decrease;
+        missed = std::max(error / decrease, 0.5 * missed);
         damping = std::max(damping * 0.2, 1e-7);
         if (as_predicted || cost.total <= rounding) {
           ++iterations;
