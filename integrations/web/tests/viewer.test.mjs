@@ -5,6 +5,7 @@ import { copyFileSync, existsSync, readdirSync, readFileSync, writeFileSync } fr
 import { join } from "node:path";
 import { test } from "node:test";
 import { deflateSync } from "node:zlib";
+import { asEye } from "../viewer/cornea.js";
 import { mien, project, sameBits } from "./support.mjs";
 import { baked, choose, dna, folder, frames, missing, numbers, open, options, page, press, server, slide, text, work } from "./viewer_page.mjs";
 
@@ -228,6 +229,15 @@ test("skin ends softly and in red where light does, other materials do not", opt
   // Redder than anything is with a hard edge: a band along the terminator. Light reaches farther, too.
   assert.ok(redness.redder > 15 && redness.of > redness.lit, JSON.stringify(redness));
   assert.deepEqual(page.errors, []);
+});
+
+test("what is no cornea leaves a material as it is", () => {
+  for (const given of [{}, "deep", { depth: 0.4 }, { depth: -1, iris: 0.2 }, { depth: 0.4, iris: 0.6 }, { depth: NaN, iris: 0.2 },
+    { depth: "0.4", iris: 0.2 }, { depth: 1.5, iris: 0.2 }]) {
+    assert.deepEqual(asEye({ map: {} }, given), { map: {} });
+  }
+  assert.deepEqual(asEye({ map: null }, { depth: 0.4, iris: 0.2 }), { map: null });
+  assert.equal(typeof asEye({ map: {} }, { depth: 0.4, iris: 0.2 }).onBeforeCompile, "function");
 });
 
 test("irises are seen through the cornea: behind its apex from the side, in place from the front", options, async () => {

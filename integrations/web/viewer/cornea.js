@@ -49,10 +49,13 @@ const LOOK_UP = `
 	diffuseColor *= sampledDiffuseColor;
 `;
 
+// A GLB may say anything; in materials files these are the limits of the program, too.
+const isWithin = (value, most) => typeof value === "number" && value > 0 && value <= most;
+
 /** Makes a MeshStandardMaterial with a texture that of an eye: `depth` of the iris behind the apex of the cornea, in its
  * radii, and `iris`, that radius in the texture, whose middle it is in. */
 export function asEye(material, { depth, iris }) {
-  if (!(depth > 0 && depth <= 2 && iris > 0 && iris <= 0.5) || !material.map) return material;
+  if (!isWithin(depth, 1) || !isWithin(iris, 0.5) || !material.map) return material;
   material.onBeforeCompile = (shader) => {
     shader.fragmentShader = shader.fragmentShader.replace("void main() {", `${EYE(depth, iris)}$&`).replace(MAP, LOOK_UP);
   };
